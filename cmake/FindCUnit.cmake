@@ -1,0 +1,10 @@
+# CUnit, by its files. Defines CUnit::CUnit.
+find_path(CUNIT_INCLUDE_DIR CUnit/CUnit.h)
+find_library(CUNIT_LIBRARY cunit)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(CUnit REQUIRED_VARS CUNIT_LIBRARY CUNIT_INCLUDE_DIR)
+if(CUnit_FOUND AND NOT TARGET CUnit::CUnit)
+  add_library(CUnit::CUnit INTERFACE IMPORTED)
+  target_include_directories(CUnit::CUnit INTERFACE ${CUNIT_INCLUDE_DIR})
+  target_link_libraries(CUnit::CUnit INTERFACE ${CUNIT_LIBRARY})
+endif()

@@ -1,0 +1,34 @@
+/* steif/collection.h: the published problems that come with the library.
+ *
+ * A problem is named by a spec: "rober", "vdpol:mu=30", "heat:n=400", "jordan:k=4". Each carries
+ * its form, analytic Jacobian, component index, reference end values and citation.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_COLLECTION_H
+#define STEIF_COLLECTION_H
+
+#include <steif/problem.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Problem i of the shelf with its default parameters in mind; NULL past the end. */
+STEIF_EXPORT const char *steif_problem_name(size_t i);
+
+/* Fill *problem from a spec; steif_problem_clear releases what build took and zeroes it. */
+STEIF_EXPORT int steif_problem_find(steif_context *ctx, const char *spec, steif_problem *problem);
+STEIF_EXPORT void steif_problem_clear(steif_context *ctx, steif_problem *problem);
+
+/* Digits of y against the problem's reference or exact solution at time t:
+ *   scd   = -log10 max_i |y_i - ref_i| / |ref_i|                 (components with ref_i = 0 left out)
+ *   mescd = -log10 max_i |y_i - ref_i| / (atol/rtol + |ref_i|)
+ * STEIF_UNSUPPORTED when nothing is known at t. */
+STEIF_EXPORT int steif_problem_digits(steif_context *ctx, const steif_problem *problem,
+                                      sunrealtype t, N_Vector y, sunrealtype atol_over_rtol,
+                                      sunrealtype *scd, sunrealtype *mescd);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,40 @@
+/* steif/method.h: the methods there are; how they are named and what they claim.
+ *
+ * A method is a family with parameters: be, bdf:p=1..6, dirk:TABLE, gauss:s=, radau:s=, radau1a:s=,
+ * lobatto3c:s=, euler, rk4; and the baselines cvode, ida, arkode.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_METHOD_H
+#define STEIF_METHOD_H
+
+#include <steif/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is claimed of one method; every claim is checked by the tests. */
+typedef struct steif_method_info {
+  char name[STEIF_SPEC_WORD];   /* "radau:s=3" */
+  const char *family, *about;
+  int order, stages;            /* 0: not one number (baselines) */
+  unsigned claims;              /* enum steif_claim of table.h */
+  unsigned forms;               /* enum steif_form accepted */
+  int adaptive;                 /* has an error estimate */
+} steif_method_info;
+
+/* Line i of the list: the parameter values that people use; STEIF_BAD_INPUT past the end leaves the
+ * message alone. */
+STEIF_EXPORT int steif_method_at(steif_context *ctx, size_t i, steif_method_info *info);
+STEIF_EXPORT int steif_method_find(steif_context *ctx, const char *spec, steif_method_info *info);
+
+/* One step of the method on y' = lambda y as a matrix: with z = h lambda, history maps to history
+ * by M(z), r x r, by rows, entries (re, im). r = 1 for Runge-Kutta (M = R), p for BDF. M NULL asks
+ * for r only. z infinite gives the limit. */
+STEIF_EXPORT int steif_method_propagator(steif_context *ctx, const char *spec,
+                                         const sunrealtype z[2], int *r, sunrealtype *M);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,121 @@
+/* steif/problem.h: what is integrated, in one of four forms, with callbacks users already own.
+ *
+ *   ode          y' = f(t, y)                          .f
+ *   mass         M y' = f(t, y), M constant            .f, .E   (M may be singular)
+ *   implicit     F(t, y, y') = 0                       .F
+ *   descriptor   E x' = A x + g(t), E and A constant   .E, .A, .g   (A = -F in E x' + F x = g)
+ *
+ * The form is deduced from the members that are set. All lower to one residual F(t, y, y') and one
+ * matrix pencil s E - A with E = dF/dy' and A = -dF/dy; nothing else is asked of a problem.
+ *
+ * Callbacks have the SUNDIALS signatures and return 0, > 0 (cannot be evaluated here: try a smaller
+ * step) or < 0 (stop). CVRhsFn, IDAResFn, CVLsJacFn and IDALsJacFn written for CVODE and IDA fit
+ * unchanged; the three scratch vectors of a Jacobian callback are given.
+ *
+ * A problem is a value: the library copies nothing from it and frees nothing in it; every pointer
+ * must outlive the solver. Members left 0 have the default stated.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_PROBLEM_H
+#define STEIF_PROBLEM_H
+
+#include <steif/base.h>
+#include <sundials/sundials_matrix.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct steif_problem steif_problem;
+
+typedef int (*steif_rhs)(sunrealtype t, N_Vector y, N_Vector ydot, void *user);
+typedef int (*steif_residual)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user);
+typedef int (*steif_jacobian)(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user,
+                              N_Vector tmp1, N_Vector tmp2, N_Vector tmp3);
+typedef int (*steif_ida_jacobian)(sunrealtype t, sunrealtype c, N_Vector y, N_Vector yp,
+                                  N_Vector r, SUNMatrix J, void *user, N_Vector tmp1,
+                                  N_Vector tmp2, N_Vector tmp3);
+/* Fill E = dF/dy' or A = -dF/dy at (t, y, yp). Dense and band matrices arrive zeroed; a sparse
+ * (CSC) matrix is filled whole, pointers and indices included, with the same pattern each time. */
+typedef int (*steif_matrix_fill)(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user);
+/* g or its derivative of the given order at t; orders above 0 are asked for by the exact solution
+ * of descriptor systems only: return > 0 when that order is not known. */
+typedef int (*steif_forcing)(sunrealtype t, int derivative, N_Vector g, void *user);
+/* y = out of E x or A x, for the Krylov back end. */
+typedef int (*steif_product)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out,
+                             void *user);
+/* y(t) (or y and yp at the start; yp may be NULL). */
+typedef int (*steif_state)(sunrealtype t, N_Vector y, N_Vector yp, void *user);
+
+enum steif_form { STEIF_ODE = 1, STEIF_MASS = 2, STEIF_IMPLICIT = 4, STEIF_DESCRIPTOR = 8 };
+
+/* Storage of E and A. Sparse matrices are compressed by columns. */
+enum steif_storage { STEIF_DENSE, STEIF_BAND, STEIF_SPARSE, STEIF_KRYLOV };
+
+/* A sparsity pattern by columns: rows row[column[j]] .. row[column[j+1]-1], ascending. */
+typedef struct steif_pattern {
+  const sunindextype *column, *row; /* n + 1 and column[n] entries */
+} steif_pattern;
+
+/* A published or computed end value with the digits that are right. */
+typedef struct steif_reference {
+  sunrealtype t;
+  sunindextype count;            /* 0: all n components */
+  const sunindextype *component; /* 0-based; NULL: 0 .. count-1 */
+  const sunrealtype *value;
+  int digits;                    /* significant digits that are right; 0: not stated */
+  const char *source;
+} steif_reference;
+
+struct steif_problem {
+  const char *name, *about;  /* about: one sentence and a citation */
+  sunindextype n;
+  sunrealtype t0, t1;        /* default interval of integration, t1 > t0 */
+  const sunrealtype *y0;     /* n start values (host memory) ... */
+  const sunrealtype *yp0;    /* ... and slopes; NULL: computed where the form allows, else 0 */
+  steif_state start;         /* instead of y0, for vectors without a host array */
+
+  steif_rhs f;
+  steif_residual F;
+  steif_forcing g;
+  steif_jacobian jac;        /* df/dy */
+  steif_ida_jacobian idajac; /* dF/dy + c dF/dy', affine in c: E and A come from two calls */
+  steif_matrix_fill E, A;    /* direct fills; E also marks the mass and descriptor forms */
+  steif_product Ev, Av;      /* E x and A x without matrices (STEIF_KRYLOV); Av may be left to
+                                differences of f or F, Ev NULL means E = I */
+  void *user;                /* handed to every callback */
+
+  enum steif_storage storage;
+  sunindextype lower, upper; /* bandwidths for STEIF_BAND */
+  sunindextype nnz;          /* room in a sparse A (and E: nnz_E) that a callback fills */
+  sunindextype nnz_E;
+  const steif_pattern *pattern; /* of dF/dy (+ dF/dy'): differences by groups of columns */
+
+  const int *index;          /* n entries 1, 2, 3: index of each component as in RADAU5; norms
+                                scale component i by h^(index-1); NULL: all 1 */
+  int dae_index;             /* 0: ODE; differentiation index where known, -1: not stated */
+  int autonomous;            /* 1: f does not depend on t */
+  int linear;                /* 1: F is affine in (y, y') with constant coefficients */
+
+  steif_state exact;         /* closed solution, if there is one */
+  const steif_reference *reference;
+  int invariants;            /* number of conserved quantities ... */
+  int (*invariant)(sunrealtype t, N_Vector y, sunrealtype *value, void *user); /* ... all of them */
+  const sunrealtype *breaks; /* declared discontinuities of f inside (t0, t1), ascending */
+  int break_count;
+  sunrealtype rtol_scale;    /* atol = rtol_scale * rtol by default; 0: 1 */
+
+  /* Problems with parameters: fill the rest of *self from the spec; `destroy` undoes it. Members
+   * that build does not touch keep the values of the shelf entry. */
+  int (*build)(steif_context *ctx, const steif_spec *spec, steif_problem *self);
+  void (*destroy)(steif_context *ctx, steif_problem *self);
+};
+
+/* The form, or 0 with the message set: complete, consistent, finite start values. */
+STEIF_EXPORT int steif_problem_form(steif_context *ctx, const steif_problem *problem);
+STEIF_EXPORT const char *steif_form_name(int form);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,76 @@
+/* steif/report.h: results as one value that prints as a table, CSV or JSON, and pictures.
+ *
+ * A report is an ordered set of named fields: numbers, texts, lists of numbers, and sheets (rows of
+ * named columns). Reals are written with 17 significant digits in JSON and CSV; NaN and infinities
+ * as the strings "nan", "inf", "-inf" in JSON.
+ *
+ *   steif_report *r = steif_report_new(ctx);
+ *   steif_report_text(r, "problem", "rober");
+ *   steif_report_row(r, "rows");                      a new row of the sheet "rows"
+ *   steif_report_real(r, "rows.h", 0.5);              a cell of the last row
+ *   steif_report_write(r, STEIF_TABLE, stdout);
+ *   steif_report_free(&r);
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_REPORT_H
+#define STEIF_REPORT_H
+
+#include <stdio.h>
+#include <steif/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct steif_report steif_report;
+enum steif_format { STEIF_TABLE, STEIF_CSV, STEIF_JSON };
+
+STEIF_EXPORT steif_report *steif_report_new(steif_context *ctx);
+STEIF_EXPORT void steif_report_free(steif_report **r);
+
+/* Names: "key" for a field, "sheet.key" for a cell of the sheet's last row, "object.key" for a
+ * member of an object (any name that was not opened as a sheet). A failure (memory) is kept in the
+ * report and returned by steif_report_write. */
+STEIF_EXPORT void steif_report_row(steif_report *r, const char *sheet);
+STEIF_EXPORT void steif_report_real(steif_report *r, const char *name, sunrealtype value);
+STEIF_EXPORT void steif_report_whole(steif_report *r, const char *name, long value);
+STEIF_EXPORT void steif_report_truth(steif_report *r, const char *name, int value);
+STEIF_EXPORT void steif_report_text(steif_report *r, const char *name, const char *value); /* NULL: null */
+STEIF_EXPORT void steif_report_texts(steif_report *r, const char *name, size_t count,
+                                     const char *const *value);
+STEIF_EXPORT void steif_report_list(steif_report *r, const char *name, size_t count,
+                                    const sunrealtype *value);
+/* rows x columns by rows, as [[..],..]. */
+STEIF_EXPORT void steif_report_matrix(steif_report *r, const char *name, size_t rows,
+                                      size_t columns, const sunrealtype *value);
+
+/* STEIF_TABLE: fields as "name  value" lines, sheets as aligned columns with 6 or so digits;
+ * STEIF_CSV: the first sheet with a header line (or the fields as one row); STEIF_JSON: one object
+ * on one line. STEIF_IO when the stream fails. */
+STEIF_EXPORT int steif_report_write(steif_report *r, enum steif_format format, FILE *stream);
+/* The same into a file; an unwritable path leaves nothing behind. */
+STEIF_EXPORT int steif_report_save(steif_report *r, enum steif_format format, const char *path);
+
+/* A picture of curves. Points that are not finite, or not positive on a log axis, are gaps. */
+typedef struct steif_curve {
+  const char *label;
+  size_t count;
+  const sunrealtype *x, *y;
+  int marks;                  /* 1: draw points, 0: a line only, 2: points only */
+} steif_curve;
+typedef struct steif_plot {
+  const char *title, *x_label, *y_label;
+  int log_x, log_y;
+  int equal;                  /* same scale on both axes (regions) */
+  size_t count;
+  const steif_curve *curve;
+} steif_plot;
+
+/* SVG is drawn by the library, PNG by gnuplot (STEIF_UNSUPPORTED with the remedy when missing);
+ * the ending of the path decides. An unwritable path leaves nothing behind. */
+STEIF_EXPORT int steif_plot_save(steif_context *ctx, const steif_plot *plot, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,89 @@
+/* steif/solver.h: integrate a problem with a method; CVODE, IDA and ARKODE are called the same way.
+ *
+ *   steif_options opt = steif_defaults();
+ *   opt.h = 1e-3;
+ *   steif_solver *s = steif_solver_new(ctx, &problem, "radau:s=3", &opt);
+ *   if (s && steif_solve_to(s, 10) == STEIF_OK) use(steif_solution(s));
+ *   steif_solver_free(&s);
+ *
+ * Steps. One of three rules decides them, looked at in this order:
+ *   mesh      the given times, in order;
+ *   h > 0     equal steps; h is lowered, never raised, so that a whole number of them fills
+ *             [t0, t1] (t1 from the options or the problem);
+ *   otherwise the error estimate of the method, kept below rtol |y| + atol. Methods without an
+ *             estimate refuse this.
+ * A stage that Newton's iteration cannot solve is never accepted: with given steps the run stops
+ * with STEIF_NO_CONVERGENCE and its sentence; with chosen steps the step is made smaller.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_SOLVER_H
+#define STEIF_SOLVER_H
+
+#include <steif/problem.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct steif_solver steif_solver;
+
+typedef struct steif_options {
+  sunrealtype rtol;         /* relative tolerance, default 1e-6 */
+  sunrealtype atol;         /* absolute tolerance; default rtol times the problem's scale */
+  const sunrealtype *atols; /* n absolute tolerances instead of atol, NULL: none */
+  sunrealtype h;            /* > 0: equal steps */
+  const sunrealtype *mesh;  /* mesh_size ascending times, the first is the start */
+  size_t mesh_size;
+  sunrealtype h0, h_max;    /* first and largest chosen step; 0: automatic, none */
+  sunrealtype t1;           /* end; 0: the problem's */
+  long max_steps;           /* default 1 000 000 */
+  sunrealtype newton;       /* Newton stops at newton * weights; default 1e-2 (chosen steps) or
+                               1e-3 of 1e-10 relative (given steps) */
+  int iterations;           /* most Newton iterations in a stage; default 10 */
+  enum steif_storage storage; /* with force_storage: instead of the problem's */
+  int force_storage;
+  N_Vector like;            /* the kind of vector to clone; NULL: serial */
+  const char *start;        /* starting procedure of multistep methods: exact, ramp, constant, cq;
+                               NULL: that of the spec, else ramp */
+  int suppress_algebraic;   /* IDA: leave algebraic components out of the error test */
+  int consistent;           /* IDA: 1 IDACalcIC(YA_YDP_INIT), 2 IDACalcIC(Y_INIT) first */
+  /* Called after every accepted step with the step just made; nonzero stops the run. */
+  int (*observe)(steif_solver *s, sunrealtype t, N_Vector y, void *user);
+  void *observer;
+} steif_options;
+
+/* What a run has cost. cpu_s counts processor seconds inside solve calls (all threads). */
+typedef struct steif_stats {
+  long steps, rejected, nfe, nje, nlu, nsolve, newton, newton_fails;
+  sunrealtype h_last, cpu_s;
+} steif_stats;
+
+STEIF_EXPORT steif_options steif_defaults(void);
+
+/* NULL with the message set: unknown method (the nearest is named), form not accepted, bad values,
+ * start values that are not finite. options NULL: defaults. */
+STEIF_EXPORT steif_solver *steif_solver_new(steif_context *ctx, const steif_problem *problem,
+                                            const char *method, const steif_options *options);
+STEIF_EXPORT void steif_solver_free(steif_solver **s);
+
+/* Advance until t and put the solution there (dense output between steps). */
+STEIF_EXPORT int steif_solve_to(steif_solver *s, sunrealtype t);
+/* Advance by one accepted step. */
+STEIF_EXPORT int steif_solve_step(steif_solver *s);
+
+STEIF_EXPORT N_Vector steif_solution(steif_solver *s);   /* at the time last asked for */
+STEIF_EXPORT sunrealtype steif_time(const steif_solver *s);
+STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);
+
+/* The solution inside the last step. STEIF_BAD_INPUT outside of it. */
+STEIF_EXPORT int steif_dense(steif_solver *s, sunrealtype t, N_Vector y);
+
+/* Stage values of the last step of a Runge-Kutta method: vectors X_i at t_n + c_i h with quadrature
+ * weights b_i; *count = 0 for methods without stages. The vectors are the solver's. */
+STEIF_EXPORT int steif_stages(steif_solver *s, int *count, const sunrealtype **c,
+                              const sunrealtype **b, N_Vector **X);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,49 @@
+/* steif/stability.h: stability regions and observed orders.
+ *
+ * The step of a method on y' = lambda y is a matrix M(z), z = h lambda; the region is the set where
+ * its spectral radius is at most 1. A method is A(alpha)-stable if the region holds the sector
+ * |arg(-z)| < alpha, A-stable for alpha = 90 degrees, L-stable if moreover rho(M(inf)) = 0.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_STABILITY_H
+#define STEIF_STABILITY_H
+
+#include <steif/solver.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct steif_region {
+  int a_stable, l_stable;
+  int zero_stable;          /* M(0) has spectral radius 1, simple on the circle */
+  sunrealtype alpha_deg;    /* largest alpha in degrees, to about 1e-9; 0 if none */
+  sunrealtype r_inf;        /* rho(M(inf)) */
+  sunrealtype real_limit;   /* the interval [-real_limit, 0] is stable; infinite if alpha > 0 */
+  sunrealtype imag_limit;   /* the same on the imaginary axis (to 1e-9 in rho) */
+} steif_region;
+
+STEIF_EXPORT int steif_region_find(steif_context *ctx, const char *method, steif_region *region);
+
+/* Points of the boundary rho(M(z)) = 1 on rays from an inner point, in order; NaN where a ray meets
+ * none. points: count pairs (re, im). */
+STEIF_EXPORT int steif_region_boundary(steif_context *ctx, const char *method, size_t count,
+                                       sunrealtype *points);
+
+/* rho(M(z)). */
+STEIF_EXPORT int steif_spectral_radius(steif_context *ctx, const char *method,
+                                       const sunrealtype z[2], sunrealtype *radius);
+
+/* Errors at t1 with steps h, h/2, ... against the exact solution of the problem (or its reference),
+ * in the maximum norm over components; order[i] = log2(error[i-1]/error[i]), order[0] = NaN. */
+typedef struct steif_order_row {
+  sunrealtype h, error, order;
+} steif_order_row;
+STEIF_EXPORT int steif_order_measure(steif_context *ctx, const steif_problem *problem,
+                                     const char *method, const steif_options *options,
+                                     sunrealtype h, size_t rows, steif_order_row *row);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,17 @@
+/* steif/steif.h: all of steif.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_STEIF_H
+#define STEIF_STEIF_H
+
+#include <steif/base.h>
+#include <steif/collection.h>
+#include <steif/descriptor.h>
+#include <steif/method.h>
+#include <steif/pencil.h>
+#include <steif/problem.h>
+#include <steif/report.h>
+#include <steif/solver.h>
+#include <steif/stability.h>
+#include <steif/table.h>
+
+#endif

@@ -1,0 +1,71 @@
+/* steif/table.h: coefficients of Runge-Kutta methods, given or built, and what can be computed of
+ * them: nodes, order conditions, stability function, splits.
+ *
+ * A table holds A (s x s, by rows), b, c of the method
+ *   Y_i = y_n + h sum_j a_ij Y_j',   y_{n+1} = y_n + h sum_j b_j Y_j',   Y_j at t_n + c_j h.
+ * Entries of the shelf are constant data; families with any number of stages build theirs.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_TABLE_H
+#define STEIF_TABLE_H
+
+#include <steif/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum steif_table_kind {
+  STEIF_EXPLICIT,   /* strictly lower triangular A */
+  STEIF_DIRK,       /* lower triangular A; a_11 = 0 allowed (explicit first stage) */
+  STEIF_COLLOCATION /* full A */
+};
+
+enum steif_claim {
+  STEIF_A_STABLE = 1,
+  STEIF_L_STABLE = 2,             /* A-stable and R(inf) = 0 */
+  STEIF_STIFFLY_ACCURATE = 4,     /* b is the last row of A, c_s = 1 */
+  STEIF_SYMPLECTIC = 8,           /* b_i a_ij + b_j a_ji = b_i b_j */
+  STEIF_SYMMETRIC = 16            /* its own adjoint */
+};
+
+enum { STEIF_STAGES = 32 };       /* largest number of stages */
+
+typedef struct steif_table steif_table;
+struct steif_table {
+  const char *name;               /* "radau", set by the look-up */
+  const char *about;              /* one sentence and a citation */
+  enum steif_table_kind kind;
+  int s, order;                   /* stages, classical order */
+  int stage_order;                /* q of C(q); 0: not claimed */
+  const sunrealtype *A, *b;       /* NULL when built */
+  const sunrealtype *c;           /* NULL: row sums of A */
+  const sunrealtype *bhat;        /* embedded weights, NULL if none */
+  int order_hat;                  /* order of the embedded method */
+  unsigned claims;                /* enum steif_claim */
+  /* Families: the largest relative spacing left to the caller; fill A, b, c (room for
+   * STEIF_STAGES) of *self for s stages, and s, order, stage_order and claims. */
+  int (*build)(steif_context *ctx, const steif_spec *spec, steif_table *self, sunrealtype *A,
+               sunrealtype *b, sunrealtype *c);
+};
+
+/* Table i of the shelf (families unbuilt), NULL past the end. */
+STEIF_EXPORT const steif_table *steif_table_at(size_t i);
+
+/* A complete table from a spec: "gauss:s=3", "alexander2". NULL with the message set; free it. */
+STEIF_EXPORT steif_table *steif_table_new(steif_context *ctx, const char *spec);
+STEIF_EXPORT void steif_table_free(steif_context *ctx, steif_table **table);
+
+/* Largest violation of the order conditions of order p (all rooted trees with p vertices),
+ * p = 1 .. 8; with `hat`, of the embedded weights. */
+STEIF_EXPORT int steif_table_defect(steif_context *ctx, const steif_table *table, int p, int hat,
+                                    sunrealtype *defect);
+
+/* R(z) = 1 + z b^T (I - z A)^{-1} 1, and R(inf) for z = infinity (either part infinite). */
+STEIF_EXPORT int steif_table_stability(steif_context *ctx, const steif_table *table,
+                                       const sunrealtype z[2], sunrealtype R[2]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,60 @@
+/* base.h: what every room may use: failing with a sentence, memory by pools, spec look-ups.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_BASE_H
+#define STF_BASE_H
+
+#include <stdbool.h>
+#include <steif/base.h>
+
+#define STF_EPS 2.2204460492503131e-16
+
+/* Store code and sentence in ctx and return the code. `where` is the calling function. */
+int stf_fail(steif_context *ctx, int code, const char *where, const char *format, ...)
+  STEIF_PRINTF(4, 5);
+
+#define STEIF_TRY(call)                                                                          \
+  do {                                                                                           \
+    const int stf_code_ = (call);                                                                \
+    if (stf_code_ != STEIF_OK) return stf_code_;                                                 \
+  } while (0)
+
+#define STEIF_FAIL(ctx, code, ...) stf_fail(ctx, code, __func__, __VA_ARGS__)
+
+#define STEIF_CHECK(condition, ctx, code, ...)                                                   \
+  do {                                                                                           \
+    if (!(condition)) return STEIF_FAIL(ctx, code, __VA_ARGS__);                                 \
+  } while (0)
+
+/* Single blocks, zeroed; NULL with the message set when memory is short. */
+void *stf_allocate(steif_context *ctx, size_t count, size_t size);
+void stf_release(steif_context *ctx, void *block);
+int stf_threads(const steif_context *ctx);
+
+/* A pool owns blocks and vectors that live and die together. Claims return NULL with the message
+ * set; stf_pool_free accepts NULL and half-built pools. */
+typedef struct stf_pool stf_pool;
+stf_pool *stf_pool_new(steif_context *ctx);
+void *stf_claim(stf_pool *pool, size_t count, size_t size);
+N_Vector stf_claim_vector(stf_pool *pool, N_Vector like);
+/* `count` clones of `like`, zeroed, as one array. */
+N_Vector *stf_claim_vectors(stf_pool *pool, int count, N_Vector like);
+/* Call destroy(object) when the pool goes; on failure destroys at once and returns NO_MEMORY. */
+int stf_claim_owner(stf_pool *pool, void *object, void (*destroy)(void *object));
+void stf_pool_free(stf_pool **pool);
+
+/* Parameters of a spec, with range check; `fallback` when absent. */
+int stf_spec_int(steif_context *ctx, const steif_spec *spec, const char *key, int lowest,
+                 int highest, int fallback, int *value);
+int stf_spec_real(steif_context *ctx, const steif_spec *spec, const char *key,
+                  sunrealtype lowest, sunrealtype highest, sunrealtype fallback,
+                  sunrealtype *value);
+/* NULL when absent. */
+const char *stf_spec_word(const steif_spec *spec, const char *key);
+/* Refuse parameters not in `keys`, a NULL-terminated list ("" allows a bare word). */
+int stf_spec_only(steif_context *ctx, const steif_spec *spec, const char *const *keys);
+
+/* The name of the list nearest to `wrong` in edit distance; NULL for an empty list. `list[i]` is
+ * read through `stride` bytes so that the names may be the first member of structs. */
+const char *stf_nearest(const char *wrong, const void *list, size_t count, size_t stride);
+
+#endif

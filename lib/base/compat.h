@@ -1,0 +1,15 @@
+/* compat.h: what differs between SUNDIALS 6.4 and 7.x, and nothing else.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_COMPAT_H
+#define STF_COMPAT_H
+
+#include <sundials/sundials_config.h>
+#include <sundials/sundials_context.h>
+
+#if SUNDIALS_VERSION_MAJOR >= 7
+#define STF_NO_COMM SUN_COMM_NULL
+#else
+#define STF_NO_COMM NULL
+#endif
+
+#endif
