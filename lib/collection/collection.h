@@ -1,4 +1,4 @@
-/* collection.h: the shelf of problems.
+/* collection.h: the shelf of problems, and what its entries share.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_COLLECTION_H
 #define STF_COLLECTION_H
@@ -12,5 +12,28 @@ typedef struct stf_problem_entry {
 } stf_problem_entry;
 extern const stf_problem_entry stf_problem_shelf[];
 extern const size_t stf_problem_count;
+
+/* .build works on a copy of the shelf entry. When it fails, steif_problem_find calls .destroy, so
+ * build releases nothing itself and destroy accepts whatever build had set, user == NULL too. */
+
+/* self->user: one zeroed block of `fixed` bytes and then `count` reals; NULL when memory is short.
+ * stf_collection_release is the .destroy that goes with it. */
+void *stf_collection_claim(steif_context *ctx, steif_problem *self, size_t fixed, size_t count);
+void stf_collection_release(steif_context *ctx, steif_problem *self);
+
+/* self->storage from storage=dense|band|sparse; unchanged when absent. */
+int stf_collection_storage(steif_context *ctx, const steif_spec *spec, steif_problem *self);
+
+/* Fill a square dense, band or compressed-column matrix with constant diagonals:
+ * M_ij = value[j - i - first], j - i = first .. last. */
+int stf_collection_toeplitz(SUNMatrix M, sunindextype first, sunindextype last,
+                            const sunrealtype *value);
+/* Its number of entries. */
+sunindextype stf_collection_count(sunindextype n, sunindextype first, sunindextype last);
+
+/* Angle from the vertical below and angular velocity at t of phi'' = -g sin phi, oscillating, by
+ * Jacobi's elliptic functions. */
+void stf_collection_pendulum(sunrealtype g, sunrealtype phi0, sunrealtype rate0, sunrealtype t,
+                             sunrealtype *phi, sunrealtype *rate);
 
 #endif

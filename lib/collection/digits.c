@@ -1,0 +1,103 @@
+/* digits.c: how many digits of a result agree with the exact solution or the reference.
+ *
+ *   scd   = -log10 max_i |y_i - r_i| / |r_i|,  r_i = 0 left out
+ *   mescd = -log10 max_i |y_i - r_i| / (atol/rtol + |r_i|)
+ *
+ * Both are the measures of the Test Set for IVP Solvers (Mazzia, Magherini 2008). An error below
+ * the unit round-off counts as the unit round-off: 15.95 digits are the most that double precision
+ * can show. A component that is not finite, where the reference is, gives -infinity.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "collection.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct target {
+  sunindextype count;
+  const sunindextype *component; /* NULL: 0 .. count-1 */
+  const sunrealtype *value;
+} target;
+
+/* Largest relative and mixed error; infinity for y_i not finite, scd < 0 when no r_i counts. */
+static void measure(const target *r, const sunrealtype *y, sunrealtype floor_,
+                    sunrealtype *relative, sunrealtype *mixed)
+{
+  *relative = -1, *mixed = -1;
+  for (sunindextype i = 0; i < r->count; i++) {
+    const sunrealtype value = r->value[i], size = fabs(value);
+    const sunrealtype error = fabs(y[r->component ? r->component[i] : i] - value);
+    const sunrealtype off = isfinite(error) ? error : INFINITY;
+    if (size > 0 && !(off / size <= *relative)) *relative = off / size;
+    if (floor_ + size > 0 && !(off / (floor_ + size) <= *mixed)) *mixed = off / (floor_ + size);
+  }
+}
+
+/* -log10 of an error; NaN when there was none to measure. */
+static sunrealtype digits(sunrealtype error)
+{
+  if (error < 0) return NAN;
+  return -log10(error > 0.5 * STF_EPS ? error : 0.5 * STF_EPS);
+}
+
+/* The same time but for the rounding of a clock that was advanced step by step. */
+static bool same_time(sunrealtype a, sunrealtype b)
+{
+  return fabs(a - b) <= 64 * STF_EPS * fmax(fabs(a), fabs(b));
+}
+
+/* r from .exact, in the vector `exact`; positive when the closed solution is not known at t. */
+static int closed(steif_context *ctx, const steif_problem *problem, sunrealtype t, N_Vector exact,
+                  target *r)
+{
+  const int code = problem->exact(t, exact, NULL, problem->user);
+  STEIF_CHECK(code >= 0, ctx, STEIF_CALLBACK, "the exact solution of %s stopped with %d at t = %g",
+              problem->name, code, t);
+  *r = (target){problem->n, NULL, N_VGetArrayPointer(exact)};
+  return code;
+}
+
+static int published(const steif_problem *problem, sunrealtype t, target *r)
+{
+  const steif_reference *known = problem->reference;
+  if (!known || !same_time(t, known->t)) return 1;
+  *r = (target){known->count ? known->count : problem->n, known->count ? known->component : NULL,
+                known->value};
+  return 0;
+}
+
+int steif_problem_digits(steif_context *ctx, const steif_problem *problem, sunrealtype t,
+                         N_Vector y, sunrealtype atol_over_rtol, sunrealtype *scd,
+                         sunrealtype *mescd)
+{
+  STEIF_CHECK(problem && y && scd && mescd, ctx, STEIF_BAD_INPUT,
+              "a problem, a vector and two places for the digits are needed, got NULL");
+  STEIF_CHECK(atol_over_rtol >= 0, ctx, STEIF_BAD_INPUT, "atol/rtol = %g must not be negative",
+              atol_over_rtol);
+  const sunrealtype *array = N_VGetArrayPointer(y);
+  STEIF_CHECK(array && (sunindextype)N_VGetLength(y) == problem->n, ctx, STEIF_BAD_INPUT,
+              "digits of %s need a vector of %lld components with an array on the host, got %lld",
+              problem->name, (long long)problem->n, (long long)N_VGetLength(y));
+  *scd = *mescd = NAN;
+  N_Vector exact = NULL;
+  target r = {0};
+  sunrealtype relative, mixed;
+  int code = 1;
+  if (problem->exact) {
+    exact = N_VClone(y);
+    STEIF_CHECK(exact, ctx, STEIF_NO_MEMORY, "no memory for %lld components of the exact solution",
+                (long long)problem->n);
+    code = closed(ctx, problem, t, exact, &r);
+  }
+  if (code > 0) code = published(problem, t, &r);
+  if (code == 0) {
+    measure(&r, array, atol_over_rtol, &relative, &mixed);
+    *scd = digits(relative), *mescd = digits(mixed);
+  } else if (code > 0) {
+    code = STEIF_FAIL(ctx, STEIF_UNSUPPORTED,
+                      "nothing is known of %s at t = %.17g: %s %.17g", problem->name, t,
+                      problem->reference ? "its reference is at" : "it has no reference; its end is",
+                      problem->reference ? problem->reference->t : problem->t1);
+  }
+  if (exact) N_VDestroy(exact);
+  return code;
+}
