@@ -1,0 +1,51 @@
+# The checks of the house itself: what it looks like, what it shows, how it installs, and that the
+# program printed in README.md is a program.
+function(house_test name)
+  add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} ${ARGN}
+           -P ${PROJECT_SOURCE_DIR}/tests/${name}.cmake)
+endfunction()
+
+house_test(arrows -DSOURCE=${PROJECT_SOURCE_DIR})
+house_test(measure -DSOURCE=${PROJECT_SOURCE_DIR})
+
+include(CheckLanguage)
+check_language(CXX)
+get_target_property(folders SUNDIALS::nvecserial_shared INTERFACE_INCLUDE_DIRECTORIES)
+list(REMOVE_ITEM folders ${CMAKE_C_IMPLICIT_INCLUDE_DIRECTORIES})
+house_test(headers -DCC=${CMAKE_C_COMPILER} -DCXX=$<$<BOOL:${CMAKE_CXX_COMPILER}>:${CMAKE_CXX_COMPILER}>
+           -DHEADERS=${PROJECT_SOURCE_DIR}/include/steif "-DFOLDERS=${folders}")
+
+if(CMAKE_NM AND NOT APPLE)
+  house_test(symbols -DNM=${CMAKE_NM} -DLIBRARY=$<TARGET_FILE:steif>
+             -DHEADERS=${PROJECT_SOURCE_DIR}/include/steif)
+endif()
+
+set(flags "")
+if(STEIF_SANITIZE)
+  set(flags "-fsanitize=address,undefined")
+endif()
+house_test(consumer -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
+           -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DVERSION=${PROJECT_VERSION} -DCC=${CMAKE_C_COMPILER}
+           -DFLAGS=${flags})
+
+# The first C program of README.md, as printed.
+if(NOT EXISTS ${PROJECT_SOURCE_DIR}/README.md)
+  return()
+endif()
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/README.md)
+file(READ README.md text)
+string(REGEX MATCH "\n```c\n([^`]*)\n```\n" found "${text}")
+set(program "${CMAKE_MATCH_1}\n")
+string(REGEX REPLACE "[^\n]" "" lines "${program}")
+string(LENGTH "${lines}" lines)
+if(lines LESS 5 OR lines GREATER 40)
+  message(FATAL_ERROR "README.md should print one C program of at most 40 lines, it has ${lines}")
+endif()
+file(CONFIGURE OUTPUT readme.c CONTENT "${program}" @ONLY)
+add_executable(readme_program ${PROJECT_BINARY_DIR}/readme.c)
+target_link_libraries(readme_program PRIVATE steif)
+add_test(NAME readme COMMAND readme_program)
+# y_1 of Robertson's problem: 0.98517 at 0.4 and 5.2083e-8 at 4e10 (Hairer and Wanner, 1996, IV.10;
+# cvRoberts of SUNDIALS), both reached, and "ok" at the end.
+set_tests_properties(readme PROPERTIES PASS_REGULAR_EXPRESSION
+                     "^4.0e-01  9.8517[0-9]*e-01\n(.*\n)?4.0e.10  5.208[0-9]*e-08\nok\n$")

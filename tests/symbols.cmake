@@ -1,0 +1,26 @@
+# The shared library shows what the public headers declare, all of it and nothing else.
+#   cmake -DNM= -DLIBRARY= -DHEADERS= -P symbols.cmake
+execute_process(COMMAND ${NM} -D --defined-only ${LIBRARY} OUTPUT_VARIABLE out RESULT_VARIABLE code)
+if(code)
+  message(FATAL_ERROR "nm failed on ${LIBRARY}")
+endif()
+string(REGEX MATCHALL "[^ \n]+\n" shown "${out}")
+list(TRANSFORM shown STRIP)
+
+set(declared "")
+file(GLOB headers ${HEADERS}/*.h)
+foreach(header ${headers})
+  file(READ ${header} text)
+  string(REGEX MATCHALL "STEIF_EXPORT[ \n][^;(]*steif_[a-z0-9_]+[(]" found "${text}")
+  list(TRANSFORM found REPLACE ".*(steif_[a-z0-9_]+)[(]" "\\1")
+  list(APPEND declared ${found})
+endforeach()
+
+set(missing ${declared})
+list(REMOVE_ITEM missing ${shown})
+list(REMOVE_ITEM shown ${declared})
+list(LENGTH declared count)
+message("${count} functions declared; not in the library: ${missing}; shown without need: ${shown}")
+if(missing OR shown OR count EQUAL 0)
+  message(FATAL_ERROR "the headers and the library do not agree")
+endif()
