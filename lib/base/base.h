@@ -25,6 +25,9 @@ int stf_fail(steif_context *ctx, int code, const char *where, const char *format
     if (!(condition)) return STEIF_FAIL(ctx, code, __VA_ARGS__);                                 \
   } while (0)
 
+/* A failure that a smaller step may cure: cause and sentence are stored, STEIF_RETRY is returned. */
+#define STEIF_RECOVER(ctx, cause, ...) (stf_fail(ctx, cause, __func__, __VA_ARGS__), STEIF_RETRY)
+
 /* Single blocks, zeroed; NULL with the message set when memory is short. */
 void *stf_allocate(steif_context *ctx, size_t count, size_t size);
 void stf_release(steif_context *ctx, void *block);

@@ -1,0 +1,170 @@
+/* newton.c: simplified Newton over a split.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "newton.h"
+#include <math.h>
+
+int stf_split_single(stf_pool *pool, sunrealtype b, stf_split *split)
+{
+  sunrealtype *one = stf_claim(pool, 2, sizeof *one);
+  if (!one) return STEIF_NO_MEMORY;
+  one[0] = b, one[1] = 1;
+  *split = (stf_split){.s = 1, .lanes = 1, .re = {b}, .B = one, .T = one + 1, .Tinv = one + 1};
+  return STEIF_OK;
+}
+
+int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split, N_Vector weights,
+                    stf_newton *newton)
+{
+  const int s = split->s;
+  N_Vector like = system->space.like;
+  newton->system = system, newton->split = *split, newton->weights = weights;
+  newton->stale = 0.1;
+  newton->eta = 1;
+  newton->Y = stf_claim_vector(pool, like);
+  newton->residual = stf_claim_vectors(pool, s, like);
+  newton->Zp = stf_claim_vectors(pool, s, like);
+  newton->omega = s > 1 ? stf_claim_vectors(pool, s, like) : newton->residual;
+  newton->dZ = s > 1 ? stf_claim_vectors(pool, s, like) : newton->residual;
+  newton->B_over_h = stf_claim(pool, (size_t)(s * s), sizeof *newton->B_over_h);
+  const bool good = newton->Y && newton->residual && newton->Zp && newton->omega && newton->dZ &&
+                    newton->B_over_h;
+  return good ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vector y, N_Vector yp,
+                       bool jacobian)
+{
+  const stf_split *split = &newton->split;
+  if (jacobian && !(newton->system->linear && newton->factored)) {
+    STEIF_TRY(stf_system_linearise(newton->system, t, y, yp));
+    newton->factored = false, newton->wanted = false;
+  }
+  if (jacobian) newton->fresh = true;
+  if (newton->factored && newton->h == h) return STEIF_OK;
+  steif_shift shift[STEIF_STAGES];
+  for (int k = 0; k < split->lanes; k++)
+    shift[k] = (steif_shift){split->re[k] / h, split->im[k] / h};
+  for (int i = 0; i < split->s * split->s; i++) newton->B_over_h[i] = split->B[i] / h;
+  newton->factored = false;
+  STEIF_TRY(steif_pencil_factor(newton->system->pencil, split->lanes, shift));
+  newton->h = h, newton->factored = true;
+  newton->eta = 1;
+  return STEIF_OK;
+}
+
+/* residual_j = F at stage j. */
+static int residuals(stf_newton *newton, const stf_stages *g)
+{
+  const stf_split *split = &newton->split;
+  const stf_space *space = &newton->system->space;
+  stf_mix(space, split->s, split->s, newton->B_over_h, g->Z, newton->Zp);
+  for (int j = 0; j < split->s; j++) {
+    N_Vector Y = g->Z[j];
+    if (g->offset) stf_axpy(space, 1, g->offset[j], newton->Zp[j]);
+    if (g->base) stf_sum(space, 1, g->base[j], 1, g->Z[j], Y = newton->Y);
+    STEIF_TRY(stf_system_residual(newton->system, g->t + g->c[j] * g->h, Y, newton->Zp[j],
+                                  newton->residual[j]));
+  }
+  return STEIF_OK;
+}
+
+/* Lanes above feed the ones below: rhs_k -= (1/h) E sum_{m > k} S_km omega_m. */
+static int couple(stf_newton *newton, int lane)
+{
+  const stf_split *split = &newton->split;
+  const stf_space *space = &newton->system->space;
+  const int first = split->row[lane], rows = split->im[lane] != 0 ? 2 : 1, after = first + rows;
+  const int s = split->s;
+  if (after >= s) return STEIF_OK;
+  for (int i = first; i < after; i++) {
+    stf_combine(space, s - after, split->coupling + i * s + after, newton->omega + after, newton->Y);
+    STEIF_TRY(steif_pencil_product(newton->system->pencil, 'E', newton->Y, newton->Zp[0]));
+    stf_axpy(space, -1 / newton->h, newton->Zp[0], newton->omega[i]);
+  }
+  return STEIF_OK;
+}
+
+/* omega: right sides in, solutions out, lane by lane from the last. */
+static int solve_lanes(stf_newton *newton)
+{
+  const stf_split *split = &newton->split;
+  for (int k = split->lanes; k-- > 0;) {
+    N_Vector *at = newton->omega + split->row[k];
+    if (split->coupling) STEIF_TRY(couple(newton, k));
+    STEIF_TRY(steif_pencil_solve(newton->system->pencil, k, 1, at,
+                                 split->im[k] != 0 ? at + 1 : NULL));
+  }
+  newton->solves += split->lanes;
+  return STEIF_OK;
+}
+
+/* dZ of one sweep and its weighted norm over all stages. The residual enters with its own sign:
+ * Z - dZ is the next iterate. */
+static int sweep(stf_newton *newton, const stf_stages *g, sunrealtype *norm)
+{
+  const int s = newton->split.s;
+  const stf_space *space = &newton->system->space;
+  newton->sweeps++;
+  STEIF_TRY(residuals(newton, g));
+  if (s > 1) stf_mix(space, s, s, newton->split.Tinv, newton->residual, newton->omega);
+  STEIF_TRY(solve_lanes(newton));
+  if (s > 1) stf_mix(space, s, s, newton->split.T, newton->omega, newton->dZ);
+  sunrealtype sum = 0;
+  for (int j = 0; j < s; j++) {
+    const sunrealtype part = stf_norm(space, newton->dZ[j], newton->weights);
+    sum += part * part;
+    stf_axpy(space, -1, newton->dZ[j], g->Z[j]);
+  }
+  *norm = sqrt(sum / s);
+  return STEIF_OK;
+}
+
+static int refuse(stf_newton *newton, const stf_stages *g, int iterations, sunrealtype norm,
+                  sunrealtype theta)
+{
+  steif_context *ctx = newton->system->ctx;
+  newton->fails++, newton->wanted = true, newton->eta = 1;
+  if (!isfinite(norm)) {
+    const sunindextype i = stf_not_finite(newton->dZ[0]);
+    return STEIF_RECOVER(ctx, STEIF_NOT_FINITE,
+                         "a stage of problem '%s' is not finite (component %lld) in the step from "
+                         "t = %.12g with h = %.6g: the callbacks returned NaN or infinity, or the "
+                         "step is too large", newton->system->problem->name, (long long)i, g->t,
+                         g->h);
+  }
+  return STEIF_RECOVER(ctx, STEIF_NO_CONVERGENCE,
+                       "Newton's iteration was refused for problem '%s' in the step from t = %.12g "
+                       "with h = %.6g: after %d iterations the correction is %.3g of its tolerance, "
+                       "rate %.2g; make the step smaller or check the Jacobian",
+                       newton->system->problem->name, g->t, g->h, iterations,
+                       norm / newton->tolerance, theta);
+}
+
+/* Corrections that no longer shrink though tiny are rounding: accept within this factor. */
+static const sunrealtype stagnation = 100;
+
+int stf_newton_solve(stf_newton *newton, const stf_stages *g)
+{
+  sunrealtype norm, last = 0, theta = 0;
+  newton->theta = 0;
+  for (int m = 1;; m++) {
+    STEIF_TRY(sweep(newton, g, &norm));
+    newton->count = m;
+    if (!(norm <= 1e300)) return refuse(newton, g, m, norm, theta);
+    if (newton->system->linear) return STEIF_OK;
+    if (m > 1) {
+      const sunrealtype quotient = norm / last;
+      theta = m == 2 ? quotient : sqrt(theta * quotient);
+      newton->theta = theta;
+      if (quotient >= 0.5 && norm <= stagnation * newton->tolerance) break;
+      if (theta >= 1 || m >= newton->iterations) return refuse(newton, g, m, norm, theta);
+      newton->eta = theta / (1 - theta);
+    }
+    if (norm == 0 || newton->eta * norm <= newton->tolerance) break;
+    last = norm;
+  }
+  if (theta > newton->stale) newton->wanted = true;
+  return STEIF_OK;
+}
+
+bool stf_newton_stale(const stf_newton *newton) { return newton->wanted; }

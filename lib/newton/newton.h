@@ -1,0 +1,62 @@
+/* newton.h: simplified Newton for the stage equations of every implicit family.
+ *
+ * Unknown are s increments Z_j with
+ *   F(t + c_j h, base_j + Z_j, offset_j + (1/h) sum_m B_jm Z_m) = 0,   j = 1 .. s.
+ * Collocation: B = A^{-1}, base_j = y_n, offset 0. A stage of DIRK: s = 1, B = 1/gamma. BDF: s = 1,
+ * B = alpha_0, offset = the history's share of y'. B is split into lanes, one real or complex shift
+ * of the pencil each: a lane with eigenvalue lambda solves (lambda/h E - A) d omega = -(Tinv F).
+ *
+ * Convergence (Hairer and Wanner, Solving ODEs II, IV.8): theta_m = ||dZ^m|| / ||dZ^(m-1)||,
+ * eta = theta/(1 - theta), stop when eta ||dZ|| <= the tolerance. theta >= 1 or too many iterations:
+ * the stage is refused; with an old Jacobian it is tried again with a new one first.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_NEWTON_H
+#define STF_NEWTON_H
+
+#include "problem.h"
+#include "table.h"
+
+typedef struct stf_newton {
+  stf_system *system;
+  stf_split split;
+  int iterations;            /* most in one solve */
+  sunrealtype tolerance;     /* on the weighted norm of the error of Z */
+  sunrealtype stale;         /* a rate above this asks for a new Jacobian next time */
+  N_Vector weights;          /* reciprocal weights; the caller keeps them current */
+  N_Vector *residual, *omega, *dZ, *Zp, Y; /* s, s, s, s, 1 vectors */
+  sunrealtype *B_over_h;     /* B / h */
+  sunrealtype h;             /* of B_over_h and the shifts */
+  bool factored, fresh;      /* factors exist for (h, E, A); Jacobian made in this step */
+  bool wanted;               /* a new Jacobian is wanted */
+  sunrealtype theta, eta;    /* of the last solve */
+  int count;                 /* iterations of the last solve */
+  long solves, sweeps, fails; /* lane solves, iterations, refusals */
+} stf_newton;
+
+/* Where the stages are. */
+typedef struct stf_stages {
+  sunrealtype t, h;
+  const sunrealtype *c;      /* s */
+  N_Vector *base;            /* s vectors (the same one repeated is fine); NULL: zero */
+  N_Vector *offset;          /* s vectors; NULL: zero */
+  N_Vector *Z;               /* in: start of the iteration; out: solution */
+} stf_stages;
+
+int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split, N_Vector weights,
+                    stf_newton *newton);
+
+/* A split with one lane for the 1 x 1 matrix b. */
+int stf_split_single(stf_pool *pool, sunrealtype b, stf_split *split);
+
+/* Factors for step h with the pencil as it is; `jacobian` first renews E and A at (t, y, yp). */
+int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vector y, N_Vector yp,
+                       bool jacobian);
+
+/* Solve; STEIF_RETRY when refused. */
+int stf_newton_solve(stf_newton *newton, const stf_stages *stages);
+
+/* Convergence was slow or refused: the next prepare should renew the Jacobian. */
+bool stf_newton_stale(const stf_newton *newton);
+
+#endif

@@ -1,0 +1,87 @@
+/* problem.c: is a problem complete and consistent, and which form is it.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "problem.h"
+#include <math.h>
+
+const char *steif_form_name(int form)
+{
+  switch (form) {
+  case STEIF_ODE: return "ode";
+  case STEIF_MASS: return "mass";
+  case STEIF_IMPLICIT: return "implicit";
+  case STEIF_DESCRIPTOR: return "descriptor";
+  default: return "none";
+  }
+}
+
+static int form_of(const steif_problem *p)
+{
+  const bool E = p->E || p->Ev;
+  if (p->F) return p->f || p->g ? 0 : STEIF_IMPLICIT;
+  if (p->f) return p->g ? 0 : E ? STEIF_MASS : STEIF_ODE;
+  return E && (p->A || p->Av) ? STEIF_DESCRIPTOR : 0;
+}
+
+static int check_values(steif_context *ctx, const steif_problem *p)
+{
+  STEIF_CHECK(p->y0 || p->start, ctx, STEIF_BAD_INPUT,
+              "problem '%s' has no start values: set .y0 or .start", p->name);
+  for (sunindextype i = 0; p->y0 && i < p->n; i++) {
+    STEIF_CHECK(isfinite(p->y0[i]), ctx, STEIF_NOT_FINITE,
+                "start value y0[%lld] = %g of problem '%s' is not finite", (long long)i, p->y0[i],
+                p->name);
+    STEIF_CHECK(!p->yp0 || isfinite(p->yp0[i]), ctx, STEIF_NOT_FINITE,
+                "start slope yp0[%lld] = %g of problem '%s' is not finite", (long long)i,
+                p->yp0[i], p->name);
+    STEIF_CHECK(!p->index || (p->index[i] >= 1 && p->index[i] <= 3), ctx, STEIF_BAD_INPUT,
+                "index[%lld] = %d of problem '%s' must be 1, 2 or 3", (long long)i, p->index[i],
+                p->name);
+  }
+  return STEIF_OK;
+}
+
+static int check_storage(steif_context *ctx, const steif_problem *p)
+{
+  if (p->storage == STEIF_BAND)
+    STEIF_CHECK(p->lower >= 0 && p->upper >= 0 && p->lower < p->n && p->upper < p->n, ctx,
+                STEIF_BAD_INPUT, "bandwidths lower = %lld, upper = %lld of problem '%s' must lie "
+                "in 0 .. %lld", (long long)p->lower, (long long)p->upper, p->name,
+                (long long)p->n - 1);
+  if (p->storage == STEIF_SPARSE)
+    STEIF_CHECK(p->pattern || p->nnz > 0, ctx, STEIF_BAD_INPUT,
+                "problem '%s' is stored sparse: set .nnz for its Jacobian or a .pattern for "
+                "differences", p->name);
+  return STEIF_OK;
+}
+
+int steif_problem_form(steif_context *ctx, const steif_problem *p)
+{
+  if (!p || !p->name) {
+    STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a problem with a name is needed");
+    return 0;
+  }
+  const int form = form_of(p);
+  if (!form)
+    STEIF_FAIL(ctx, STEIF_BAD_INPUT,
+               "problem '%s' has no form: set .f (y' = f), .f and .E (M y' = f), .F "
+               "(F(t,y,y') = 0) or .E and .A with .g (E x' = A x + g), and nothing besides",
+               p->name);
+  else if (p->n < 1)
+    STEIF_FAIL(ctx, STEIF_BAD_INPUT, "problem '%s' has n = %lld components, at least 1 is needed",
+               p->name, (long long)p->n);
+  else if (!(isfinite(p->t0) && isfinite(p->t1) && p->t1 >= p->t0))
+    STEIF_FAIL(ctx, STEIF_BAD_INPUT, "interval [%g, %g] of problem '%s' must be finite and "
+               "ascending", p->t0, p->t1, p->name);
+  else if (!check_values(ctx, p) && !check_storage(ctx, p))
+    return form;
+  return 0;
+}
+
+sunindextype stf_not_finite(N_Vector v)
+{
+  const sunrealtype *a = N_VGetArrayPointer(v);
+  const sunindextype n = a ? N_VGetLength(v) : 0;
+  for (sunindextype i = 0; i < n; i++)
+    if (!isfinite(a[i])) return i;
+  return -1;
+}

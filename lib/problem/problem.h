@@ -1,0 +1,64 @@
+/* problem.h: the problem room inside: every form lowered to one residual and one pencil.
+ *
+ *   F(t, y, y') with E = dF/dy', A = -dF/dy:
+ *   ode          y' - f(t, y)             E = I,  A = df/dy
+ *   mass         M y' - f(t, y)           E = M,  A = df/dy
+ *   implicit     F(t, y, y')              E = F_y', A = -F_y
+ *   descriptor   E y' - A y - g(t)
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_PROBLEM_H
+#define STF_PROBLEM_H
+
+#include "base.h"
+#include "space.h"
+#include <steif/pencil.h>
+#include <steif/problem.h>
+
+typedef struct stf_groups stf_groups;
+
+typedef struct stf_system {
+  steif_context *ctx;
+  const steif_problem *problem;
+  stf_space space;
+  int form;
+  bool linear;                 /* constant E and A: linearised once */
+  enum steif_storage storage;
+  steif_pencil *pencil;
+  SUNMatrix E, A, J;           /* owned; E NULL: identity; J: scratch of an IDA Jacobian */
+  sunrealtype scale;           /* floor of |y_j| in difference increments: atol / rtol */
+  stf_groups *groups;          /* columns that may be moved together */
+  N_Vector work[6];
+  N_Vector at_y, at_yp, at_f;  /* point of the last linearisation (operators only) */
+  sunrealtype at_t;
+  bool filled;
+  long nfe, nje;
+} stf_system;
+
+/* Everything is claimed from the pool. start values are filled into y and yp (yp: zero where
+ * neither given nor computable), and the first linearisation is made there. */
+int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem, int form,
+                    enum steif_storage storage, sunrealtype scale, N_Vector y, N_Vector yp,
+                    stf_system *system);
+
+/* r = F(t, y, yp). r must differ from y and yp. */
+int stf_system_residual(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp, N_Vector r);
+/* out = f(t, y) of the ode and mass forms. */
+int stf_system_rhs(stf_system *system, sunrealtype t, N_Vector y, N_Vector out);
+/* E and A at (t, y, yp) into the pencil; nothing for a linear system already filled. */
+int stf_system_linearise(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
+/* y' at the start: given, or f for the ode form; *known tells whether yp can be relied on. */
+int stf_system_start(steif_context *ctx, const steif_problem *problem, int form,
+                     const stf_space *space, N_Vector y, N_Vector yp, bool *known);
+
+/* The 0-based component that is not finite, or -1. Needs a host array (else -1). */
+sunindextype stf_not_finite(N_Vector v);
+
+/* Differences: dF/dy or dF/dy' of `which` ('A': f or -F by y; 'E': F by y') into M. */
+int stf_groups_open(stf_pool *pool, stf_system *system);
+int stf_differ(stf_system *system, char which, sunrealtype t, N_Vector y, N_Vector yp,
+               SUNMatrix M);
+/* One random direction through the filled pencil against differences: a missing entry is named. */
+int stf_probe(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
+
+#endif

@@ -1,0 +1,307 @@
+/* system.c: residual and pencil of any form.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "problem.h"
+#include <math.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_band.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+/* A callback's return value as ours, with the sentence. */
+static int callback(stf_system *s, int returned, const char *what, sunrealtype t)
+{
+  if (returned == 0) return STEIF_OK;
+  if (returned > 0)
+    return STEIF_RECOVER(s->ctx, STEIF_CALLBACK,
+                         "%s of problem '%s' could not be evaluated at t = %.12g (it returned %d)",
+                         what, s->problem->name, t, returned);
+  return STEIF_FAIL(s->ctx, STEIF_CALLBACK,
+                    "%s of problem '%s' stopped the run at t = %.12g (it returned %d)", what,
+                    s->problem->name, t, returned);
+}
+
+int stf_system_rhs(stf_system *s, sunrealtype t, N_Vector y, N_Vector out)
+{
+  s->nfe++;
+  const int returned = s->problem->f(t, y, out, s->problem->user);
+  return returned ? callback(s, returned, "f", t) : STEIF_OK;
+}
+
+static int mass_residual(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp, N_Vector r)
+{
+  STEIF_TRY(stf_system_rhs(s, t, y, s->work[0]));
+  STEIF_TRY(steif_pencil_product(s->pencil, 'E', yp, r));
+  stf_axpy(&s->space, -1, s->work[0], r);
+  return STEIF_OK;
+}
+
+static int descriptor_residual(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp, N_Vector r)
+{
+  const steif_problem *p = s->problem;
+  STEIF_TRY(steif_pencil_product(s->pencil, 'E', yp, r));
+  STEIF_TRY(steif_pencil_product(s->pencil, 'A', y, s->work[0]));
+  stf_axpy(&s->space, -1, s->work[0], r);
+  if (!p->g) return STEIF_OK;
+  s->nfe++;
+  STEIF_TRY(callback(s, p->g(t, 0, s->work[0], p->user), "g", t));
+  stf_axpy(&s->space, -1, s->work[0], r);
+  return STEIF_OK;
+}
+
+int stf_system_residual(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp, N_Vector r)
+{
+  switch (s->form) {
+  case STEIF_ODE:
+    STEIF_TRY(stf_system_rhs(s, t, y, r));
+    stf_sum(&s->space, 1, yp, -1, r, r);
+    return STEIF_OK;
+  case STEIF_MASS: return mass_residual(s, t, y, yp, r);
+  case STEIF_DESCRIPTOR: return descriptor_residual(s, t, y, yp, r);
+  default:
+    s->nfe++;
+    return callback(s, s->problem->F(t, y, yp, r, s->problem->user), "F", t);
+  }
+}
+
+/* Dense and band matrices arrive zeroed at a fill; a sparse one is filled whole. */
+static void clear(SUNMatrix M)
+{
+  if (SUNMatGetID(M) != SUNMATRIX_SPARSE) SUNMatZero(M);
+}
+
+static int check_filled(stf_system *s, SUNMatrix M, const char *what)
+{
+  if (SUNMatGetID(M) != SUNMATRIX_SPARSE) return STEIF_OK;
+  const sunindextype used = SUNSparseMatrix_IndexPointers(M)[s->space.n];
+  STEIF_CHECK(used >= 0 && used <= SUNSparseMatrix_NNZ(M), s->ctx, STEIF_BAD_INPUT,
+              "%s of problem '%s' filled %lld entries into room for %lld: correct .nnz", what,
+              s->problem->name, (long long)used, (long long)SUNSparseMatrix_NNZ(M));
+  return STEIF_OK;
+}
+
+static int fill_direct(stf_system *s, steif_matrix_fill fill, const char *what, sunrealtype t,
+                       N_Vector y, N_Vector yp, SUNMatrix M)
+{
+  clear(M);
+  STEIF_TRY(callback(s, fill(t, y, yp, M, s->problem->user), what, t));
+  return check_filled(s, M, what);
+}
+
+static sunrealtype *values(SUNMatrix M, sunindextype *count)
+{
+  switch (SUNMatGetID(M)) {
+  case SUNMATRIX_DENSE: *count = SUNDenseMatrix_LData(M); return SUNDenseMatrix_Data(M);
+  case SUNMATRIX_BAND: *count = SM_LDATA_B(M); return SUNBandMatrix_Data(M);
+  default:
+    *count = SUNSparseMatrix_IndexPointers(M)[SUNSparseMatrix_NP(M)];
+    return SUNSparseMatrix_Data(M);
+  }
+}
+
+/* J(c) = F_y + c F_y' is affine in c: A = -J(0), E = (J(c) - J(0))/c with c of the size of J(0). */
+static int separate(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  const steif_problem *p = s->problem;
+  N_Vector *w = s->work;
+  clear(s->A);
+  STEIF_TRY(callback(s, p->F(t, y, yp, w[3], p->user), "F", t));
+  s->nfe++;
+  STEIF_TRY(callback(s, p->idajac(t, 0, y, yp, w[3], s->A, p->user, w[0], w[1], w[2]), "idajac", t));
+  STEIF_TRY(check_filled(s, s->A, "idajac"));
+  sunindextype count, again;
+  sunrealtype *a = values(s->A, &count), c = 0;
+  for (sunindextype i = 0; i < count; i++) c = fmax(c, fabs(a[i]));
+  if (!(c > 0)) c = 1;
+  clear(s->E);
+  STEIF_TRY(callback(s, p->idajac(t, c, y, yp, w[3], s->E, p->user, w[0], w[1], w[2]), "idajac", t));
+  sunrealtype *e = values(s->E, &again);
+  STEIF_CHECK(again == count, s->ctx, STEIF_BAD_INPUT,
+              "idajac of problem '%s' filled %lld entries with c = 0 and %lld with c = %g: its "
+              "pattern must not depend on c", p->name, (long long)count, (long long)again, c);
+  for (sunindextype i = 0; i < count; i++) e[i] = (e[i] - a[i]) / c, a[i] = -a[i];
+  return STEIF_OK;
+}
+
+static int fill_A(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  const steif_problem *p = s->problem;
+  N_Vector *w = s->work;
+  if (p->A) return fill_direct(s, p->A, "A", t, y, yp, s->A);
+  if (!p->jac) return stf_differ(s, 'A', t, y, yp, s->A);
+  clear(s->A);
+  STEIF_TRY(stf_system_rhs(s, t, y, w[3]));
+  STEIF_TRY(callback(s, p->jac(t, y, w[3], s->A, p->user, w[0], w[1], w[2]), "jac", t));
+  return check_filled(s, s->A, "jac");
+}
+
+static int fill_E(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  const steif_problem *p = s->problem;
+  if (p->E) return fill_direct(s, p->E, "E", t, y, yp, s->E);
+  return stf_differ(s, 'E', t, y, yp, s->E);
+}
+
+/* Operators are applied at a point: remember it. */
+static int remember(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  s->at_t = t;
+  stf_copy(&s->space, y, s->at_y);
+  stf_copy(&s->space, yp, s->at_yp);
+  return s->problem->Av ? STEIF_OK : stf_system_residual(s, t, y, yp, s->at_f);
+}
+
+static int fill(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  const bool constant_E = s->form == STEIF_ODE || (s->form != STEIF_IMPLICIT && s->filled);
+  if (s->storage == STEIF_KRYLOV) return remember(s, t, y, yp);
+  if (s->form == STEIF_IMPLICIT && s->problem->idajac && !(s->problem->E && s->problem->A))
+    return separate(s, t, y, yp);
+  if (!constant_E) STEIF_TRY(fill_E(s, t, y, yp));
+  return fill_A(s, t, y, yp);
+}
+
+int stf_system_linearise(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  if (s->linear && s->filled) return STEIF_OK;
+  s->nje++;
+  STEIF_TRY(fill(s, t, y, yp));
+  s->filled = true;
+  return s->pencil ? steif_pencil_update(s->pencil) : STEIF_OK;
+}
+
+/* -- opening ------------------------------------------------------------------------------- */
+
+static void destroy_matrix(void *M) { SUNMatDestroy(M); }
+
+static void destroy_pencil(void *p)
+{
+  steif_pencil *pencil = p;
+  steif_pencil_free(&pencil);
+}
+
+static int matrix(stf_pool *pool, stf_system *s, sunindextype nnz, SUNMatrix *M)
+{
+  const steif_problem *p = s->problem;
+  const sunindextype n = s->space.n;
+  SUNContext sun = steif_sundials(s->ctx);
+  if (nnz < 1) nnz = p->nnz > 0 ? p->nnz : p->pattern ? p->pattern->column[n] : n;
+  switch (s->storage) {
+  case STEIF_DENSE: *M = SUNDenseMatrix(n, n, sun); break;
+  case STEIF_BAND: *M = SUNBandMatrix(n, p->upper, p->lower, sun); break;
+  default: *M = SUNSparseMatrix(n, n, nnz, CSC_MAT, sun);
+  }
+  STEIF_CHECK(*M, s->ctx, STEIF_NO_MEMORY, "no memory for a matrix of order %lld", (long long)n);
+  return stf_claim_owner(pool, *M, destroy_matrix);
+}
+
+static int product_E(N_Vector x, N_Vector out, void *user)
+{
+  stf_system *s = user;
+  return s->problem->Ev(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
+}
+
+/* A x = -F_y x by one difference along x; the residual at the point is at_f. */
+static int difference_A(stf_system *s, N_Vector x, N_Vector out)
+{
+  const sunrealtype size = sqrt(N_VDotProd(x, x));
+  if (!(size > 0)) {
+    stf_zero(&s->space, out);
+    return 0;
+  }
+  const sunrealtype step = sqrt(STF_EPS) * (s->scale + sqrt(N_VDotProd(s->at_y, s->at_y))) / size;
+  stf_sum(&s->space, 1, s->at_y, step, x, s->work[4]);
+  const int code = stf_system_residual(s, s->at_t, s->work[4], s->at_yp, s->work[5]);
+  stf_sum(&s->space, 1 / step, s->at_f, -1 / step, s->work[5], out);
+  return code;
+}
+
+static int product_A(N_Vector x, N_Vector out, void *user)
+{
+  stf_system *s = user;
+  if (!s->problem->Av) return difference_A(s, x, out);
+  return s->problem->Av(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
+}
+
+static int open_operator(stf_pool *pool, stf_system *s)
+{
+  const bool has_E = s->form != STEIF_ODE;
+  STEIF_CHECK(!has_E || s->problem->Ev, s->ctx, STEIF_UNSUPPORTED,
+              "problem '%s' of form %s needs the product .Ev for Krylov storage",
+              s->problem->name, steif_form_name(s->form));
+  if (!(s->at_y = stf_claim_vector(pool, s->space.like)) ||
+      !(s->at_yp = stf_claim_vector(pool, s->space.like)) ||
+      !(s->at_f = stf_claim_vector(pool, s->space.like)))
+    return STEIF_NO_MEMORY;
+  const steif_operator op = {.E = has_E ? product_E : NULL, .A = product_A, .user = s};
+  s->pencil = steif_pencil_new_operator(s->ctx, &op, s->space.like);
+  if (!s->pencil) return steif_status(s->ctx);
+  return stf_claim_owner(pool, s->pencil, destroy_pencil);
+}
+
+static int open_matrices(stf_pool *pool, stf_system *s)
+{
+  const steif_problem *p = s->problem;
+  STEIF_CHECK(s->space.serial || N_VGetArrayPointer(s->space.like), s->ctx, STEIF_UNSUPPORTED,
+              "vectors of problem '%s' have no host array: only Krylov storage can serve them",
+              p->name);
+  STEIF_TRY(matrix(pool, s, 0, &s->A));
+  if (s->form != STEIF_ODE) STEIF_TRY(matrix(pool, s, p->nnz_E, &s->E));
+  return stf_groups_open(pool, s);
+}
+
+static int open_pencil(stf_pool *pool, stf_system *s)
+{
+  s->pencil = steif_pencil_new(s->ctx, s->E, s->A);
+  if (!s->pencil) return steif_status(s->ctx);
+  return stf_claim_owner(pool, s->pencil, destroy_pencil);
+}
+
+int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem, int form,
+                    enum steif_storage storage, sunrealtype scale, N_Vector y, N_Vector yp,
+                    stf_system *s)
+{
+  *s = (stf_system){.ctx = ctx, .problem = problem, .form = form, .storage = storage};
+  s->linear = problem->linear || form == STEIF_DESCRIPTOR;
+  s->scale = scale;
+  stf_space_open(&s->space, y);
+  for (int i = 0; i < 6; i++)
+    if (!(s->work[i] = stf_claim_vector(pool, y))) return STEIF_NO_MEMORY;
+  const bool matrices = storage != STEIF_KRYLOV;
+  STEIF_TRY(matrices ? open_matrices(pool, s) : open_operator(pool, s));
+  const int code = stf_system_linearise(s, problem->t0, y, yp);
+  if (code) return code > 0 ? STEIF_CALLBACK : code;
+  if (!matrices) return STEIF_OK;
+  STEIF_TRY(open_pencil(pool, s));
+  return stf_probe(s, problem->t0, y, yp);
+}
+
+int stf_system_start(steif_context *ctx, const steif_problem *p, int form, const stf_space *space,
+                     N_Vector y, N_Vector yp, bool *known)
+{
+  *known = p->yp0 || p->start;
+  if (p->start) {
+    const int returned = p->start(p->t0, y, yp, p->user);
+    STEIF_CHECK(returned == 0, ctx, STEIF_CALLBACK, "start of problem '%s' returned %d", p->name,
+                returned);
+  } else {
+    sunrealtype *a = N_VGetArrayPointer(y), *b = N_VGetArrayPointer(yp);
+    STEIF_CHECK(a && b, ctx, STEIF_UNSUPPORTED, "vectors without a host array need the callback "
+                ".start of problem '%s'", p->name);
+    memcpy(a, p->y0, (size_t)p->n * sizeof *a);
+    if (p->yp0) memcpy(b, p->yp0, (size_t)p->n * sizeof *b);
+  }
+  if (form == STEIF_ODE) {
+    const int returned = p->f(p->t0, y, yp, p->user);
+    STEIF_CHECK(returned == 0, ctx, STEIF_CALLBACK,
+                "f of problem '%s' could not be evaluated at the start, t = %g (it returned %d)",
+                p->name, p->t0, returned);
+    *known = true;
+  }
+  STEIF_CHECK(stf_finite(space, y), ctx, STEIF_NOT_FINITE,
+              "start value %lld of problem '%s' is not finite", (long long)stf_not_finite(y),
+              p->name);
+  STEIF_CHECK(stf_finite(space, yp), ctx, STEIF_NOT_FINITE,
+              "slope %lld at the start of problem '%s' is not finite",
+              (long long)stf_not_finite(yp), p->name);
+  return STEIF_OK;
+}
