@@ -97,7 +97,7 @@ void *stf_allocate(steif_context *ctx, size_t count, size_t size)
 {
   if (count == 0) count = 1;
   if (size == 0) size = 1;
-  void *block = count <= SIZE_MAX / size ? ctx->setup.allocate(count * size, ctx->setup.user) : NULL;
+  void *block = count <= PTRDIFF_MAX / size ? ctx->setup.allocate(count * size, ctx->setup.user) : NULL;
   if (!block)
     STEIF_FAIL(ctx, STEIF_NO_MEMORY, "no memory for %zu items of %zu bytes; make the problem "
                "smaller", count, size);

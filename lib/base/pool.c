@@ -32,11 +32,9 @@ static void link_in(stf_pool *pool, entry *e, void *object, void (*destroy)(void
 
 void *stf_claim(stf_pool *pool, size_t count, size_t size)
 {
-  if (size && count > (SIZE_MAX - sizeof(entry) - LINE) / size) count = SIZE_MAX / size;
-  const size_t bytes = count * size <= SIZE_MAX - sizeof(entry) - LINE
-                         ? count * size + sizeof(entry) + LINE
-                         : SIZE_MAX;
-  entry *e = stf_allocate(pool->ctx, bytes, 1);
+  const size_t frame = sizeof(entry) + LINE;
+  const bool fits = !size || count <= (SIZE_MAX - frame) / size;
+  entry *e = stf_allocate(pool->ctx, fits ? count * size + frame : SIZE_MAX, 1);
   if (!e) return NULL;
   link_in(pool, e, NULL, NULL);
   return (char *)(e + 1) + (LINE - (uintptr_t)(e + 1) % LINE);

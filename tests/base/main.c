@@ -1,0 +1,9 @@
+/* main.c: the suites of the base room.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_context[], tests_of_pool[], tests_of_spec[];
+
+SUITE_MAIN({.pName = "context", .pTests = tests_of_context},
+           {.pName = "pool", .pTests = tests_of_pool},
+           {.pName = "spec", .pTests = tests_of_spec})
