@@ -1,0 +1,73 @@
+/* report.h: the model of a report, output files, numbers as text, axes of pictures.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_REPORT_H
+#define STF_REPORT_H
+
+#include "base.h"
+#include <jansson.h>
+#include <steif/report.h>
+
+/* One JSON object: scalars, lists and matrices are fields, arrays of objects are sheets. The first
+ * failure is kept in `code`; its sentence is in the context. */
+struct steif_report {
+  steif_context *ctx;
+  json_t *root;
+  int code;
+};
+
+int stf_report_json(steif_report *r, FILE *stream);
+int stf_report_csv(steif_report *r, FILE *stream);
+int stf_report_table(steif_report *r, FILE *stream);
+
+/* Arrays of objects. */
+bool stf_report_is_sheet(const json_t *value);
+/* Numbers, and the texts that stand for NaN and infinities. */
+bool stf_report_is_number(const json_t *value);
+
+/* %.*g, %.*e or %.*f with a decimal point in every locale; "nan", "inf", "-inf". */
+void stf_report_number(char *out, size_t size, char conversion, int precision, double value);
+/* One value as a person reads it: about six digits, exact values with more; lists shortened. */
+void stf_report_cell(char *out, size_t size, const char *key, const json_t *value);
+/* Characters (not bytes) of UTF-8. */
+size_t stf_report_width(const char *text);
+
+/* A file that appears under its name when complete, and not at all otherwise. */
+enum { STF_PATH = 4096 };
+typedef struct stf_output {
+  FILE *stream;
+  char path[STF_PATH], part[STF_PATH + 32]; /* part empty: devices are written directly */
+} stf_output;
+int stf_output_open(steif_context *ctx, const char *path, stf_output *output);
+/* Keep the file when `code` is STEIF_OK and all was written; returns the first failure. */
+int stf_output_close(steif_context *ctx, stf_output *output, int code);
+
+/* One axis of a picture: values (their logarithms on a log axis) lo .. hi to pixels p0 .. p1. */
+enum { STF_TICKS = 64 };
+typedef struct stf_tick {
+  double at; /* in axis coordinates */
+  bool major;
+  char label[32]; /* empty for minor ticks */
+  int power;      /* with `decade`: the label is 10^power */
+  bool decade;
+} stf_tick;
+typedef struct stf_axis {
+  bool log;
+  double lo, hi, p0, p1;
+  int scale; /* linear labels are in units of 10^scale */
+  int ticks;
+  stf_tick tick[STF_TICKS];
+} stf_axis;
+
+/* False for values that cannot be drawn: not finite, absurdly large, not positive on a log axis. */
+bool stf_axis_value(const stf_axis *axis, double value, double *coordinate);
+double stf_axis_pixel(const stf_axis *axis, double coordinate);
+/* The range of the x (or y) of all drawable points with a margin; 0 .. 1 when there is none. */
+void stf_axis_range(stf_axis *axis, const steif_plot *plot, bool vertical);
+/* The same number of units per pixel on both. */
+void stf_axis_equal(stf_axis *x, stf_axis *y);
+void stf_axis_ticks(stf_axis *axis, int about);
+
+int stf_plot_svg(const steif_plot *plot, FILE *stream);
+int stf_plot_gnuplot(steif_context *ctx, const steif_plot *plot, FILE *stream);
+
+#endif

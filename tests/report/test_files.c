@@ -1,0 +1,116 @@
+/* Output files are complete or not there. SPDX-License-Identifier: BSD-3-Clause */
+#define _XOPEN_SOURCE 700
+#include "fixture.h"
+#include <dirent.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char text[TEXT], folder[64];
+
+static const char *inside(const char *name)
+{
+  static char path[128];
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  return path;
+}
+
+static void enter(void)
+{
+  strcpy(folder, "/tmp/steif-report-XXXXXX");
+  CU_ASSERT_PTR_NOT_NULL_FATAL(mkdtemp(folder));
+}
+
+/* Remove the folder; how many files were in it. */
+static int leave(void)
+{
+  DIR *dir = opendir(folder);
+  int count = 0;
+  for (struct dirent *e = readdir(dir); e; e = readdir(dir))
+    if (*e->d_name != '.') {
+      unlink(inside(e->d_name));
+      count++;
+    }
+  closedir(dir);
+  rmdir(folder);
+  return count;
+}
+
+static void saved_file_is_complete(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_report *r = mixed(ctx);
+  enter();
+  CHECK(steif_report_save(r, STEIF_CSV, inside("rows.csv")) == STEIF_OK);
+  CHECK(!strncmp(contents(inside("rows.csv"), text), "h,verdict,order,x1", 18));
+  CHECK(steif_report_save(r, STEIF_JSON, inside("rows.csv")) == STEIF_OK);
+  CHECK(*contents(inside("rows.csv"), text) == '{');
+  CHECK(leave() == 1);
+  steif_report_free(&r), steif_context_free(&ctx);
+}
+
+static void unwritable_path_leaves_nothing(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_report *r = mixed(ctx);
+  enter();
+  CHECK(steif_report_save(r, STEIF_CSV, inside("no/such/folder.csv")) == STEIF_IO);
+  CHECK(strstr(steif_message(ctx), "no/such/folder.csv"));
+  CHECK(steif_report_save(r, STEIF_CSV, folder) == STEIF_IO);
+  CHECK(steif_report_save(r, STEIF_CSV, "") == STEIF_BAD_INPUT);
+  CHECK(steif_report_save(r, STEIF_CSV, NULL) == STEIF_BAD_INPUT);
+  CHECK(leave() == 0);
+  steif_report_free(&r), steif_context_free(&ctx);
+}
+
+static void full_disk_is_told(void)
+{
+  struct stat info;
+  if (stat("/dev/full", &info)) return;
+  steif_context *ctx = steif_context_new(NULL);
+  steif_report *r = mixed(ctx);
+  CHECK(steif_report_save(r, STEIF_CSV, "/dev/full") == STEIF_IO);
+  CHECK(steif_report_save(r, STEIF_JSON, "/dev/full") == STEIF_IO);
+  CHECK(!stat("/dev/full", &info) && S_ISCHR(info.st_mode));
+  steif_report_free(&r), steif_context_free(&ctx);
+}
+
+static void broken_report_keeps_the_old_file(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_report *r = mixed(ctx);
+  enter();
+  CHECK(steif_report_save(r, STEIF_JSON, inside("kept.json")) == STEIF_OK);
+  steif_report_real(r, "problem.inner", 3.75);
+  CHECK(steif_report_save(r, STEIF_JSON, inside("kept.json")) == STEIF_BAD_INPUT);
+  CHECK(*contents(inside("kept.json"), text) == '{');
+  CHECK(leave() == 1);
+  steif_report_free(&r), steif_context_free(&ctx);
+}
+
+static void link_stays_a_link(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_report *r = mixed(ctx);
+  struct stat info;
+  char target[128];
+  enter();
+  CHECK(steif_report_save(r, STEIF_JSON, inside("real.json")) == STEIF_OK);
+  CHECK(!chmod(inside("real.json"), 0640));
+  strcpy(target, inside("real.json"));
+  CHECK(!symlink(target, inside("link.json")));
+  CHECK(steif_report_save(r, STEIF_CSV, inside("link.json")) == STEIF_OK);
+  CHECK(!lstat(inside("link.json"), &info) && S_ISLNK(info.st_mode));
+  CHECK(!strncmp(contents(target, text), "h,verdict", 9));
+  CHECK(!stat(target, &info) && (info.st_mode & 0777) == 0640);
+  CHECK(leave() == 2);
+  steif_report_free(&r), steif_context_free(&ctx);
+}
+
+CU_TestInfo tests_of_files[] = {
+  {"a saved file is complete and replaces the old one", saved_file_is_complete},
+  {"an unwritable path leaves nothing", unwritable_path_leaves_nothing},
+  {"a full disk is told, a device stays a device", full_disk_is_told},
+  {"a broken report keeps the old file", broken_report_keeps_the_old_file},
+  {"a link stays a link, permissions stay", link_stays_a_link},
+  CU_TEST_INFO_NULL};
