@@ -46,12 +46,12 @@ static bool same_time(sunrealtype a, sunrealtype b)
 }
 
 /* r from .exact, in the vector `exact`; positive when the closed solution is not known at t. */
-static int closed(steif_context *ctx, const steif_problem *problem, sunrealtype t, N_Vector exact,
-                  target *r)
+static int closed(steif_context *ctx, const steif_problem *problem, sunrealtype t,
+                  N_Vector exact, target *r)
 {
   const int code = problem->exact(t, exact, NULL, problem->user);
-  STEIF_CHECK(code >= 0, ctx, STEIF_CALLBACK, "the exact solution of %s stopped with %d at t = %g",
-              problem->name, code, t);
+  STEIF_CHECK(code >= 0, ctx, STEIF_CALLBACK,
+              "the exact solution of %s stopped with %d at t = %g", problem->name, code, t);
   *r = (target){problem->n, NULL, N_VGetArrayPointer(exact)};
   return code;
 }
@@ -60,8 +60,8 @@ static int published(const steif_problem *problem, sunrealtype t, target *r)
 {
   const steif_reference *known = problem->reference;
   if (!known || !same_time(t, known->t)) return 1;
-  *r = (target){known->count ? known->count : problem->n, known->count ? known->component : NULL,
-                known->value};
+  *r = (target){known->count ? known->count : problem->n,
+                known->count ? known->component : NULL, known->value};
   return 0;
 }
 
@@ -74,9 +74,10 @@ int steif_problem_digits(steif_context *ctx, const steif_problem *problem, sunre
   STEIF_CHECK(atol_over_rtol >= 0, ctx, STEIF_BAD_INPUT, "atol/rtol = %g must not be negative",
               atol_over_rtol);
   const sunrealtype *array = N_VGetArrayPointer(y);
-  STEIF_CHECK(array && (sunindextype)N_VGetLength(y) == problem->n, ctx, STEIF_BAD_INPUT,
-              "digits of %s need a vector of %lld components with an array on the host, got %lld",
-              problem->name, (long long)problem->n, (long long)N_VGetLength(y));
+  STEIF_CHECK(
+    array && (sunindextype)N_VGetLength(y) == problem->n, ctx, STEIF_BAD_INPUT,
+    "digits of %s need a vector of %lld components with an array on the host, got %lld",
+    problem->name, (long long)problem->n, (long long)N_VGetLength(y));
   *scd = *mescd = NAN;
   N_Vector exact = NULL;
   target r = {0};
@@ -84,8 +85,8 @@ int steif_problem_digits(steif_context *ctx, const steif_problem *problem, sunre
   int code = 1;
   if (problem->exact) {
     exact = N_VClone(y);
-    STEIF_CHECK(exact, ctx, STEIF_NO_MEMORY, "no memory for %lld components of the exact solution",
-                (long long)problem->n);
+    STEIF_CHECK(exact, ctx, STEIF_NO_MEMORY,
+                "no memory for %lld components of the exact solution", (long long)problem->n);
     code = closed(ctx, problem, t, exact, &r);
   }
   if (code > 0) code = published(problem, t, &r);
@@ -93,10 +94,10 @@ int steif_problem_digits(steif_context *ctx, const steif_problem *problem, sunre
     measure(&r, array, atol_over_rtol, &relative, &mixed);
     *scd = digits(relative), *mescd = digits(mixed);
   } else if (code > 0) {
-    code = STEIF_FAIL(ctx, STEIF_UNSUPPORTED,
-                      "nothing is known of %s at t = %.17g: %s %.17g", problem->name, t,
-                      problem->reference ? "its reference is at" : "it has no reference; its end is",
-                      problem->reference ? problem->reference->t : problem->t1);
+    code = STEIF_FAIL(
+      ctx, STEIF_UNSUPPORTED, "nothing is known of %s at t = %.17g: %s %.17g", problem->name, t,
+      problem->reference ? "its reference is at" : "it has no reference; its end is",
+      problem->reference ? problem->reference->t : problem->t1);
   }
   if (exact) N_VDestroy(exact);
   return code;

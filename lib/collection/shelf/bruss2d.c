@@ -1,0 +1,161 @@
+/* bruss2d.c: the Brusselator with diffusion on a periodic square, N x N points, u block, v block.
+ *
+ *   u_t = 1 + u^2 v - 4.4 u + alpha (u_xx + u_yy) + f(x, y, t)
+ *   v_t = 3.4 u - u^2 v + alpha (v_xx + v_yy),  alpha = 0.1,
+ * f = 5 in the disc (x - 0.3)^2 + (y - 0.6)^2 <= 0.1^2 for t >= 1.1, else 0;
+ * u = 22 y (1-y)^{3/2}, v = 27 x (1-x)^{3/2} at t = 0; x = i/N, y = j/N, 0 <= i, j < N.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "collection.h"
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+#define ALPHA 0.1
+#define IGNITION 1.1
+#define HEAT 5.0
+
+typedef struct square {
+  sunindextype N, cells; /* N^2 */
+  sunrealtype spread;    /* alpha N^2 */
+  steif_pattern pattern; /* six rows a column */
+  sunindextype *column, *row;
+  sunrealtype *source; /* the disc: HEAT or 0, cells */
+  sunrealtype start[]; /* 2 cells */
+} square;
+
+static const sunrealtype breaks[] = {IGNITION};
+
+/* One row of cells: w the unknown itself, up and down its neighbours; spread * five-point sum. */
+static void diffuse(const square *s, const sunrealtype *w, const sunrealtype *up,
+                    const sunrealtype *down, sunrealtype *out)
+{
+  const sunindextype N = s->N;
+  const sunrealtype c = s->spread;
+  out[0] = c * (w[N - 1] + w[1] + up[0] + down[0] - 4 * w[0]);
+  for (sunindextype i = 1; i < N - 1; i++)
+    out[i] = c * (w[i - 1] + w[i + 1] + up[i] + down[i] - 4 * w[i]);
+  out[N - 1] = c * (w[N - 2] + w[0] + up[N - 1] + down[N - 1] - 4 * w[N - 1]);
+}
+
+static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  const square *s = user;
+  const sunindextype N = s->N;
+  const sunrealtype *u = N_VGetArrayPointer(y), *v = u + s->cells;
+  const sunrealtype burning = t >= IGNITION;
+  sunrealtype *du = N_VGetArrayPointer(ydot), *dv = du + s->cells;
+  for (sunindextype j = 0; j < N; j++) {
+    const sunindextype at = j * N, up = (j + 1) % N * N, down = (j + N - 1) % N * N;
+    diffuse(s, u + at, u + up, u + down, du + at);
+    diffuse(s, v + at, v + up, v + down, dv + at);
+    for (sunindextype i = at; i < at + N; i++) {
+      const sunrealtype uuv = u[i] * u[i] * v[i];
+      du[i] += 1 + uuv - 4.4 * u[i] + burning * s->source[i];
+      dv[i] += 3.4 * u[i] - uuv;
+    }
+  }
+  return 0;
+}
+
+/* Columns of u: five rows of the u block, one of the v block; columns of v: one, then five. */
+static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector tmp1,
+               N_Vector tmp2, N_Vector tmp3)
+{
+  const square *s = user;
+  const sunindextype M = s->cells;
+  const sunrealtype *u = N_VGetArrayPointer(y), *v = u + M;
+  (void)t, (void)fy, (void)tmp1, (void)tmp2, (void)tmp3;
+  if (SUNMatGetID(J) != SUNMATRIX_SPARSE || SM_SPARSETYPE_S(J) != CSC_MAT ||
+      SM_NNZ_S(J) < 12 * M)
+    return -1;
+  memcpy(SM_INDEXPTRS_S(J), s->column, (size_t)(2 * M + 1) * sizeof *s->column);
+  memcpy(SM_INDEXVALS_S(J), s->row, (size_t)(12 * M) * sizeof *s->row);
+  sunrealtype *of_u = SM_DATA_S(J), *of_v = of_u + 6 * M;
+  for (sunindextype i = 0; i < M; i++, of_u += 6, of_v += 6) {
+    const sunrealtype uu = u[i] * u[i], uv2 = 2 * u[i] * v[i];
+    const sunindextype *row = s->row + 6 * i;
+    for (int k = 0; k < 5; k++) {
+      of_u[k] = s->spread * (row[k] == i ? -4 : 1) + (row[k] == i ? uv2 - 4.4 : 0);
+      of_v[k + 1] = s->spread * (row[k] == i ? -4 : 1) - (row[k] == i ? uu : 0);
+    }
+    of_u[5] = 3.4 - uv2;
+    of_v[0] = uu;
+  }
+  return 0;
+}
+
+/* The five rows of cell (i, j), ascending. */
+static void neighbours(sunindextype N, sunindextype i, sunindextype j, sunindextype *row)
+{
+  const sunindextype all[] = {j * N + i, j * N + (i + 1) % N, j * N + (i + N - 1) % N,
+                              (j + 1) % N * N + i, (j + N - 1) % N * N + i};
+  for (int k = 0; k < 5; k++) {
+    int place = k;
+    for (; place > 0 && row[place - 1] > all[k]; place--) row[place] = row[place - 1];
+    row[place] = all[k];
+  }
+}
+
+static void lay_out(square *s)
+{
+  const sunindextype N = s->N, M = s->cells;
+  for (sunindextype c = 0; c < M; c++) {
+    sunindextype *of_u = s->row + 6 * c, *of_v = of_u + 6 * M;
+    neighbours(N, c % N, c / N, of_u);
+    for (int k = 0; k < 5; k++) of_v[k + 1] = of_u[k] + M;
+    of_u[5] = c + M, of_v[0] = c;
+  }
+  for (sunindextype c = 0; c <= 2 * M; c++) s->column[c] = 6 * c;
+  s->pattern = (steif_pattern){s->column, s->row};
+}
+
+/* The disc in whole numbers, so that points on its rim are inside for every N. */
+static void light(square *s)
+{
+  const sunindextype N = s->N;
+  for (sunindextype c = 0; c < s->cells; c++) {
+    const sunindextype i = c % N, j = c / N, dx = 10 * i - 3 * N, dy = 10 * j - 6 * N;
+    const sunrealtype x = (sunrealtype)i / (sunrealtype)N, y = (sunrealtype)j / (sunrealtype)N;
+    s->source[c] = dx * dx + dy * dy <= N * N ? HEAT : 0;
+    s->start[c] = 22 * y * (1 - y) * sqrt(1 - y);
+    s->start[c + s->cells] = 27 * x * (1 - x) * sqrt(1 - x);
+  }
+}
+
+static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self)
+{
+  int N;
+  STEIF_TRY(stf_spec_only(ctx, spec, (const char *const[]){"n", NULL}));
+  STEIF_TRY(stf_spec_int(ctx, spec, "n", 3, 1024, 32, &N));
+  const size_t M = (size_t)N * (size_t)N;
+  square *s =
+    stf_collection_claim(ctx, self, sizeof *s + (14 * M + 1) * sizeof(sunindextype), 3 * M);
+  if (!s) return STEIF_NO_MEMORY;
+  s->N = N, s->cells = (sunindextype)M;
+  s->spread = ALPHA * (sunrealtype)N * (sunrealtype)N;
+  s->source = s->start + 2 * M;
+  s->column = (sunindextype *)(s->source + M);
+  s->row = s->column + 2 * M + 1;
+  lay_out(s);
+  light(s);
+  self->n = 2 * s->cells;
+  self->y0 = s->start;
+  self->nnz = 12 * s->cells;
+  self->pattern = &s->pattern;
+  return STEIF_OK;
+}
+
+const steif_problem steif_problem_bruss2d = {
+  .about = "Brusselator with diffusion in two dimensions, n=32 points a side: E. Hairer and G. "
+           "Wanner, Solving Ordinary Differential Equations II, Springer 1996, ch. IV.10",
+  .t1 = 11.5,
+  .f = f,
+  .jac = jac,
+  .storage = STEIF_SPARSE,
+  .breaks = breaks,
+  .break_count = 1,
+  .build = build,
+  .destroy = stf_collection_release,
+};
