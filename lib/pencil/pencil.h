@@ -4,16 +4,34 @@
 #define STF_PENCIL_H
 
 #include "base.h"
+#include <nvector/nvector_serial.h>
 #include <steif/pencil.h>
 
+_Static_assert(sizeof(sunrealtype) == sizeof(double),
+               "LAPACK and KLU work in double precision");
+
+/* What one factorisation came to. The factorisations of one call run side by side and the context
+ * is not thread safe: each leaves an outcome, and the frame makes sentences and sums afterwards. */
+typedef struct stf_outcome {
+  int code;            /* STEIF_OK, _SINGULAR, _NOT_FINITE, _NO_MEMORY or _BAD_INPUT */
+  sunindextype column; /* where the pivot vanished, from 0; -1: not known */
+  sunindextype rank;   /* the most that the pattern allows; 0: no statement */
+  long factors, refactors, fallbacks, fill;
+} stf_outcome;
+
 /* A back end. It finds E, A, n and ctx in the frame and keeps its state behind p->state, of `size`
- * bytes, zeroed, allocated and released by the frame. */
+ * bytes, zeroed, allocated and released by the frame. `prepare` is called one slot after another
+ * and may allocate and fail with a sentence; `factor` touches its slot and its outcome only, and
+ * is called from several threads when n >= `crowd` (0: never). */
 typedef struct stf_backend {
   const char *name;
   size_t size;
+  sunindextype crowd;
+  bool matrices; /* E, A: vectors need host arrays */
   int (*open)(steif_pencil *p);
-  int (*update)(steif_pencil *p);                      /* values (or pattern) changed */
-  int (*factor)(steif_pencil *p, int slot, steif_shift s); /* may run beside other slots */
+  int (*update)(steif_pencil *p); /* values (or pattern) changed */
+  int (*prepare)(steif_pencil *p, int slot, steif_shift s);
+  void (*factor)(steif_pencil *p, int slot, steif_shift s, stf_outcome *out);
   int (*solve)(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im);
   int (*product)(steif_pencil *p, char which, N_Vector x, N_Vector out);
   void (*close)(steif_pencil *p);
@@ -27,13 +45,40 @@ struct steif_pencil {
   const stf_backend *backend;
   void *state;
   sunindextype n;
-  SUNMatrix E, A;            /* E NULL: identity; both NULL for operators */
+  SUNMatrix E, A; /* E NULL: identity; both NULL for operators */
   steif_operator op;
-  N_Vector like;             /* operators only */
+  N_Vector like; /* operators only */
+  double *work;  /* STF_COLUMNS * n, for solve; NULL where not needed */
   steif_pencil_stats stats;
-  int slots;                 /* slots in use */
+  bool stale; /* E and A have not been looked at since they changed */
+  int slots;  /* slots in use */
   steif_shift shift[STEIF_PENCIL_SLOTS];
   bool fresh[STEIF_PENCIL_SLOTS];
 };
+
+/* Columns of p->work: real right-hand sides that a back end gets at once, or twice the complex. */
+enum { STF_COLUMNS = 8 };
+
+static inline bool stf_complex(steif_shift s) { return s.im != 0; }
+
+/* The host array of v, or NULL; without a call for a serial vector. */
+static inline sunrealtype *stf_array(N_Vector v)
+{
+  if (v->ops->nvgetarraypointer == N_VGetArrayPointer_Serial) return NV_DATA_S(v);
+  return v->ops->nvgetarraypointer ? N_VGetArrayPointer(v) : NULL;
+}
+
+/* crew.c: factor slots[0 .. count-1], side by side where it pays; out[i] belongs to slots[i]. */
+void stf_crew_factor(steif_pencil *p, int count, const int *slots, const steif_shift *s,
+                     stf_outcome *out);
+
+/* columns.c: right-hand sides as columns of one array, `ld` apart, complex ones interleaved. Calls
+ * `solve` for as many at a time as p->work holds; works in place where the vectors already are. */
+typedef int stf_columns_solve(steif_pencil *p, int slot, int nrhs, double *b, sunindextype ld);
+int stf_columns_open(steif_pencil *p);
+int stf_columns(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im,
+                stf_columns_solve *solve);
+/* All finite? Branch-free, since the answer is yes. */
+bool stf_finite(const double *x, size_t count);
 
 #endif

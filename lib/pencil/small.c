@@ -1,0 +1,173 @@
+/* small.c: Gaussian elimination with partial pivoting for n <= 16 (Golub & Van Loan, Matrix
+ * Computations, 3.4). Each kernel is written once for any n and instantiated with n constant where
+ * that pays, so that its loops unroll.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "small.h"
+#include <float.h>
+#include <math.h>
+
+static inline void swap(double *x, double *y)
+{
+  const double t = *x;
+  *x = *y, *y = t;
+}
+
+static inline int factor(const int n, double *restrict a, int *restrict perm)
+{
+  for (int i = 0; i < n; i++) perm[i] = i;
+  for (int k = 0; k < n; k++) {
+    int p = k;
+    double big = fabs(a[k + n * k]);
+    for (int i = k + 1; i < n; i++)
+      if (fabs(a[i + n * k]) > big) big = fabs(a[i + n * k]), p = i;
+    if (!(big >= DBL_MIN)) return k + 1;
+    if (p != k) {
+      const int t = perm[k];
+      perm[k] = perm[p], perm[p] = t;
+      for (int j = 0; j < n; j++) swap(&a[k + n * j], &a[p + n * j]);
+    }
+    const double r = a[k + n * k] = 1 / a[k + n * k];
+    for (int i = k + 1; i < n; i++) a[i + n * k] *= r;
+    for (int j = k + 1; j < n; j++)
+      for (int i = k + 1; i < n; i++) a[i + n * j] -= a[i + n * k] * a[k + n * j];
+  }
+  return 0;
+}
+
+static inline void solve(const int n, const double *restrict a, const int *restrict perm,
+                         double *restrict b)
+{
+  double x[STF_SMALL];
+  for (int i = 0; i < n; i++) x[i] = b[perm[i]];
+  for (int k = 0; k < n; k++)
+    for (int i = k + 1; i < n; i++) x[i] -= a[i + n * k] * x[k];
+  for (int k = n - 1; k >= 0; k--) {
+    x[k] *= a[k + n * k];
+    for (int i = 0; i < k; i++) x[i] -= a[i + n * k] * x[k];
+  }
+  for (int i = 0; i < n; i++) b[i] = x[i];
+}
+
+/* 1 / (x + i y) without overflow of the squares (Smith, CACM 5, 1962). */
+static inline void invert(double *x, double *y)
+{
+  const double a = *x, b = *y;
+  if (fabs(a) >= fabs(b)) {
+    const double r = b / a, d = 1 / (a + b * r);
+    *x = d, *y = -r * d;
+  } else {
+    const double r = a / b, d = 1 / (b + a * r);
+    *x = r * d, *y = -d;
+  }
+}
+
+/* Column j minus column k times entry (k, j), below row k. */
+static inline void eliminate(const int n, const int k, const int j, double *restrict re,
+                             double *restrict im)
+{
+  const double x = re[k + n * j], y = im[k + n * j];
+  for (int i = k + 1; i < n; i++) {
+    const double u = re[i + n * k], v = im[i + n * k];
+    re[i + n * j] -= u * x - v * y;
+    im[i + n * j] -= u * y + v * x;
+  }
+}
+
+static inline int zpivot(const int n, const int k, const double *re, const double *im)
+{
+  int p = k;
+  double big = 0;
+  for (int i = k; i < n; i++) {
+    const double size = fabs(re[i + n * k]) + fabs(im[i + n * k]);
+    if (size > big) big = size, p = i;
+  }
+  return big >= DBL_MIN ? p : -1;
+}
+
+static inline int zfactor(const int n, double *restrict re, double *restrict im,
+                          int *restrict perm)
+{
+  for (int i = 0; i < n; i++) perm[i] = i;
+  for (int k = 0; k < n; k++) {
+    const int p = zpivot(n, k, re, im);
+    if (p < 0) return k + 1;
+    if (p != k) {
+      const int t = perm[k];
+      perm[k] = perm[p], perm[p] = t;
+      for (int j = 0; j < n; j++)
+        swap(&re[k + n * j], &re[p + n * j]), swap(&im[k + n * j], &im[p + n * j]);
+    }
+    invert(&re[k + n * k], &im[k + n * k]);
+    const double x = re[k + n * k], y = im[k + n * k];
+    for (int i = k + 1; i < n; i++) {
+      const double u = re[i + n * k], v = im[i + n * k];
+      re[i + n * k] = u * x - v * y, im[i + n * k] = u * y + v * x;
+    }
+    for (int j = k + 1; j < n; j++) eliminate(n, k, j, re, im);
+  }
+  return 0;
+}
+
+/* x_i minus entry (i, k) times x_k, for i in from .. to - 1. */
+static inline void zsubtract(const int n, const int k, const int from, const int to,
+                             const double *restrict re, const double *restrict im,
+                             double *restrict x, double *restrict y)
+{
+  const double s = x[k], t = y[k];
+  for (int i = from; i < to; i++) {
+    const double u = re[i + n * k], v = im[i + n * k];
+    x[i] -= u * s - v * t;
+    y[i] -= u * t + v * s;
+  }
+}
+
+static inline void zsolve(const int n, const double *restrict re, const double *restrict im,
+                          const int *restrict perm, double *restrict br, double *restrict bi)
+{
+  double x[STF_SMALL], y[STF_SMALL];
+  for (int i = 0; i < n; i++) x[i] = br[perm[i]], y[i] = bi[perm[i]];
+  for (int k = 0; k < n; k++) zsubtract(n, k, k + 1, n, re, im, x, y);
+  for (int k = n - 1; k >= 0; k--) {
+    const double u = re[k + n * k], v = im[k + n * k], s = x[k], t = y[k];
+    x[k] = u * s - v * t, y[k] = u * t + v * s;
+    zsubtract(n, k, 0, k, re, im, x, y);
+  }
+  for (int i = 0; i < n; i++) br[i] = x[i], bi[i] = y[i];
+}
+
+#define OF_EACH_SIZE(result, kernel, ...)                                                      \
+  switch (n) {                                                                                 \
+  case 1: result kernel(1, __VA_ARGS__); break;                                                \
+  case 2: result kernel(2, __VA_ARGS__); break;                                                \
+  case 3: result kernel(3, __VA_ARGS__); break;                                                \
+  case 4: result kernel(4, __VA_ARGS__); break;                                                \
+  case 5: result kernel(5, __VA_ARGS__); break;                                                \
+  case 6: result kernel(6, __VA_ARGS__); break;                                                \
+  case 8: result kernel(8, __VA_ARGS__); break;                                                \
+  default: result kernel(n, __VA_ARGS__);                                                      \
+  }
+
+int stf_small_factor(int n, double *a, int *perm)
+{
+  int info;
+  OF_EACH_SIZE(info =, factor, a, perm)
+  return info;
+}
+
+int stf_small_zfactor(int n, double *re, double *im, int *perm)
+{
+  int info;
+  OF_EACH_SIZE(info =, zfactor, re, im, perm)
+  return info;
+}
+
+void stf_small_solve(int n, const double *lu, const int *perm, double *b)
+{
+  OF_EACH_SIZE((void), solve, lu, perm, b)
+}
+
+void stf_small_zsolve(int n, const double *re, const double *im, const int *perm, double *br,
+                      double *bi)
+{
+  OF_EACH_SIZE((void), zsolve, re, im, perm, br, bi)
+}

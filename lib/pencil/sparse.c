@@ -1,0 +1,235 @@
+/* sparse.c: sparse pencils through KLU (T. A. Davis & E. Palamadai Natarajan, ACM TOMS 37 (3),
+ * 2010): one symbolic analysis (AMD ordering, block triangular form) for all shifts, real and
+ * complex; new values are refactored with the pivots in use while these stay good.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "pattern.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+/* The backward error of an LU is about STF_EPS over the reciprocal pivot growth. Pivots in use
+ * are kept down to this growth, that is 11 digits, or while no more than SLACK worse than those
+ * that pivoting itself found. */
+#define GROWTH 1e-5
+#define SLACK 1e-2
+
+typedef struct factors {
+  klu_l_common common; /* one to a slot: slots are factored side by side */
+  klu_l_numeric *numeric;
+  bool complex;  /* the arithmetic of numeric */
+  bool wide;     /* room for complex values */
+  double growth; /* reciprocal, at the last factorisation with pivoting */
+  double *value;
+} factors;
+
+typedef struct sparse {
+  stf_pattern pattern;
+  klu_l_common common;
+  klu_l_symbolic *symbolic;
+  factors *slot[STEIF_PENCIL_SLOTS];
+} sparse;
+
+static void defaults(klu_l_common *c)
+{
+  klu_l_defaults(c);
+  c->btf = 1;
+  c->ordering = 0; /* AMD */
+}
+
+static int start(steif_pencil *p)
+{
+  sparse *s = p->state;
+  defaults(&s->common);
+  return stf_columns_open(p);
+}
+
+static void drop(factors *f)
+{
+  (f->complex ? klu_zl_free_numeric : klu_l_free_numeric)(&f->numeric, &f->common);
+}
+
+/* Forget what depends on the pattern. */
+static void forget(steif_pencil *p)
+{
+  sparse *s = p->state;
+  for (int k = 0; k < STEIF_PENCIL_SLOTS; k++) {
+    if (!s->slot[k]) continue;
+    drop(s->slot[k]);
+    stf_release(p->ctx, s->slot[k]->value);
+    stf_release(p->ctx, s->slot[k]);
+    s->slot[k] = NULL;
+  }
+  klu_l_free_symbolic(&s->symbolic, &s->common);
+  stf_pattern_free(p, &s->pattern);
+}
+
+static int analyse(steif_pencil *p)
+{
+  sparse *s = p->state;
+  stf_pattern *u = &s->pattern;
+  forget(p);
+  STEIF_TRY(stf_pattern_build(p, u));
+  s->symbolic = klu_l_analyze(u->n, u->ptr, u->row, &s->common);
+  const long long n = u->n, nnz = u->nnz;
+  STEIF_CHECK(s->symbolic || s->common.status == KLU_INVALID, p->ctx, STEIF_NO_MEMORY,
+              "no memory to analyse a pattern of %lld unknowns and %lld entries; make the "
+              "problem smaller",
+              n, nnz);
+  STEIF_CHECK(
+    s->symbolic, p->ctx, STEIF_BAD_INPUT,
+    "KLU refused the pattern of %lld unknowns and %lld entries: check the index arrays", n,
+    nnz);
+  p->stats.analyses++;
+  return STEIF_OK;
+}
+
+static int check(steif_pencil *p, const char *name, SUNMatrix M)
+{
+  const sunindextype *ptr = SM_INDEXPTRS_S(M);
+  const double *x = SM_DATA_S(M);
+  if (stf_finite(x, (size_t)ptr[p->n])) return STEIF_OK;
+  sunindextype k = 0, j = 0;
+  while (stf_finite(x + k, 1)) k++;
+  while (ptr[j + 1] <= k) j++;
+  return STEIF_FAIL(p->ctx, STEIF_NOT_FINITE,
+                    "%s[%lld,%lld] (from 0) is %g: look at the function that fills %s", name,
+                    (long long)SM_INDEXVALS_S(M)[k], (long long)j, x[k], name);
+}
+
+static int update(steif_pencil *p)
+{
+  sparse *s = p->state;
+  if (!s->symbolic || !stf_pattern_same(p, &s->pattern)) {
+    const int code = analyse(p);
+    if (code) forget(p);
+    STEIF_TRY(code);
+  }
+  if (p->E) STEIF_TRY(check(p, "E", p->E));
+  return check(p, "A", p->A);
+}
+
+static int prepare(steif_pencil *p, int slot, steif_shift shift)
+{
+  sparse *s = p->state;
+  factors *f = s->slot[slot];
+  const size_t nnz = (size_t)s->pattern.nnz;
+  const bool wide = stf_complex(shift);
+  if (!f) {
+    if (!(f = s->slot[slot] = stf_allocate(p->ctx, 1, sizeof *f))) return STEIF_NO_MEMORY;
+    defaults(&f->common);
+  }
+  if (f->value && (f->wide || !wide)) return STEIF_OK;
+  stf_release(p->ctx, f->value);
+  f->value = stf_allocate(p->ctx, nnz, (wide ? 2 : 1) * sizeof(double));
+  f->wide = wide;
+  return f->value ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+static double growth(sparse *s, factors *f)
+{
+  stf_pattern *u = &s->pattern;
+  const SuiteSparse_long good = (f->complex ? klu_zl_rgrowth : klu_l_rgrowth)(
+    u->ptr, u->row, f->value, s->symbolic, f->numeric, &f->common);
+  return good ? f->common.rgrowth : 0;
+}
+
+/* New values with the old pivots; false when these have become bad. */
+static bool refactor(sparse *s, factors *f)
+{
+  stf_pattern *u = &s->pattern;
+  const SuiteSparse_long good = (f->complex ? klu_zl_refactor : klu_l_refactor)(
+    u->ptr, u->row, f->value, s->symbolic, f->numeric, &f->common);
+  if (!good || f->common.status != KLU_OK) return false;
+  return growth(s, f) >= fmin(GROWTH, SLACK * f->growth);
+}
+
+static void judge(const sparse *s, const factors *f, stf_outcome *out)
+{
+  switch (f->common.status) {
+  case KLU_OUT_OF_MEMORY:
+  case KLU_TOO_LARGE: out->code = STEIF_NO_MEMORY; break;
+  case KLU_SINGULAR: out->code = STEIF_SINGULAR; break;
+  default: out->code = STEIF_BAD_INPUT;
+  }
+  out->column = (sunindextype)f->common.singular_col;
+  if (s->symbolic->structural_rank < s->symbolic->n)
+    out->rank = (sunindextype)s->symbolic->structural_rank;
+}
+
+static void full(sparse *s, factors *f, stf_outcome *out)
+{
+  stf_pattern *u = &s->pattern;
+  f->numeric = (f->complex ? klu_zl_factor : klu_l_factor)(u->ptr, u->row, f->value,
+                                                           s->symbolic, &f->common);
+  out->factors = 1;
+  if (!f->numeric || f->common.status != KLU_OK) {
+    judge(s, f, out);
+    drop(f);
+  } else
+    f->growth = growth(s, f);
+}
+
+static void factor(steif_pencil *p, int slot, steif_shift shift, stf_outcome *out)
+{
+  sparse *s = p->state;
+  factors *f = s->slot[slot];
+  const bool complex = stf_complex(shift);
+  stf_pattern_assemble(p, &s->pattern, shift, f->value);
+  if (!stf_finite(f->value, (size_t)s->pattern.nnz * (complex ? 2 : 1))) {
+    out->code = STEIF_NOT_FINITE;
+    return;
+  }
+  if (f->numeric && f->complex != complex) drop(f);
+  f->complex = complex;
+  if (f->numeric && refactor(s, f))
+    out->refactors = 1;
+  else {
+    out->fallbacks = f->numeric != NULL;
+    drop(f);
+    full(s, f, out);
+  }
+  if (f->numeric)
+    out->fill = f->numeric->lnz + f->numeric->unz - s->pattern.n + f->numeric->nzoff;
+}
+
+static int columns(steif_pencil *p, int slot, int nrhs, double *b, sunindextype ld)
+{
+  sparse *s = p->state;
+  factors *f = s->slot[slot];
+  (f->complex ? klu_zl_solve : klu_l_solve)(s->symbolic, f->numeric, ld, nrhs, b, &f->common);
+  return STEIF_OK;
+}
+
+static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im)
+{
+  return stf_columns(p, slot, nrhs, re, im, columns);
+}
+
+static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
+{
+  SUNMatrix M = which == 'E' ? p->E : p->A;
+  const sunindextype *restrict ptr = SM_INDEXPTRS_S(M), *restrict row = SM_INDEXVALS_S(M);
+  const double *restrict value = SM_DATA_S(M), *restrict from = stf_array(x);
+  double *restrict to = stf_array(out);
+  memset(to, 0, (size_t)p->n * sizeof *to);
+  for (sunindextype j = 0; j < p->n; j++)
+    for (sunindextype k = ptr[j]; k < ptr[j + 1]; k++) to[row[k]] += value[k] * from[j];
+  return STEIF_OK;
+}
+
+static void finish(steif_pencil *p) { forget(p); }
+
+const stf_backend stf_backend_sparse = {
+  .name = "KLU",
+  .size = sizeof(sparse),
+  .crowd = 2000,
+  .matrices = true,
+  .open = start,
+  .update = update,
+  .prepare = prepare,
+  .factor = factor,
+  .solve = solve,
+  .product = product,
+  .close = finish,
+};
