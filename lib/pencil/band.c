@@ -47,8 +47,8 @@ static int check(steif_pencil *p, const char *name, SUNMatrix M)
     sunindextype i, to;
     rows(M, j, &i, &to);
     const double *c = SM_COLUMN_B(M, j) - j;
-    if (stf_finite(c + i, (size_t)(to - i + 1))) continue;
-    while (stf_finite(c + i, 1)) i++;
+    if (stf_all_finite(c + i, (size_t)(to - i + 1))) continue;
+    while (stf_all_finite(c + i, 1)) i++;
     return STEIF_FAIL(p->ctx, STEIF_NOT_FINITE,
                       "%s[%lld,%lld] (from 0) is %g: look at the function that fills %s", name,
                       (long long)i, (long long)j, c[i], name);
@@ -106,7 +106,7 @@ static void factor(steif_pencil *p, int slot, steif_shift s, stf_outcome *out)
   const bool complex = stf_complex(s);
   int info;
   assemble(p, s, f->ab);
-  if (!stf_finite(f->ab, (size_t)n * (size_t)b->ld * (complex ? 2 : 1))) {
+  if (!stf_all_finite(f->ab, (size_t)n * (size_t)b->ld * (complex ? 2 : 1))) {
     out->code = STEIF_NOT_FINITE;
     return;
   }

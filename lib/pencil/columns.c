@@ -10,7 +10,7 @@ int stf_columns_open(steif_pencil *p)
   return p->work ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-bool stf_finite(const double *x, size_t count)
+bool stf_all_finite(const double *x, size_t count)
 {
   double sum[4] = {0}; /* of x - x: 0, or NaN */
   size_t i = 0;

@@ -31,9 +31,9 @@ static int check(steif_pencil *p, const char *name, SUNMatrix M)
 {
   for (sunindextype j = 0; j < p->n; j++) {
     const double *c = SM_COLUMN_D(M, j);
-    if (stf_finite(c, (size_t)p->n)) continue;
+    if (stf_all_finite(c, (size_t)p->n)) continue;
     sunindextype i = 0;
-    while (stf_finite(c + i, 1)) i++;
+    while (stf_all_finite(c + i, 1)) i++;
     return STEIF_FAIL(p->ctx, STEIF_NOT_FINITE,
                       "%s[%lld,%lld] (from 0) is %g: look at the function that fills %s", name,
                       (long long)i, (long long)j, c[i], name);
@@ -117,7 +117,7 @@ static void factor(steif_pencil *p, int slot, steif_shift s, stf_outcome *out)
   const bool complex = stf_complex(s);
   int info;
   assemble(p, s, f->a);
-  if (!stf_finite(f->a, (size_t)n * (size_t)n * (complex ? 2 : 1))) {
+  if (!stf_all_finite(f->a, (size_t)n * (size_t)n * (complex ? 2 : 1))) {
     out->code = STEIF_NOT_FINITE;
     return;
   }

@@ -79,6 +79,6 @@ int stf_columns_open(steif_pencil *p);
 int stf_columns(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im,
                 stf_columns_solve *solve);
 /* All finite? Branch-free, since the answer is yes. */
-bool stf_finite(const double *x, size_t count);
+bool stf_all_finite(const double *x, size_t count);
 
 #endif

@@ -88,9 +88,9 @@ static int check(steif_pencil *p, const char *name, SUNMatrix M)
 {
   const sunindextype *ptr = SM_INDEXPTRS_S(M);
   const double *x = SM_DATA_S(M);
-  if (stf_finite(x, (size_t)ptr[p->n])) return STEIF_OK;
+  if (stf_all_finite(x, (size_t)ptr[p->n])) return STEIF_OK;
   sunindextype k = 0, j = 0;
-  while (stf_finite(x + k, 1)) k++;
+  while (stf_all_finite(x + k, 1)) k++;
   while (ptr[j + 1] <= k) j++;
   return STEIF_FAIL(p->ctx, STEIF_NOT_FINITE,
                     "%s[%lld,%lld] (from 0) is %g: look at the function that fills %s", name,
@@ -176,7 +176,7 @@ static void factor(steif_pencil *p, int slot, steif_shift shift, stf_outcome *ou
   factors *f = s->slot[slot];
   const bool complex = stf_complex(shift);
   stf_pattern_assemble(p, &s->pattern, shift, f->value);
-  if (!stf_finite(f->value, (size_t)s->pattern.nnz * (complex ? 2 : 1))) {
+  if (!stf_all_finite(f->value, (size_t)s->pattern.nnz * (complex ? 2 : 1))) {
     out->code = STEIF_NOT_FINITE;
     return;
   }
