@@ -1,0 +1,178 @@
+/* weak.c: does a method converge weakly on an index-k block? Runs with steps h, h/2, ... are read
+ * as functions, paired with the test function and compared with the exact distribution.
+ * S. L. Campbell, Distributional convergence of BDF approximations (1988).
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "descriptor.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Verdicts. An order within FLAT of zero means a limit other than the exact value; two orders
+ * further than SETTLED apart mean nothing yet; below ROUNDING eps sum |x_i| w_i an error is
+ * rounding (the values of a layer carry a few eps each). */
+#define FLAT 0.3
+#define SETTLED 0.5
+#define ROUNDING 16
+enum { MOST_STEPS = 1 << 26 };
+
+typedef struct measure {
+  steif_context *ctx;
+  const steif_weak_query *query;
+  steif_problem problem;
+  stf_block block;
+  sunrealtype *floor; /* rounding level of each row */
+  bool cq;
+} measure;
+
+static int check(steif_context *ctx, const steif_weak_query *q)
+{
+  STEIF_CHECK(q->method, ctx, STEIF_BAD_INPUT, "no method was named: give one such as \"be\"");
+  STEIF_CHECK(q->convention >= STEIF_P && q->convention <= STEIF_STAGE, ctx, STEIF_BAD_INPUT,
+              "convention %d is none of P, R, C and stage", (int)q->convention);
+  STEIF_CHECK(q->rows >= 1, ctx, STEIF_BAD_INPUT, "no rows were asked for: two or more decide");
+  STEIF_CHECK(q->h > 0 && q->h <= 1, ctx, STEIF_BAD_INPUT,
+              "the step h = %g must lie in (0, 1], the support of the test function", q->h);
+  const sunrealtype n = 1 / q->h;
+  STEIF_CHECK(fabs(n - round(n)) <= 1e-9 * n, ctx, STEIF_BAD_INPUT,
+              "1/h = %.10g is not a whole number: the steps must fill [0, 1]; take h = %.10g",
+              n, 1 / fmax(1, round(n)));
+  STEIF_CHECK(ldexp(round(n), (int)fmin((double)q->rows, 64) - 1) <= MOST_STEPS, ctx,
+              STEIF_BAD_INPUT,
+              "%zu rows from h = %g would take more than %d steps: ask for fewer rows", q->rows,
+              q->h, (int)MOST_STEPS);
+  return STEIF_OK;
+}
+
+/* One row. A run that starts from x(0-) has not produced that value: the comb leaves it out, where
+ * convolution quadrature solves at t = 0 already. */
+static int run(measure *w, stf_trace *trace, sunrealtype *value, sunrealtype *size)
+{
+  const steif_weak_query *q = w->query;
+  const sunrealtype h = 1 / (sunrealtype)trace->steps;
+  STEIF_TRY(stf_trace_run(w->ctx, &w->problem, q->method, q->start, h, trace));
+  if (q->convention == STEIF_STAGE) {
+    *value = (sunrealtype)trace->stage;
+    *size = (sunrealtype)trace->stage_size;
+    return STEIF_OK;
+  }
+  if (q->convention == STEIF_C && !w->cq) trace->x[0] = 0;
+  *value = stf_pair_sized(q->convention, trace->steps, trace->t, trace->x, size);
+  return STEIF_OK;
+}
+
+static int fill_row(measure *w, size_t i, sunrealtype exact, steif_weak_row *row)
+{
+  const size_t steps = (size_t)llround(1 / w->query->h) << i;
+  stf_trace trace = {.first = w->query->component,
+                     .count = 1,
+                     .steps = steps,
+                     .stages = w->query->convention == STEIF_STAGE};
+  sunrealtype value = 0, size = 0;
+  int code = STEIF_NO_MEMORY;
+  trace.t = stf_allocate(w->ctx, steps + 1, sizeof *trace.t);
+  trace.x = stf_allocate(w->ctx, steps + 1, sizeof *trace.x);
+  if (trace.t && trace.x) code = run(w, &trace, &value, &size);
+  stf_release(w->ctx, trace.t);
+  stf_release(w->ctx, trace.x);
+  STEIF_TRY(code);
+  row[i] = (steif_weak_row){1 / (sunrealtype)steps, value, value - exact, NAN};
+  if (i > 0) row[i].order = log2(fabs(row[i - 1].error / row[i].error));
+  w->floor[i] = ROUNDING * STF_EPS * (size + fabs(exact));
+  return STEIF_OK;
+}
+
+/* The limit of the errors from the last three rows (Aitken) or two (first order). */
+static sunrealtype limit(const steif_weak_row *row, size_t rows)
+{
+  const sunrealtype c = row[rows - 1].error, b = row[rows - 2].error;
+  const sunrealtype a = rows > 2 ? row[rows - 3].error : 0, bend = (c - b) - (b - a);
+  const bool regular = rows > 2 && fabs(c - b) < 0.9 * fabs(b - a);
+  return regular ? c - (c - b) * (c - b) / bend : 2 * c - b;
+}
+
+/* Judge the leading `rows` rows, whose errors are above rounding. */
+static void judge(const steif_weak_row *row, size_t rows, steif_weak_result *result)
+{
+  const sunrealtype last = row[rows - 1].order, before = rows > 2 ? row[rows - 2].order : last;
+  char *text = result->verdict;
+  const size_t room = sizeof result->verdict;
+  result->converges = 0;
+  if (fabs(last) <= FLAT && fabs(last - before) <= SETTLED)
+    snprintf(text, room, "does not converge weakly: error tends to %.3g", limit(row, rows));
+  else if (!(fabs(last - before) <= SETTLED)) {
+    result->converges = -1;
+    snprintf(text, room,
+             "undecided: the observed orders %.2f and %.2f differ; ask for more rows", before,
+             last);
+  } else if (last < 0)
+    snprintf(text, room, "does not converge weakly: error grows like h^%.1f", last);
+  else {
+    result->converges = 1;
+    snprintf(text, room, "converges weakly, order %.2f", last);
+  }
+}
+
+static void conclude(const sunrealtype *level, const steif_weak_row *row, size_t rows,
+                     steif_weak_result *result)
+{
+  size_t above = 0;
+  while (above < rows && fabs(row[above].error) > level[above]) above++;
+  char *text = result->verdict;
+  const size_t room = sizeof result->verdict;
+  result->converges = -1;
+  if (rows < 2)
+    snprintf(text, room, "undecided: one row shows no order; ask for two or more");
+  else if (above == 0) {
+    result->converges = 1;
+    snprintf(text, room, "exact for every h (to rounding)");
+  } else if (above == 1) {
+    result->converges = 1;
+    snprintf(text, room, "converges weakly, below rounding from h = %.3g", row[1].h);
+  } else
+    judge(row, above, result);
+}
+
+/* E_1 belongs to backward Euler started from x(0-). */
+static int first_order(measure *w, sunrealtype *value)
+{
+  const steif_weak_query *q = w->query;
+  steif_spec spec;
+  *value = NAN;
+  STEIF_TRY(steif_spec_parse(w->ctx, q->method, &spec));
+  const char *p = stf_spec_word(&spec, "p");
+  const bool euler =
+    !strcmp(spec.name, "be") || (!strcmp(spec.name, "bdf") && p && !strcmp(p, "1"));
+  if (!euler || w->cq || (q->convention != STEIF_P && q->convention != STEIF_R))
+    return STEIF_OK;
+  return stf_block_first(&w->block, q->component, q->convention, value);
+}
+
+static int measure_rows(measure *w, steif_weak_row *row, steif_weak_result *result)
+{
+  const steif_weak_query *q = w->query;
+  STEIF_CHECK(q->component >= 0 && q->component < w->block.k, w->ctx, STEIF_BAD_INPUT,
+              "component %d is not one of the %d components 0 .. %d of '%s'", q->component,
+              w->block.k, w->block.k - 1, q->problem);
+  STEIF_TRY(stf_block_pair(&w->block, q->component, 0, &result->exact));
+  STEIF_TRY(first_order(w, &result->first));
+  for (size_t i = 0; i < q->rows; i++) STEIF_TRY(fill_row(w, i, result->exact, row));
+  conclude(w->floor, row, q->rows, result);
+  return STEIF_OK;
+}
+
+int steif_weak_measure(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,
+                       steif_weak_result *result)
+{
+  *result = (steif_weak_result){.first = NAN, .exact = NAN, .converges = -1};
+  STEIF_TRY(check(ctx, query));
+  measure w = {.ctx = ctx, .query = query};
+  w.cq = stf_trace_is_cq(ctx, query->method, query->start);
+  STEIF_TRY(stf_jordan_open(ctx, query->problem, &w.problem, &w.block));
+  w.floor = stf_allocate(ctx, query->rows, sizeof *w.floor);
+  const int code = w.floor ? measure_rows(&w, row, result) : STEIF_NO_MEMORY;
+  stf_release(ctx, w.floor);
+  stf_block_close(&w.block);
+  steif_problem_clear(ctx, &w.problem);
+  return code;
+}
