@@ -135,7 +135,7 @@ sunrealtype stf_max(const stf_space *space, N_Vector x)
   sunrealtype most = 0;
   for (sunindextype i = 0; i < space->n; i++) {
     const sunrealtype p = fabs(a[i]);
-    if (!(p <= most)) most = p;
+    if (p > most || isnan(p)) most = p; /* once NaN, no p is larger */
   }
   return most;
 }
