@@ -147,6 +147,7 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
 {
   sunrealtype norm, last = 0, theta = 0;
   newton->theta = 0;
+  newton->eta = sqrt(newton->eta * sqrt(newton->eta)); /* eta^(3/4): trust the last step a little less */
   for (int m = 1;; m++) {
     STEIF_TRY(sweep(newton, g, &norm));
     newton->count = m;
@@ -165,6 +166,14 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
   }
   if (theta > newton->stale) newton->wanted = true;
   return STEIF_OK;
+}
+
+void stf_newton_single(stf_newton *newton, sunrealtype b)
+{
+  if (newton->split.re[0] == b) return;
+  newton->split.re[0] = b;
+  *(sunrealtype *)newton->split.B = b;
+  newton->factored = false;
 }
 
 bool stf_newton_stale(const stf_newton *newton) { return newton->wanted; }

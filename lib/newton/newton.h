@@ -49,6 +49,9 @@ int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split, 
 /* A split with one lane for the 1 x 1 matrix b. */
 int stf_split_single(stf_pool *pool, sunrealtype b, stf_split *split);
 
+/* Another b for such a split: the next prepare factors anew. */
+void stf_newton_single(stf_newton *newton, sunrealtype b);
+
 /* Factors for step h with the pencil as it is; `jacobian` first renews E and A at (t, y, yp). */
 int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vector y, N_Vector yp,
                        bool jacobian);

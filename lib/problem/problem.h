@@ -32,6 +32,7 @@ typedef struct stf_system {
   N_Vector at_y, at_yp, at_f;  /* point of the last linearisation (operators only) */
   sunrealtype at_t;
   bool filled;
+  sunrealtype weight;          /* of g in the residual of the descriptor form, 1 */
   long nfe, nje;
 } stf_system;
 

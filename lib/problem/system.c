@@ -44,7 +44,7 @@ static int descriptor_residual(stf_system *s, sunrealtype t, N_Vector y, N_Vecto
   if (!p->g) return STEIF_OK;
   s->nfe++;
   STEIF_TRY(callback(s, p->g(t, 0, s->work[0], p->user), "g", t));
-  stf_axpy(&s->space, -1, s->work[0], r);
+  stf_axpy(&s->space, -s->weight, s->work[0], r);
   return STEIF_OK;
 }
 
@@ -262,7 +262,7 @@ int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *pro
 {
   *s = (stf_system){.ctx = ctx, .problem = problem, .form = form, .storage = storage};
   s->linear = problem->linear || form == STEIF_DESCRIPTOR;
-  s->scale = scale;
+  s->scale = scale, s->weight = 1;
   stf_space_open(&s->space, y);
   for (int i = 0; i < 6; i++)
     if (!(s->work[i] = stf_claim_vector(pool, y))) return STEIF_NO_MEMORY;

@@ -1,0 +1,155 @@
+/* control.c: one accepted step: given, or chosen by the error estimate.
+ *
+ * Chosen steps follow h_new = 0.9 h (tolerance / error)^(1/(q+1)), with Gustafsson's prediction from
+ * two errors (Hairer and Wanner II, IV.8), factors within [1/8, 5], and no change for 1 .. 1.2 so
+ * that factors are kept.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "march.h"
+#include <math.h>
+
+static const sunrealtype safety = 0.9, shrink_most = 0.125, grow_most = 5, keep_up_to = 1.2;
+enum { REFUSALS = 40 };  /* refused attempts in one step before the run stops */
+
+static void renew_weights(steif_solver *s, sunrealtype h)
+{
+  stf_step *step = &s->step;
+  const steif_options *o = &s->options;
+  const sunrealtype rtol = step->adaptive ? o->rtol : 1e-10;
+  const sunrealtype atol = step->adaptive ? o->atol : 1e-10 * step->system.scale;
+  stf_weights(&step->system.space, rtol, atol, step->adaptive ? s->atols : NULL, step->y,
+              step->weights);
+  sunrealtype *w = s->problem->index ? N_VGetArrayPointer(step->weights) : NULL;
+  for (sunindextype i = 0; w && i < s->problem->n; i++)
+    for (int level = s->problem->index[i]; level > 1; level--) w[i] *= h;
+}
+
+/* The trial becomes the solution. */
+static void accept(steif_solver *s, sunrealtype h, sunrealtype t)
+{
+  stf_step *step = &s->step;
+  step->h_try = h;
+  step->method->commit(step);
+  step->h = h, step->t = t, step->count++;
+  step->newton.fresh = false, step->restart = false;
+}
+
+/* What a refused attempt with a given step means for the run. */
+static int give_up(steif_solver *s, int code)
+{
+  return code > 0 ? steif_status(s->ctx) : code;
+}
+
+static int given(steif_solver *s)
+{
+  stf_step *step = &s->step;
+  const steif_options *o = &s->options;
+  const bool mesh = o->mesh != NULL;
+  const sunrealtype t = mesh ? o->mesh[s->mesh_at + 1]
+                             : s->t1 - (sunrealtype)(s->total - step->count - 1) * step->h_equal;
+  const sunrealtype h = mesh ? t - step->t : step->h_equal;
+  renew_weights(s, h);
+  const int code = step->method->attempt(step, h);
+  if (code) return give_up(s, code);
+  accept(s, h, t);
+  s->mesh_at++;
+  return STEIF_OK;
+}
+
+static sunrealtype clamp(sunrealtype x, sunrealtype low, sunrealtype high)
+{
+  return x < low ? low : x > high ? high : x;
+}
+
+/* Length of the next step after an accepted one with relative error e (1 is the limit). */
+static sunrealtype grown(const steif_solver *s, sunrealtype h, sunrealtype e)
+{
+  const sunrealtype power = 1 / (s->step.error_order + 1.0);
+  sunrealtype factor = safety * pow(fmax(e, 1e-10), -power);
+  if (s->step.count > 1 && s->h_old > 0)
+    factor = fmin(factor, safety * h / s->h_old * pow(fmax(s->error_old, 1e-2) / (e * e + 1e-20), power));
+  factor = clamp(factor, shrink_most, s->after_reject ? 1 : grow_most);
+  return factor >= 1 && factor <= keep_up_to ? h : h * factor;
+}
+
+/* Fill the way to t_stop without a sliver at its end. */
+static sunrealtype fitted(sunrealtype h, sunrealtype left)
+{
+  return h >= left * (1 - 1e-12) ? left : h > left / 2 ? left / 2 : h;
+}
+
+static int refused(steif_solver *s, int code, sunrealtype *h, int tries)
+{
+  s->rejected++;
+  s->after_reject = true;
+  if (code < 0 && code != STEIF_SINGULAR) return code;
+  if (tries >= REFUSALS) return give_up(s, code);
+  *h *= tries < 2 ? 0.5 : 0.25;
+  const stf_step *step = &s->step;
+  const sunrealtype least = 10 * STF_EPS * fmax(fabs(step->t), fabs(s->t1 - step->t0) * 1e-16);
+  return *h > least ? STEIF_OK : give_up(s, code);
+}
+
+static int chosen(steif_solver *s, sunrealtype t_stop)
+{
+  stf_step *step = &s->step;
+  sunrealtype h = s->h_next;
+  for (int tries = 0;; tries++) {
+    const sunrealtype left = t_stop - step->t;
+    if (s->options.h_max > 0) h = fmin(h, s->options.h_max);
+    h = fitted(h, left);
+    STEIF_CHECK(h > 4 * STF_EPS * fabs(step->t), s->ctx, STEIF_STEP_SIZE,
+                "the step of problem '%s' became %.3g at t = %.12g, too small for the clock: "
+                "loosen the tolerance or look for a singularity there", s->problem->name, h, step->t);
+    renew_weights(s, h);
+    const int code = step->method->attempt(step, h);
+    if (code) {
+      STEIF_TRY(refused(s, code, &h, tries));
+      continue;
+    }
+    const sunrealtype e = stf_norm(&step->system.space, step->error, step->weights) /
+                          step->error_tolerance;
+    if (e <= 1) {
+      accept(s, h, h == left ? t_stop : step->t + h);
+      s->h_next = grown(s, h, e);
+      s->h_old = h, s->error_old = e, s->after_reject = false;
+      return STEIF_OK;
+    }
+    s->rejected++, s->after_reject = true;
+    const sunrealtype power = 1 / (step->error_order + 1.0);
+    h *= isfinite(e) ? clamp(safety * pow(e, -power), shrink_most, 0.9) : shrink_most;
+    STEIF_CHECK(tries < REFUSALS, s->ctx, STEIF_STEP_SIZE,
+                "the error test of problem '%s' failed %d times at t = %.12g, last with h = %.3g and "
+                "%.3g times the tolerance", s->problem->name, tries, step->t, h, e);
+  }
+}
+
+int stf_advance(steif_solver *s, sunrealtype t_stop)
+{
+  const steif_problem *p = s->problem;
+  stf_step *step = &s->step;
+  STEIF_CHECK(step->count < s->options.max_steps, s->ctx, STEIF_STEP_LIMIT,
+              "%ld steps made at t = %.12g of problem '%s', the limit: raise max_steps or loosen the "
+              "tolerance", step->count, step->t, p->name);
+  if (!step->adaptive) return given(s);
+  while (s->next_break < p->break_count && p->breaks[s->next_break] <= step->t) s->next_break++;
+  const bool breaks = s->next_break < p->break_count && p->breaks[s->next_break] < t_stop;
+  STEIF_TRY(chosen(s, breaks ? p->breaks[s->next_break] : t_stop));
+  if (breaks && step->t == p->breaks[s->next_break]) {
+    step->restart = true, step->newton.wanted = true;
+    s->h_next = fmin(s->h_next, stf_first_step(s));
+    s->h_old = 0;
+  }
+  return STEIF_OK;
+}
+
+sunrealtype stf_first_step(const steif_solver *s)
+{
+  const stf_step *step = &s->step;
+  const sunrealtype span = s->t1 - step->t;
+  if (s->options.h0 > 0) return fmin(s->options.h0, span);
+  const sunrealtype size = stf_norm(&step->system.space, step->y, step->weights);
+  const sunrealtype slope = stf_norm(&step->system.space, step->yp, step->weights);
+  const sunrealtype h = slope > 0 && step->yp_known ? 0.01 * size / slope : 1e-6 * span;
+  return clamp(h, 1e-14 * span, 1e-3 * span);
+}

@@ -1,0 +1,40 @@
+/* march.h: the march room inside: the solver object, step control and the list of methods.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_MARCH_H
+#define STF_MARCH_H
+
+#include "engine.h"
+#include "method.h"
+#include <steif/solver.h>
+
+struct steif_solver {
+  steif_context *ctx;
+  stf_pool *pool;
+  const steif_problem *problem;
+  steif_options options;        /* complete */
+  sunrealtype t1;
+  N_Vector serial, shown, dense, atols; /* serial: our own prototype vector, if none was given */
+  sunrealtype t_shown;
+  stf_step step;                /* a method of ours ... */
+  const steif_engine *engine;   /* ... or a baseline */
+  void *engine_state;
+  stf_run run;
+  long total, rejected;         /* equal steps in all; refused attempts */
+  size_t mesh_at;
+  int next_break;
+  sunrealtype h_next, h_old, error_old; /* chosen steps */
+  bool after_reject, failed;
+  int failure;
+  sunrealtype cpu_s;
+  steif_stats stats;
+};
+
+/* One accepted step of a method of ours, not beyond t_stop when steps are chosen. */
+int stf_advance(steif_solver *s, sunrealtype t_stop);
+
+/* First length of a chosen step. */
+sunrealtype stf_first_step(const steif_solver *s);
+
+const steif_engine *stf_engine_find(const char *name);
+
+#endif

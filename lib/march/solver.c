@@ -1,0 +1,343 @@
+/* solver.c: the solver object: make it from a problem, a spec and options; step; show.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "march.h"
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+steif_options steif_defaults(void)
+{
+  return (steif_options){.rtol = 1e-6, .max_steps = 1000000};
+}
+
+const steif_engine *stf_engine_find(const char *name)
+{
+  for (size_t i = 0; i < stf_engine_count; i++)
+    if (!strcmp(stf_engine_shelf[i].name, name)) return stf_engine_shelf[i].item;
+  return NULL;
+}
+
+/* -- options --------------------------------------------------------------------------------- */
+
+static int check_mesh(steif_context *ctx, const steif_options *o, sunrealtype t0)
+{
+  STEIF_CHECK(o->mesh_size >= 2, ctx, STEIF_BAD_INPUT, "a mesh needs at least 2 times, got %zu",
+              o->mesh_size);
+  STEIF_CHECK(o->mesh[0] == t0, ctx, STEIF_BAD_INPUT,
+              "the mesh begins at %.17g, the problem at %.17g", o->mesh[0], t0);
+  for (size_t i = 1; i < o->mesh_size; i++)
+    STEIF_CHECK(isfinite(o->mesh[i]) && o->mesh[i] > o->mesh[i - 1], ctx, STEIF_BAD_INPUT,
+                "mesh times must ascend: number %zu is %.17g after %.17g", i, o->mesh[i],
+                o->mesh[i - 1]);
+  return STEIF_OK;
+}
+
+static int check_options(steif_context *ctx, const steif_problem *p, steif_options *o)
+{
+  const sunrealtype t1 = o->mesh && o->mesh_size ? o->mesh[o->mesh_size - 1] : o->t1;
+  if (o->rtol == 0) o->rtol = 1e-6;
+  if (o->atol == 0) o->atol = o->rtol * (p->rtol_scale > 0 ? p->rtol_scale : 1);
+  if (o->max_steps == 0) o->max_steps = steif_defaults().max_steps;
+  o->t1 = t1 != 0 ? t1 : p->t1;
+  STEIF_CHECK(o->rtol > 0 && o->rtol < 1, ctx, STEIF_BAD_INPUT,
+              "rtol = %g must lie between 0 and 1", o->rtol);
+  STEIF_CHECK(o->rtol >= 1e-14, ctx, STEIF_BAD_INPUT,
+              "rtol = %g asks for more than double precision has: use 1e-14 or more", o->rtol);
+  STEIF_CHECK(o->atol > 0 && isfinite(o->atol), ctx, STEIF_BAD_INPUT,
+              "atol = %g must be positive and finite", o->atol);
+  for (sunindextype i = 0; o->atols && i < p->n; i++)
+    STEIF_CHECK(o->atols[i] > 0 && isfinite(o->atols[i]), ctx, STEIF_BAD_INPUT,
+                "atols[%lld] = %g must be positive and finite", (long long)i, o->atols[i]);
+  STEIF_CHECK(o->h >= 0 && isfinite(o->h) && o->h0 >= 0 && isfinite(o->h0) && o->h_max >= 0 &&
+                isfinite(o->h_max), ctx, STEIF_BAD_INPUT,
+              "steps must be finite and not negative: h = %g, h0 = %g, h_max = %g", o->h, o->h0,
+              o->h_max);
+  STEIF_CHECK(o->max_steps > 0 && o->iterations >= 0 && o->newton >= 0 && isfinite(o->newton), ctx,
+              STEIF_BAD_INPUT, "max_steps = %ld, iterations = %d, newton = %g must not be negative",
+              o->max_steps, o->iterations, o->newton);
+  STEIF_CHECK(isfinite(o->t1) && o->t1 > p->t0, ctx, STEIF_BAD_INPUT,
+              "the end t1 = %g must lie after the start t0 = %g of problem '%s'", o->t1, p->t0,
+              p->name);
+  return o->mesh ? check_mesh(ctx, o, p->t0) : STEIF_OK;
+}
+
+static int check_vector(steif_context *ctx, const steif_problem *p, const steif_options *o)
+{
+  if (!o->like) return STEIF_OK;
+  const sunindextype n = N_VGetLength(o->like);
+  STEIF_CHECK(n == p->n, ctx, STEIF_BAD_INPUT,
+              "options.like has %lld components, problem '%s' has %lld", (long long)n, p->name,
+              (long long)p->n);
+  return STEIF_OK;
+}
+
+/* -- opening ----------------------------------------------------------------------------------- */
+
+static void destroy_vector(void *v) { N_VDestroy(v); }
+
+static int open_vectors(steif_solver *s, N_Vector *y, N_Vector *yp)
+{
+  N_Vector like = s->options.like;
+  if (!like) {
+    like = s->serial = N_VNew_Serial(s->problem->n, steif_sundials(s->ctx));
+    STEIF_CHECK(like, s->ctx, STEIF_NO_MEMORY, "no memory for a vector of %lld components",
+                (long long)s->problem->n);
+    STEIF_TRY(stf_claim_owner(s->pool, like, destroy_vector));
+  }
+  *y = stf_claim_vector(s->pool, like);
+  *yp = stf_claim_vector(s->pool, like);
+  s->dense = stf_claim_vector(s->pool, like);
+  if (!*y || !*yp || !s->dense) return STEIF_NO_MEMORY;
+  if (!s->options.atols) return STEIF_OK;
+  s->atols = stf_claim_vector(s->pool, like);
+  if (!s->atols) return STEIF_NO_MEMORY;
+  sunrealtype *a = N_VGetArrayPointer(s->atols);
+  STEIF_CHECK(a, s->ctx, STEIF_UNSUPPORTED, "options.atols needs vectors with a host array");
+  memcpy(a, s->options.atols, (size_t)s->problem->n * sizeof *a);
+  return STEIF_OK;
+}
+
+static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vector y, N_Vector yp)
+{
+  const steif_engine *engine = s->engine;
+  STEIF_CHECK(engine->forms & (unsigned)form, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' does not accept problems of form %s such as '%s'", spec->name,
+              steif_form_name(form), s->problem->name);
+  s->engine_state = stf_claim(s->pool, 1, engine->size);
+  if (!s->engine_state) return STEIF_NO_MEMORY;
+  s->run = (stf_run){.ctx = s->ctx, .pool = s->pool, .problem = s->problem, .form = form,
+                     .options = &s->options, .like = y, .t = s->problem->t0, .y = y, .yp = yp};
+  stf_space space;
+  bool known;
+  stf_space_open(&space, y);
+  STEIF_TRY(stf_system_start(s->ctx, s->problem, form, &space, y, yp, &known));
+  s->shown = y;
+  return engine->open(&s->run, s->engine_state, spec);
+}
+
+static void equal_steps(steif_solver *s)
+{
+  const sunrealtype span = s->t1 - s->problem->t0, count = ceil(span / s->options.h * (1 - 1e-12));
+  s->total = count < 1 ? 1 : (long)count;
+  s->step.h_equal = span / (sunrealtype)s->total;
+}
+
+static void destroy_table(void *step)
+{
+  stf_step *s = step;
+  steif_table_free(s->ctx, &s->table);
+}
+
+/* How hard Newton works: relative to the error tolerance, or near rounding for given steps. */
+static void open_newton(steif_solver *s)
+{
+  stf_newton *newton = &s->step.newton;
+  const steif_options *o = &s->options;
+  const bool adaptive = s->step.adaptive;
+  newton->tolerance = o->newton > 0 ? o->newton : adaptive ? 1e-2 : 1e-3;
+  newton->iterations = o->iterations ? o->iterations : adaptive ? 10 : 30;
+  newton->stale = adaptive ? 1e-3 : 0.1;
+  newton->fresh = true;
+}
+
+static int claim_step(steif_solver *s)
+{
+  stf_step *step = &s->step;
+  step->next = stf_claim_vector(s->pool, step->y);
+  step->error = stf_claim_vector(s->pool, step->y);
+  step->weights = stf_claim_vector(s->pool, step->y);
+  step->state = stf_claim(s->pool, 1, step->method->size);
+  return step->next && step->error && step->weights && step->state ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector y, N_Vector yp)
+{
+  stf_step *step = &s->step;
+  const steif_problem *p = s->problem;
+  steif_options *o = &s->options;
+  *step = (stf_step){.ctx = s->ctx, .pool = s->pool, .problem = p, .options = o, .t0 = p->t0,
+                     .t = p->t0, .y = y, .yp = yp};
+  STEIF_TRY(stf_method_find(s->ctx, spec, &step->method, &step->table));
+  STEIF_TRY(stf_claim_owner(s->pool, step, destroy_table));
+  steif_method_info info = {0};
+  STEIF_TRY(step->method->describe(s->ctx, spec, step->table, &info));
+  STEIF_CHECK(step->method->forms & (unsigned)form, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' does not accept problems of form %s such as '%s'", spec->name,
+              steif_form_name(form), p->name);
+  step->adaptive = !o->mesh && !(o->h > 0);
+  STEIF_CHECK(!step->adaptive || info.adaptive, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' has no error estimate: give steps with h", spec->name);
+  step->absolute = form == STEIF_DESCRIPTOR;
+  if (!step->adaptive && !o->mesh) equal_steps(s);
+  const stf_space *space = &step->system.space;
+  stf_space_open(&step->system.space, y);
+  STEIF_TRY(stf_system_start(s->ctx, p, form, space, y, yp, &step->yp_known));
+  STEIF_TRY(claim_step(s));
+  const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
+  STEIF_TRY(stf_system_open(s->pool, s->ctx, p, form, storage, o->atol / o->rtol, y, yp,
+                            &step->system));
+  open_newton(s);
+  STEIF_TRY(step->method->open(step, spec, step->table));
+  s->shown = step->y;
+  if (!step->adaptive) return STEIF_OK;
+  stf_weights(space, o->rtol, o->atol, s->atols, step->y, step->weights);
+  s->h_next = stf_first_step(s);
+  return STEIF_OK;
+}
+
+static int open(steif_solver *s, const char *method)
+{
+  steif_spec spec;
+  N_Vector y, yp;
+  const int form = steif_problem_form(s->ctx, s->problem);
+  if (!form) return steif_status(s->ctx);
+  STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
+  STEIF_TRY(check_options(s->ctx, s->problem, &s->options));
+  STEIF_TRY(check_vector(s->ctx, s->problem, &s->options));
+  s->t1 = s->options.t1, s->t_shown = s->problem->t0;
+  STEIF_TRY(open_vectors(s, &y, &yp));
+  s->engine = stf_engine_find(spec.name);
+  return s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp);
+}
+
+steif_solver *steif_solver_new(steif_context *ctx, const steif_problem *problem,
+                               const char *method, const steif_options *options)
+{
+  if (!ctx) return NULL;
+  if (!method) {
+    STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a method is needed, got NULL");
+    return NULL;
+  }
+  steif_forget(ctx);
+  steif_solver *s = stf_allocate(ctx, 1, sizeof *s);
+  if (!s) return NULL;
+  s->ctx = ctx, s->problem = problem;
+  s->options = options ? *options : steif_defaults();
+  s->pool = stf_pool_new(ctx);
+  if (!s->pool || open(s, method)) steif_solver_free(&s);
+  return s;
+}
+
+void steif_solver_free(steif_solver **s)
+{
+  if (!s || !*s) return;
+  steif_context *ctx = (*s)->ctx;
+  if ((*s)->engine_state) (*s)->engine->close(&(*s)->run, (*s)->engine_state);
+  stf_pool_free(&(*s)->pool);
+  stf_release(ctx, *s);
+  *s = NULL;
+}
+
+/* -- running -------------------------------------------------------------------------------------- */
+
+static sunrealtype now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (sunrealtype)t.tv_sec + 1e-9 * (sunrealtype)t.tv_nsec;
+}
+
+sunrealtype steif_time(const steif_solver *s) { return s->t_shown; }
+
+N_Vector steif_solution(steif_solver *s) { return s->shown; }
+
+/* Time reached by accepted steps. */
+static sunrealtype reached(const steif_solver *s) { return s->engine ? s->run.t : s->step.t; }
+
+static int step_once(steif_solver *s)
+{
+  const int code = s->engine ? s->engine->step(&s->run, s->engine_state, s->t1)
+                             : stf_advance(s, s->t1);
+  if (code) {
+    s->failed = true, s->failure = code > 0 ? steif_status(s->ctx) : code;
+    return s->failure;
+  }
+  s->shown = s->engine ? s->run.y : s->step.y;
+  s->t_shown = reached(s);
+  if (!s->options.observe) return STEIF_OK;
+  const int wish = s->options.observe(s, s->t_shown, s->shown, s->options.observer);
+  STEIF_CHECK(wish == 0, s->ctx, STEIF_CALLBACK, "the observer stopped the run at t = %.12g",
+              s->t_shown);
+  return STEIF_OK;
+}
+
+static int ready(steif_solver *s)
+{
+  STEIF_CHECK(!s->failed, s->ctx, s->failure, "the run had failed before, at t = %.12g: make a new "
+              "solver", reached(s));
+  return STEIF_OK;
+}
+
+int steif_solve_step(steif_solver *s)
+{
+  STEIF_TRY(ready(s));
+  STEIF_CHECK(reached(s) < s->t1, s->ctx, STEIF_BAD_INPUT,
+              "the run is at its end t1 = %.12g: no step is left", s->t1);
+  const sunrealtype before = now();
+  const int code = step_once(s);
+  s->cpu_s += now() - before;
+  if (!code) steif_forget(s->ctx);
+  return code;
+}
+
+/* Show the solution at t inside the last step. */
+static int show(steif_solver *s, sunrealtype t)
+{
+  STEIF_TRY(steif_dense(s, t, s->dense));
+  s->shown = s->dense, s->t_shown = t;
+  return STEIF_OK;
+}
+
+int steif_solve_to(steif_solver *s, sunrealtype t)
+{
+  STEIF_TRY(ready(s));
+  STEIF_CHECK(isfinite(t) && t >= s->problem->t0 && t <= s->t1 * (1 + (s->t1 > 0 ? 1e-14 : -1e-14)),
+              s->ctx, STEIF_BAD_INPUT, "t = %.17g lies outside the interval [%.17g, %.17g] of the "
+              "run: set options.t1", t, s->problem->t0, s->t1);
+  if (t > s->t1) t = s->t1;
+  const sunrealtype before = now();
+  int code = STEIF_OK;
+  while (!code && reached(s) < t) code = step_once(s);
+  if (!code && reached(s) > t) code = show(s, t);
+  if (!code && reached(s) == t) s->shown = s->engine ? s->run.y : s->step.y, s->t_shown = t;
+  s->cpu_s += now() - before;
+  if (!code) steif_forget(s->ctx);
+  return code;
+}
+
+int steif_dense(steif_solver *s, sunrealtype t, N_Vector y)
+{
+  const sunrealtype end = reached(s), h = s->engine ? s->run.stats.h_last : s->step.h;
+  const sunrealtype slack = 1e-12 * (fabs(end) + h);
+  STEIF_CHECK(s->engine || s->step.count > 0, s->ctx, STEIF_BAD_INPUT, "no step has been made yet");
+  STEIF_CHECK(t >= end - h - slack && t <= end + slack, s->ctx, STEIF_BAD_INPUT,
+              "t = %.17g lies outside the last step [%.17g, %.17g]", t, end - h, end);
+  return s->engine ? s->engine->dense(&s->run, s->engine_state, t, y)
+                   : s->step.method->dense(&s->step, t, y);
+}
+
+int steif_stages(steif_solver *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                 N_Vector **X)
+{
+  *count = 0;
+  if (s->engine || !s->step.method->stages || s->step.count == 0) return STEIF_OK;
+  return s->step.method->stages(&s->step, count, c, b, X);
+}
+
+const steif_stats *steif_statistics(steif_solver *s)
+{
+  steif_stats *out = &s->stats;
+  if (s->engine)
+    *out = s->run.stats;
+  else {
+    const stf_step *step = &s->step;
+    const steif_pencil_stats *pencil = step->system.pencil
+                                         ? steif_pencil_statistics(step->system.pencil) : NULL;
+    *out = (steif_stats){.steps = step->count, .rejected = s->rejected, .nfe = step->system.nfe,
+                         .nje = step->system.nje, .newton = step->newton.sweeps,
+                         .newton_fails = step->newton.fails, .h_last = step->h};
+    if (pencil) out->nlu = pencil->factors + pencil->refactors, out->nsolve = pencil->solves;
+  }
+  out->cpu_s = s->cpu_s;
+  return out;
+}

@@ -1,0 +1,132 @@
+/* method.c: find a family by spec, and what the families share.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "method.h"
+#include <string.h>
+
+static const steif_method *family(const char *name)
+{
+  for (size_t i = 0; i < stf_method_count; i++)
+    if (!strcmp(stf_method_shelf[i].name, name)) return stf_method_shelf[i].item;
+  return NULL;
+}
+
+static const char *family_of(enum steif_table_kind kind)
+{
+  return kind == STEIF_EXPLICIT ? "erk" : kind == STEIF_DIRK ? "dirk" : "irk";
+}
+
+static bool on_shelf(const char *name)
+{
+  for (size_t i = 0; i < stf_table_count; i++)
+    if (!strcmp(stf_table_shelf[i].name, name)) return true;
+  return false;
+}
+
+/* The names a method may begin with, for suggestions. */
+static int unknown(steif_context *ctx, const steif_spec *spec)
+{
+  const char *names[64] = {"be", "bdf", "dirk", "cvode", "ida", "arkode"};
+  size_t count = 6;
+  for (size_t i = 0; i < stf_table_count && count < 64; i++)
+    if (stf_table_shelf[i].item->kind != STEIF_DIRK) names[count++] = stf_table_shelf[i].name;
+  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "no method '%s'; did you mean '%s'? 'steif list "
+                    "methods' shows all", spec->name,
+                    stf_nearest(spec->name, names, count, sizeof *names));
+}
+
+/* dirk:TABLE */
+static int dirk_table(steif_context *ctx, const steif_spec *spec, steif_table **table)
+{
+  const char *name = stf_spec_word(spec, "");
+  STEIF_CHECK(name, ctx, STEIF_BAD_INPUT, "'dirk' needs the name of a table: dirk:alexander2");
+  *table = steif_table_new(ctx, name);
+  if (!*table) return steif_status(ctx);
+  if ((*table)->kind == STEIF_DIRK) return STEIF_OK;
+  steif_table_free(ctx, table);
+  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "table '%s' is not diagonally implicit: use it by its "
+                    "own name", name);
+}
+
+int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_method **method,
+                    steif_table **table)
+{
+  *table = NULL;
+  if (!strcmp(spec->name, "be") || !strcmp(spec->name, "bdf")) {
+    *method = family("bdf");
+    return STEIF_OK;
+  }
+  if (!strcmp(spec->name, "dirk")) {
+    *method = family("dirk");
+    return dirk_table(ctx, spec, table);
+  }
+  if (!on_shelf(spec->name)) return unknown(ctx, spec);
+  *table = stf_table_build(ctx, spec);
+  if (!*table) return steif_status(ctx);
+  *method = family(family_of((*table)->kind));
+  if ((*table)->kind != STEIF_DIRK) return STEIF_OK;
+  steif_table_free(ctx, table);
+  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "write 'dirk:%s' for this table", spec->name);
+}
+
+int steif_method_propagator(steif_context *ctx, const char *text, const sunrealtype z[2], int *r,
+                            sunrealtype *M)
+{
+  steif_spec spec;
+  const steif_method *method;
+  steif_table *table;
+  STEIF_TRY(steif_spec_parse(ctx, text, &spec));
+  STEIF_TRY(stf_method_find(ctx, &spec, &method, &table));
+  const int code = method->propagator(ctx, &spec, table, z, r, M);
+  steif_table_free(ctx, &table);
+  return code;
+}
+
+void stf_propagate_scalar(const sunrealtype R[2], int *r, sunrealtype *M)
+{
+  *r = 1;
+  if (M) M[0] = R[0], M[1] = R[1];
+}
+
+void stf_swap(stf_step *s)
+{
+  N_Vector y = s->y;
+  s->y = s->next, s->next = y;
+}
+
+static void zero_stages(const stf_step *s, const stf_stages *g)
+{
+  for (int j = 0; j < s->newton.split.s; j++) stf_zero(&s->system.space, g->Z[j]);
+}
+
+int stf_solve_stages(stf_step *s, const stf_stages *g)
+{
+  stf_newton *newton = &s->newton;
+  const bool renew = !newton->fresh && stf_newton_stale(newton);
+  STEIF_TRY(stf_newton_prepare(newton, s->t, g->h, s->y, s->yp, renew));
+  int code = stf_newton_solve(newton, g);
+  if (code <= 0) return code;
+  zero_stages(s, g);
+  STEIF_TRY(stf_newton_prepare(newton, s->t, g->h, s->y, s->yp, !newton->fresh));
+  return stf_newton_solve(newton, g);
+}
+
+void stf_interpolate(int k, const sunrealtype *node, sunrealtype x, sunrealtype *value)
+{
+  for (int j = 0; j <= k; j++) {
+    value[j] = 1;
+    for (int m = 0; m <= k; m++)
+      if (m != j) value[j] *= (x - node[m]) / (node[j] - node[m]);
+  }
+}
+
+void stf_differentiate(int k, const sunrealtype *node, sunrealtype *a)
+{
+  a[0] = 0;
+  for (int j = 1; j <= k; j++) {
+    sunrealtype product = 1 / (node[j] - node[0]);
+    for (int m = 1; m <= k; m++)
+      if (m != j) product *= (node[0] - node[m]) / (node[j] - node[m]);
+    a[j] = product;
+    a[0] += 1 / (node[0] - node[j]);
+  }
+}

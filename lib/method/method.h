@@ -1,0 +1,89 @@
+/* method.h: the method room inside: what a family of methods provides, and the running state.
+ *
+ * An attempt is pure: attempt(s, h) reads accepted history and writes trial vectors only (s->next,
+ * s->error, trial parts of the private state); another attempt simply overwrites them. commit alone
+ * turns the trial into history; it leaves the new solution in s->y. Factors and Jacobians are not
+ * history.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_METHOD_H
+#define STF_METHOD_H
+
+#include "newton.h"
+#include <steif/method.h>
+#include <steif/solver.h>
+
+typedef struct stf_step stf_step;
+
+enum stf_trait {
+  STF_ADAPTIVE = 1,  /* fills s->error */
+  STF_MULTISTEP = 2  /* keeps history: steps given at open */
+};
+
+typedef struct steif_method {
+  const char *about;
+  unsigned forms, traits;
+  size_t size;                                   /* private state, zeroed by the frame */
+  int (*open)(stf_step *s, const steif_spec *spec, const steif_table *table);
+  int (*attempt)(stf_step *s, sunrealtype h);    /* STEIF_RETRY: try a smaller h */
+  void (*commit)(stf_step *s);
+  int (*dense)(const stf_step *s, sunrealtype t, N_Vector y); /* inside the last step */
+  int (*stages)(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                N_Vector **X);                   /* NULL: none */
+  /* Largest r and M(z), r x r pairs by rows; M NULL: r only. */
+  int (*propagator)(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                    const sunrealtype z[2], int *r, sunrealtype *M);
+  /* order, stages, claims of *info from the spec, and refusal of bad parameters. */
+  int (*describe)(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                  steif_method_info *info);
+} steif_method;
+
+struct stf_step {
+  steif_context *ctx;
+  stf_pool *pool;
+  const steif_problem *problem;
+  const steif_options *options;
+  const steif_method *method;
+  void *state;
+  steif_table *table;          /* of this method; NULL for multistep */
+  stf_system system;
+  stf_newton newton;
+  sunrealtype t0, t, h;        /* start; time of y; length of the last step (0: none yet) */
+  sunrealtype h_equal;         /* > 0: all steps have this length */
+  long count;                  /* accepted steps */
+  N_Vector y, yp;              /* accepted; yp: slope (start, or last implicit slope) */
+  bool yp_known, adaptive, absolute; /* absolute: stages solved for Y, not for Y - y_n */
+  bool restart;                /* the next step follows a discontinuity: no history before t */
+  sunrealtype h_try;           /* of the trial */
+  N_Vector next, error, weights;
+  int error_order;             /* error = O(h^(error_order + 1)) */
+  sunrealtype error_tolerance; /* accept when norm(error) <= this */
+};
+
+typedef struct stf_method_entry {
+  const char *name;
+  const steif_method *item;
+} stf_method_entry;
+extern const stf_method_entry stf_method_shelf[];
+extern const size_t stf_method_count;
+
+/* Family and (new) table of a spec: *table NULL for families without. */
+int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_method **method,
+                    steif_table **table);
+
+/* Solve stages with the factors at hand: prepares them, renews a stale Jacobian, and repeats a
+ * refused solve with a new Jacobian and Z = 0 before giving up. */
+int stf_solve_stages(stf_step *s, const stf_stages *stages);
+
+/* y <-> next. */
+void stf_swap(stf_step *s);
+
+/* One r x r complex number as a propagator. */
+void stf_propagate_scalar(const sunrealtype R[2], int *r, sunrealtype *M);
+
+/* Weights of differentiation at node 0 of the polynomial through nodes 0 .. k (distinct): a[j],
+ * and of its value at x (value may be NULL). */
+void stf_differentiate(int k, const sunrealtype *node, sunrealtype *a);
+void stf_interpolate(int k, const sunrealtype *node, sunrealtype x, sunrealtype *value);
+
+#endif

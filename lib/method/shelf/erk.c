@@ -1,0 +1,100 @@
+/* erk.c: explicit Runge-Kutta methods, for contrast and for nonstiff problems.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "method.h"
+
+typedef struct state {
+  const steif_table *table;
+  N_Vector *K, work, end_slope;  /* end_slope: f(t, y) of the trial's end, for dense output */
+  N_Vector before;               /* y and slope at the start of the last step */
+  N_Vector slope;
+} state;
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  (void)spec;
+  state *e = s->state;
+  e->table = table;
+  e->K = stf_claim_vectors(s->pool, table->s, s->y);
+  e->work = stf_claim_vector(s->pool, s->y);
+  e->before = stf_claim_vector(s->pool, s->y);
+  e->slope = stf_claim_vector(s->pool, s->y);
+  e->end_slope = stf_claim_vector(s->pool, s->y);
+  return e->K && e->work && e->before && e->slope && e->end_slope ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+/* out = y + h sum_j a_j K_j. */
+static void advance(const stf_step *s, int count, const sunrealtype *a, sunrealtype h, N_Vector out)
+{
+  const state *e = s->state;
+  stf_combine(&s->system.space, count, a, e->K, out);
+  stf_sum(&s->system.space, 1, s->y, h, out, out);
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const steif_table *T = e->table;
+  for (int i = 0; i < T->s; i++) {
+    advance(s, i, T->A + i * T->s, h, e->work);
+    STEIF_TRY(stf_system_rhs(&s->system, s->t + T->c[i] * h, e->work, e->K[i]));
+  }
+  advance(s, T->s, T->b, h, s->next);
+  if (!stf_finite(&s->system.space, s->next))
+    return STEIF_RECOVER(s->ctx, STEIF_NOT_FINITE,
+                         "the step of problem '%s' from t = %.12g with h = %.6g overflowed: the step "
+                         "is too large for an explicit method", s->problem->name, s->t, h);
+  return STEIF_OK;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  stf_copy(&s->system.space, s->y, e->before);
+  stf_copy(&s->system.space, e->K[0], e->slope);
+  stf_swap(s);
+}
+
+/* Cubic Hermite; the slope at the end costs one evaluation. */
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  state *e = s->state;
+  stf_step *mutable = (stf_step *)s;
+  STEIF_TRY(stf_system_rhs(&mutable->system, s->t, s->y, e->end_slope));
+  const sunrealtype x = (t - (s->t - s->h)) / s->h, u = 1 - x;
+  const sunrealtype c[] = {u * u * (1 + 2 * x), x * x * (1 + 2 * u), s->h * x * u * u,
+                           -s->h * x * x * u};
+  N_Vector v[] = {e->before, s->y, e->slope, e->end_slope};
+  stf_combine(&s->system.space, 4, c, v, y);
+  return STEIF_OK;
+}
+
+static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                      const sunrealtype z[2], int *r, sunrealtype *M)
+{
+  (void)spec;
+  sunrealtype R[2];
+  STEIF_TRY(steif_table_stability(ctx, table, z, R));
+  stf_propagate_scalar(R, r, M);
+  return STEIF_OK;
+}
+
+static int describe(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                    steif_method_info *info)
+{
+  (void)ctx, (void)spec;
+  info->family = "erk", info->about = table->about;
+  info->order = table->order, info->stages = table->s, info->claims = table->claims;
+  return STEIF_OK;
+}
+
+const steif_method steif_method_erk = {
+  .about = "explicit Runge-Kutta",
+  .forms = STEIF_ODE,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+  .propagator = propagator,
+  .describe = describe,
+};

@@ -1,0 +1,249 @@
+/* irk.c: fully implicit Runge-Kutta methods (Gauss, Radau, Lobatto IIIC), all stages at once.
+ *
+ * Stages Y_i = y_n + Z_i with slopes Y_i' = (1/h) sum_m B_im Z_m, B = A^{-1}, are solved through
+ * the split of B. The polynomial of degree s with y_n at 0 and slopes Y_i' at c_i,
+ *   u(t_n + x h) = y_n + sum_j w_j(x) Z_j,   w(x)^T = (int_0^x l_i)_i^T B,
+ * gives the end value (w(1) = b^T B), the start of the next iteration and dense output.
+ * Error estimate (c_1 > 0): the shifted solve of -F(t_n, y_n, u'(t_n)) with the collocation
+ * polynomial through (0, y_n) and all stages; order s (Hairer and Wanner II, IV.8).
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "method.h"
+#include <math.h>
+
+typedef struct state {
+  const steif_table *table;
+  int s;
+  sunrealtype *w;            /* w_j(x) = sum_k w[j s + k - 1] x^k, k = 1 .. s */
+  sunrealtype *end;          /* w(1) */
+  sunrealtype *P, ratio;     /* next Z = P Z for step ratio */
+  sunrealtype *row_sum;      /* B 1 */
+  sunrealtype *slope;        /* weights of u'(t_n) in Z, times h: error estimate */
+  N_Vector *Z, *trial;       /* of the last step and of the attempt, relative to y_n */
+  N_Vector *base, *offset, *X;
+  N_Vector before, work;     /* y_n of the last step */
+  bool history;
+} state;
+
+/* Coefficients of w in long double: int_0^x l_i = sum_k, l_i from its roots. */
+static void integrals(int s, const sunrealtype *c, int i, long double *coefficient)
+{
+  long double l[STEIF_STAGES + 1] = {1}; /* l_i by ascending powers */
+  int degree = 0;
+  for (int m = 0; m < s; m++) {
+    if (m == i) continue;
+    const long double scale = 1 / ((long double)c[i] - c[m]);
+    l[degree + 1] = 0;
+    for (int k = ++degree; k >= 0; k--)
+      l[k] = ((k ? l[k - 1] : 0) - (k < degree ? l[k] * c[m] : 0)) * scale;
+  }
+  for (int k = 0; k < s; k++) coefficient[k] = l[k] / (k + 1);
+}
+
+static void fill_w(state *e, const sunrealtype *B)
+{
+  const int s = e->s;
+  long double L[STEIF_STAGES][STEIF_STAGES];
+  for (int i = 0; i < s; i++) integrals(s, e->table->c, i, L[i]);
+  for (int j = 0; j < s; j++) {
+    long double total = 0;
+    for (int k = 0; k < s; k++) {
+      long double sum = 0;
+      for (int i = 0; i < s; i++) sum += L[i][k] * B[i * s + j];
+      e->w[j * s + k] = (sunrealtype)sum;
+      total += sum;
+    }
+    e->end[j] = (sunrealtype)total;
+  }
+  if (e->table->claims & STEIF_STIFFLY_ACCURATE)
+    for (int j = 0; j < s; j++) e->end[j] = j == s - 1;
+}
+
+static sunrealtype weight(const state *e, int j, sunrealtype x)
+{
+  sunrealtype sum = 0;
+  for (int k = e->s; k-- > 0;) sum = (sum + e->w[j * e->s + k]) * x;
+  return sum;
+}
+
+/* Slope at 0 of the polynomial through (0, 0), (c_i, Z_i): needs c_1 > 0. */
+static void fill_slope(state *e)
+{
+  sunrealtype node[STEIF_STAGES + 1] = {0}, a[STEIF_STAGES + 1];
+  for (int i = 0; i < e->s; i++) node[i + 1] = e->table->c[i];
+  stf_differentiate(e->s, node, a);
+  for (int i = 0; i < e->s; i++) e->slope[i] = a[i + 1];
+}
+
+static int claim(stf_step *s, state *e)
+{
+  const size_t count = (size_t)e->s;
+  e->w = stf_claim(s->pool, count * count, sizeof *e->w);
+  e->P = stf_claim(s->pool, count * count, sizeof *e->P);
+  e->end = stf_claim(s->pool, 3 * count, sizeof *e->end);
+  e->Z = stf_claim_vectors(s->pool, e->s, s->y);
+  e->trial = stf_claim_vectors(s->pool, e->s, s->y);
+  e->X = stf_claim_vectors(s->pool, e->s, s->y);
+  e->base = stf_claim(s->pool, count, sizeof *e->base);
+  e->offset = s->absolute ? stf_claim_vectors(s->pool, e->s, s->y) : e->base;
+  e->before = stf_claim_vector(s->pool, s->y);
+  e->work = stf_claim_vector(s->pool, s->y);
+  return e->w && e->P && e->end && e->Z && e->trial && e->X && e->base && e->offset && e->before &&
+             e->work
+           ? STEIF_OK
+           : STEIF_NO_MEMORY;
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  (void)spec;
+  state *e = s->state;
+  stf_split split;
+  e->table = table, e->s = table->s;
+  STEIF_TRY(stf_split_build(s->pool, s->ctx, table, &split));
+  STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
+  STEIF_TRY(claim(s, e));
+  e->row_sum = e->end + e->s, e->slope = e->end + 2 * e->s;
+  fill_w(e, split.B);
+  for (int j = 0; j < e->s; j++) {
+    e->row_sum[j] = 0;
+    for (int m = 0; m < e->s; m++) e->row_sum[j] += split.B[j * e->s + m];
+  }
+  STEIF_CHECK(!s->adaptive || table->c[0] > 0, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' has no error estimate (its first node is 0): give steps with h", table->name);
+  if (table->c[0] > 0) fill_slope(e);
+  s->error_order = e->s;
+  s->error_tolerance = 0.1 * pow(s->options->rtol, (e->s + 1.0) / (2 * e->s) - 1);
+  return STEIF_OK;
+}
+
+/* Stage increments of the next step from the last one's polynomial. */
+static void predict(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  if (!e->history || s->absolute || s->restart) {
+    for (int j = 0; j < e->s; j++) stf_zero(space, e->trial[j]);
+    return;
+  }
+  if (e->ratio != h / s->h) {
+    e->ratio = h / s->h;
+    for (int i = 0; i < e->s; i++)
+      for (int j = 0; j < e->s; j++)
+        e->P[i * e->s + j] = weight(e, j, 1 + e->ratio * e->table->c[i]) - e->end[j];
+  }
+  stf_mix(space, e->s, e->s, e->P, e->Z, e->trial);
+}
+
+/* error = -(lambda/h E - A)^{-1} F(t_n, y_n, u'(t_n)) with the real lane, or with a pair the
+ * quadratic filter -(re/im) Im of the complex solve. */
+static int estimate(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const stf_split *split = &s->newton.split;
+  sunrealtype slope[STEIF_STAGES];
+  for (int j = 0; j < e->s; j++) slope[j] = e->slope[j] / h;
+  stf_combine(space, e->s, slope, e->trial, e->work);
+  STEIF_TRY(stf_system_residual(&s->system, s->t, s->y, e->work, s->error));
+  stf_zero(space, e->work);
+  const bool real = split->im[0] == 0;
+  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, real ? NULL : &e->work));
+  stf_scale(space, real ? -1 : split->re[0] / split->im[0], real ? s->error : e->work, s->error);
+  return STEIF_OK;
+}
+
+static int solve(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  stf_stages g = {.t = s->t, .h = h, .c = e->table->c, .Z = e->trial};
+  if (!s->absolute) {
+    for (int j = 0; j < e->s; j++) e->base[j] = s->y;
+    g.base = e->base;
+    return stf_solve_stages(s, &g);
+  }
+  for (int j = 0; j < e->s; j++) stf_scale(space, -e->row_sum[j] / h, s->y, e->offset[j]);
+  g.offset = e->offset;
+  STEIF_TRY(stf_solve_stages(s, &g));
+  if (e->table->claims & STEIF_STIFFLY_ACCURATE) stf_copy(space, e->trial[e->s - 1], s->next);
+  for (int j = 0; j < e->s; j++) stf_axpy(space, -1, s->y, e->trial[j]);
+  return STEIF_OK;
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  predict(s, h);
+  STEIF_TRY(solve(s, h));
+  if (!(e->table->claims & STEIF_STIFFLY_ACCURATE)) {
+    stf_combine(space, e->s, e->end, e->trial, s->next);
+    stf_axpy(space, 1, s->y, s->next);
+  } else if (!s->absolute)
+    stf_sum(space, 1, s->y, 1, e->trial[e->s - 1], s->next);
+  return s->adaptive ? estimate(s, h) : STEIF_OK;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  N_Vector *Z = e->Z, y = e->before;
+  e->Z = e->trial, e->trial = Z;
+  e->before = s->y, s->y = s->next, s->next = y;
+  e->history = true;
+  if (s->system.form == STEIF_IMPLICIT) stf_copy(&s->system.space, s->newton.Zp[e->s - 1], s->yp);
+}
+
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  const state *e = s->state;
+  sunrealtype x[STEIF_STAGES];
+  for (int j = 0; j < e->s; j++) x[j] = weight(e, j, (t - (s->t - s->h)) / s->h);
+  stf_combine(&s->system.space, e->s, x, e->Z, y);
+  stf_axpy(&s->system.space, 1, e->before, y);
+  return STEIF_OK;
+}
+
+static int stages(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                  N_Vector **X)
+{
+  const state *e = s->state;
+  *count = e->s, *c = e->table->c, *b = e->table->b, *X = e->X;
+  for (int j = 0; j < e->s; j++) stf_sum(&s->system.space, 1, e->before, 1, e->Z[j], e->X[j]);
+  return STEIF_OK;
+}
+
+static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                      const sunrealtype z[2], int *r, sunrealtype *M)
+{
+  (void)spec;
+  sunrealtype R[2];
+  STEIF_TRY(steif_table_stability(ctx, table, z, R));
+  stf_propagate_scalar(R, r, M);
+  return STEIF_OK;
+}
+
+static int describe(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                    steif_method_info *info)
+{
+  (void)ctx, (void)spec;
+  info->family = "irk", info->about = table->about;
+  info->order = table->order, info->stages = table->s, info->claims = table->claims;
+  info->adaptive = table->c[0] > 0;
+  return STEIF_OK;
+}
+
+const steif_method steif_method_irk = {
+  .about = "fully implicit Runge-Kutta",
+  .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
+  .traits = STF_ADAPTIVE,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+  .stages = stages,
+  .propagator = propagator,
+  .describe = describe,
+};
