@@ -19,9 +19,8 @@ static const stf_problem_entry *look_up(const char *name)
 static int build(steif_context *ctx, const char *text, const steif_spec *spec, steif_problem *p)
 {
   char *name = stf_allocate(ctx, strlen(text) + 1, 1);
-  if (!name) return STEIF_NO_MEMORY;
-  p->name = strcpy(name, text);
-  const int code = p->build(ctx, spec, p);
+  p->name = name ? strcpy(name, text) : NULL;
+  const int code = name ? p->build(ctx, spec, p) : STEIF_NO_MEMORY;
   if (code) steif_problem_clear(ctx, p);
   return code;
 }

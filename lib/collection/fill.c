@@ -47,7 +47,8 @@ int stf_collection_toeplitz(SUNMatrix M, sunindextype first, sunindextype last,
   if (kind != SUNMATRIX_DENSE && kind != SUNMATRIX_BAND) return -1;
   const bool dense = kind == SUNMATRIX_DENSE;
   const sunindextype n = dense ? SM_COLUMNS_D(M) : SM_COLUMNS_B(M);
-  if (!dense && (SM_UBAND_B(M) < last || SM_LBAND_B(M) < -first)) return -1;
+  const sunindextype above = last < n ? last : n - 1, below = -first < n ? -first : n - 1;
+  if (!dense && (SM_UBAND_B(M) < above || SM_LBAND_B(M) < below)) return -1;
   for (sunindextype j = 0; j < n; j++)
     for (sunindextype i = top(j, last); i < end(n, j, first); i++)
       *(dense ? &SM_ELEMENT_D(M, i, j) : &SM_ELEMENT_B(M, i, j)) = value[j - i - first];

@@ -1,0 +1,12 @@
+/* main.c: the tests of the collection.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_find[], tests_of_digits[], tests_of_exact[], tests_of_jordan[],
+  tests_of_small[];
+
+SUITE_MAIN({.pName = "find", .pTests = tests_of_find},
+           {.pName = "digits", .pTests = tests_of_digits},
+           {.pName = "exact", .pTests = tests_of_exact},
+           {.pName = "jordan", .pTests = tests_of_jordan},
+           {.pName = "small", .pTests = tests_of_small})
