@@ -4,8 +4,9 @@
 #   cmake -DSOURCE= -P arrows.cmake
 cmake_minimum_required(VERSION 3.18)
 
-# The room that a public header belongs to, where the names differ.
-set(room_of_solver march)
+# The lowest room that may see a public header, where its name is not a room: methods read the
+# options and the statistics of solver.h, whose functions are those of march.
+set(room_of_solver method)
 
 file(READ ${SOURCE}/CMakeLists.txt text)
 file(READ ${SOURCE}/README.md readme)
