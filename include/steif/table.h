@@ -39,12 +39,14 @@ struct steif_table {
   int s, order;                   /* stages, classical order */
   int stage_order;                /* q of C(q); 0: not claimed */
   const sunrealtype *A, *b;       /* NULL when built */
+  const sunrealtype *A_low;       /* A + A_low has more digits than A; NULL: A is exact */
   const sunrealtype *c;           /* NULL: row sums of A */
   const sunrealtype *bhat;        /* embedded weights, NULL if none */
   int order_hat;                  /* order of the embedded method */
   unsigned claims;                /* enum steif_claim */
-  /* Families: the largest relative spacing left to the caller; fill A, b, c (room for
-   * STEIF_STAGES) of *self for s stages, and s, order, stage_order and claims. */
+  /* Families: read the parameters; fill A (room for 2 STEIF_STAGES^2: the table, then its low
+   * parts), b and c (room for STEIF_STAGES), and set s, order, stage_order, A, A_low, b, c and
+   * what else depends on s. */
   int (*build)(steif_context *ctx, const steif_spec *spec, steif_table *self, sunrealtype *A,
                sunrealtype *b, sunrealtype *c);
 };

@@ -1,0 +1,141 @@
+/* split.c: B = A^{-1} of a table as independent (or triangularly coupled) real and complex
+ * shifts: Butcher, BIT 16 (1976); Hairer, Wanner: Solving ODEs II, IV.8. Everything is computed in
+ * long double and rounded once.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "split.h"
+#include "table.h"
+#include <math.h>
+
+enum { SQUARE = STEIF_STAGES * STEIF_STAGES };
+
+/* Eigenvectors are used while |T| |T^{-1}| stays below: Newton's residuals are formed in the
+ * untransformed stages, so 1e-16 times this is what T may cost its convergence. */
+static const long double dependent = 1e8L;
+
+static void round_to(int count, const long double *x, sunrealtype *y)
+{
+  for (int i = 0; i < count; i++) y[i] = (sunrealtype)x[i];
+}
+
+bool stf_split_invert(int s, const long double *M, long double tiny, long double *inverse)
+{
+  stf_complex K[SQUARE], X[SQUARE];
+  for (int i = 0; i < s * s; i++) K[i] = M[i], X[i] = i % (s + 1) == 0;
+  if (!stf_solve(s, s, K, X, tiny)) return false;
+  for (int i = 0; i < s * s; i++) inverse[i] = creall(X[i]);
+  return true;
+}
+
+/* A to all its digits, its largest entry, and B. */
+static int prepare(steif_context *ctx, const steif_table *table, stf_split_work *w)
+{
+  const int s = table->s;
+  long double largest = 0;
+  STEIF_CHECK(
+    table->kind == STEIF_COLLOCATION, ctx, STEIF_UNSUPPORTED,
+    "table '%s' has a triangular A: its stages are solved one after another and need no "
+    "split",
+    table->name);
+  for (int i = 0; i < s * s; i++) {
+    STEIF_CHECK(isfinite(table->A[i]), ctx, STEIF_NOT_FINITE,
+                "entry (%d, %d) of the A of table '%s' is %g; give finite coefficients",
+                i / s + 1, i % s + 1, table->name, table->A[i]);
+    w->A[i] = (long double)table->A[i] + (table->A_low ? (long double)table->A_low[i] : 0);
+    if (fabsl(w->A[i]) > largest) largest = fabsl(w->A[i]);
+  }
+  STEIF_CHECK(
+    stf_split_invert(s, w->A, 4 * STF_EPS * largest, w->B), ctx, STEIF_UNSUPPORTED,
+    "the A of table '%s' is singular, so it has no split into shifts; drop its explicit "
+    "stage or take a table with regular A, such as radau:s=%d",
+    table->name, s);
+  return STEIF_OK;
+}
+
+/* The lane's columns of T from its eigenvector, scaled to last component 1 (to largest component
+ * 1 where the last vanishes). */
+static void place(int s, int row, bool pair, const stf_complex *v, long double *T)
+{
+  int largest = 0;
+  for (int i = 1; i < s; i++)
+    if (cabsl(v[i]) > cabsl(v[largest])) largest = i;
+  const stf_complex unit = cabsl(v[s - 1]) > 1e-6L * cabsl(v[largest]) ? v[s - 1] : v[largest];
+  for (int i = 0; i < s; i++) {
+    const stf_complex x = v[i] / unit;
+    T[i * s + row] = pair ? 2 * creall(x) : creall(x);
+    if (pair) T[i * s + row + 1] = -2 * cimagl(x);
+  }
+}
+
+/* Largest row sum. */
+static long double norm(int s, const long double *M)
+{
+  long double most = 0;
+  for (int i = 0; i < s; i++) {
+    long double sum = 0;
+    for (int j = 0; j < s; j++) sum += fabsl(M[i * s + j]);
+    if (sum > most) most = sum;
+  }
+  return most;
+}
+
+/* Refined on A, whose entries are known relatively, not on B. False when eigenvectors are nearly
+ * dependent or not found. */
+static bool eigen(int s, const stf_complex *near, int lanes, stf_split_work *w)
+{
+  stf_complex v[STEIF_STAGES];
+  w->lanes = 0;
+  for (int k = 0, row = 0; k < lanes; k++) {
+    const bool pair = cimagl(near[k]) > 0;
+    stf_complex mu = 1 / near[k];
+    if (!stf_eigen_refine(s, w->A, &mu, v)) return false;
+    place(s, row, pair, v, w->T);
+    w->lambda[w->lanes] = 1 / mu, w->row[w->lanes++] = row;
+    row += pair ? 2 : 1;
+  }
+  return stf_split_invert(s, w->T, 0, w->Tinv) && norm(s, w->T) * norm(s, w->Tinv) < dependent;
+}
+
+static int publish(stf_pool *pool, const stf_split_work *w, bool coupled, stf_split *split)
+{
+  const size_t count = (size_t)(split->s * split->s);
+  sunrealtype *B = stf_claim(pool, count, sizeof *B), *T = stf_claim(pool, count, sizeof *T);
+  sunrealtype *Tinv = stf_claim(pool, count, sizeof *Tinv);
+  sunrealtype *coupling = coupled ? stf_claim(pool, count, sizeof *coupling) : NULL;
+  if (!B || !T || !Tinv || (coupled && !coupling)) return STEIF_NO_MEMORY;
+  round_to((int)count, w->B, B);
+  round_to((int)count, w->T, T);
+  round_to((int)count, w->Tinv, Tinv);
+  if (coupled) round_to((int)count, w->S, coupling);
+  split->B = B, split->T = T, split->Tinv = Tinv, split->coupling = coupling;
+  split->lanes = w->lanes;
+  for (int k = 0; k < w->lanes; k++) {
+    split->re[k] = (sunrealtype)creall(w->lambda[k]);
+    split->im[k] = (sunrealtype)cimagl(w->lambda[k]);
+    split->row[k] = w->row[k];
+  }
+  return STEIF_OK;
+}
+
+static int compute(stf_pool *pool, steif_context *ctx, const steif_table *table,
+                   stf_split_work *w, stf_split *split)
+{
+  stf_complex near[STEIF_STAGES];
+  int lanes;
+  STEIF_TRY(prepare(ctx, table, w));
+  STEIF_TRY(stf_eigen_values(ctx, table->s, w->B, near, &lanes));
+  const bool diagonal = table->s <= STF_EIGEN_STAGES && eigen(table->s, near, lanes, w);
+  if (!diagonal) STEIF_TRY(stf_split_schur(ctx, table->s, w));
+  split->s = table->s;
+  return publish(pool, w, !diagonal, split);
+}
+
+int stf_split_build(stf_pool *pool, steif_context *ctx, const steif_table *table,
+                    stf_split *split)
+{
+  STEIF_TRY(stf_table_check(ctx, table));
+  stf_split_work *w = stf_allocate(ctx, 1, sizeof *w);
+  if (!w) return STEIF_NO_MEMORY;
+  const int code = compute(pool, ctx, table, w, split);
+  stf_release(ctx, w);
+  return code;
+}
