@@ -102,6 +102,7 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
                 "the step of problem '%s' became %.3g at t = %.12g, too small for the clock: "
                 "loosen the tolerance or look for a singularity there", s->problem->name, h, step->t);
     renew_weights(s, h);
+    step->refused = tries > 0;
     const int code = step->method->attempt(step, h);
     if (code) {
       STEIF_TRY(refused(s, code, &h, tries));

@@ -188,7 +188,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
 static int open(steif_solver *s, const char *method)
 {
   steif_spec spec;
-  N_Vector y, yp;
+  N_Vector y = NULL, yp = NULL;
   const int form = steif_problem_form(s->ctx, s->problem);
   if (!form) return steif_status(s->ctx);
   STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));

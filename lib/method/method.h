@@ -53,6 +53,7 @@ struct stf_step {
   long count;                  /* accepted steps */
   N_Vector y, yp;              /* accepted; yp: slope (start, or last implicit slope) */
   bool yp_known, adaptive, absolute; /* absolute: stages solved for Y, not for Y - y_n */
+  bool refused;                /* this attempt repeats one that was refused */
   bool restart;                /* the next step follows a discontinuity: no history before t */
   sunrealtype h_try;           /* of the trial */
   N_Vector next, error, weights;

@@ -21,7 +21,8 @@ typedef struct state {
   sunrealtype *slope;        /* weights of u'(t_n) in Z, times h: error estimate */
   N_Vector *Z, *trial;       /* of the last step and of the attempt, relative to y_n */
   N_Vector *base, *offset, *X;
-  N_Vector before, work;     /* y_n of the last step */
+  N_Vector before;           /* y_n of the last step */
+  N_Vector work, imaginary;
   bool history;
 } state;
 
@@ -88,7 +89,8 @@ static int claim(stf_step *s, state *e)
   e->offset = s->absolute ? stf_claim_vectors(s->pool, e->s, s->y) : e->base;
   e->before = stf_claim_vector(s->pool, s->y);
   e->work = stf_claim_vector(s->pool, s->y);
-  return e->w && e->P && e->end && e->Z && e->trial && e->X && e->base && e->offset && e->before &&
+  e->imaginary = stf_claim_vector(s->pool, s->y);
+  return e->imaginary && e->w && e->P && e->end && e->Z && e->trial && e->X && e->base && e->offset && e->before &&
              e->work
            ? STEIF_OK
            : STEIF_NO_MEMORY;
@@ -135,22 +137,39 @@ static void predict(stf_step *s, sunrealtype h)
   stf_mix(space, e->s, e->s, e->P, e->Z, e->trial);
 }
 
-/* error = -(lambda/h E - A)^{-1} F(t_n, y_n, u'(t_n)) with the real lane, or with a pair the
+/* error = -(lambda/h E - A)^{-1} F(t_n, y, u'(t_n)) with the real lane, or with a pair the
  * quadratic filter -(re/im) Im of the complex solve. */
-static int estimate(stf_step *s, sunrealtype h)
+static int filtered(stf_step *s, N_Vector y)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
   const stf_split *split = &s->newton.split;
+  STEIF_TRY(stf_system_residual(&s->system, s->t, y, e->work, s->error));
+  if (split->im[0] == 0) {
+    STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, NULL));
+    stf_scale(space, -1, s->error, s->error);
+    return STEIF_OK;
+  }
+  stf_zero(space, e->imaginary);
+  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, &e->imaginary));
+  stf_scale(space, split->re[0] / split->im[0], e->imaginary, s->error);
+  return STEIF_OK;
+}
+
+/* At the start and after a refusal a large estimate is filtered once more, F at y_n + error: that
+ * removes what a stiff component not on its slow manifold contributes at every step size. */
+static int estimate(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
   sunrealtype slope[STEIF_STAGES];
   for (int j = 0; j < e->s; j++) slope[j] = e->slope[j] / h;
   stf_combine(space, e->s, slope, e->trial, e->work);
-  STEIF_TRY(stf_system_residual(&s->system, s->t, s->y, e->work, s->error));
-  stf_zero(space, e->work);
-  const bool real = split->im[0] == 0;
-  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, real ? NULL : &e->work));
-  stf_scale(space, real ? -1 : split->re[0] / split->im[0], real ? s->error : e->work, s->error);
-  return STEIF_OK;
+  STEIF_TRY(filtered(s, s->y));
+  if (s->count > 0 && !s->refused) return STEIF_OK;
+  if (stf_norm(space, s->error, s->weights) <= s->error_tolerance) return STEIF_OK;
+  stf_sum(space, 1, s->y, 1, s->error, s->newton.Y);
+  return filtered(s, s->newton.Y);
 }
 
 static int solve(stf_step *s, sunrealtype h)
