@@ -119,20 +119,34 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   return STEIF_OK;
 }
 
-/* Stage increments of the next step from the last one's polynomial. */
+/* Row i of P: the polynomial through the last points of (0, 0), (c_j, Z_j) at 1 + ratio c_i, minus
+ * the end value. More than POINTS of them would amplify rounding and noise. */
+enum { POINTS = 6 };
+
+static void fill_P(state *e, int i)
+{
+  const int s = e->s, count = s < POINTS ? s : POINTS;
+  const bool origin = s < POINTS && e->table->c[0] > 0;
+  sunrealtype node[POINTS + 1] = {0}, value[POINTS + 1], *row = e->P + i * s;
+  for (int j = 0; j < count; j++) node[origin + j] = e->table->c[s - count + j];
+  stf_interpolate(count - 1 + origin, node, 1 + e->ratio * e->table->c[i], value);
+  for (int j = 0; j < s; j++) row[j] = -e->end[j];
+  for (int j = 0; j < count; j++) row[s - count + j] += value[origin + j];
+}
+
+/* Stage increments of the next step from the last one's; zero for linear systems, whose one solve
+ * needs no start. */
 static void predict(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
-  if (!e->history || s->absolute || s->restart) {
+  if (!e->history || s->system.linear || s->restart) {
     for (int j = 0; j < e->s; j++) stf_zero(space, e->trial[j]);
     return;
   }
   if (e->ratio != h / s->h) {
     e->ratio = h / s->h;
-    for (int i = 0; i < e->s; i++)
-      for (int j = 0; j < e->s; j++)
-        e->P[i * e->s + j] = weight(e, j, 1 + e->ratio * e->table->c[i]) - e->end[j];
+    for (int i = 0; i < e->s; i++) fill_P(e, i);
   }
   stf_mix(space, e->s, e->s, e->P, e->Z, e->trial);
 }

@@ -1,0 +1,9 @@
+/* The laws of the house: loops over everything on the shelves.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_law_propagator[], tests_of_law_retry[], tests_of_law_stumble[];
+
+SUITE_MAIN({.pName = "propagator", .pTests = tests_of_law_propagator},
+           {.pName = "retry", .pTests = tests_of_law_retry},
+           {.pName = "stumble", .pTests = tests_of_law_stumble})
