@@ -67,7 +67,7 @@ static int prepare(steif_pencil *p, int slot, steif_shift s)
   band *b = p->state;
   factors *f = &b->slot[slot];
   const size_t n = (size_t)p->n;
-  const bool wide = stf_complex(s);
+  const bool wide = stf_is_complex(s);
   if (!f->pivot && !(f->pivot = stf_allocate(p->ctx, n, sizeof(int)))) return STEIF_NO_MEMORY;
   if (f->ab && (f->wide || !wide)) return STEIF_OK;
   stf_release(p->ctx, f->ab);
@@ -80,7 +80,7 @@ static int prepare(steif_pencil *p, int slot, steif_shift s)
 static void assemble(steif_pencil *p, steif_shift s, double *ab)
 {
   const band *b = p->state;
-  const sunindextype w = stf_complex(s) ? 2 : 1;
+  const sunindextype w = stf_is_complex(s) ? 2 : 1;
   memset(ab, 0, (size_t)(p->n * w) * (size_t)b->ld * sizeof *ab);
   for (sunindextype j = 0; j < p->n; j++) {
     double *restrict out = ab + w * (j * b->ld + b->kl + b->ku);
@@ -103,7 +103,7 @@ static void factor(steif_pencil *p, int slot, steif_shift s, stf_outcome *out)
   const band *b = p->state;
   const factors *f = &b->slot[slot];
   const int n = (int)p->n;
-  const bool complex = stf_complex(s);
+  const bool complex = stf_is_complex(s);
   int info;
   assemble(p, s, f->ab);
   if (!stf_all_finite(f->ab, (size_t)n * (size_t)b->ld * (complex ? 2 : 1))) {
@@ -121,7 +121,7 @@ static int columns(steif_pencil *p, int slot, int nrhs, double *x, sunindextype 
   const factors *f = &b->slot[slot];
   const int n = (int)p->n, ldx = (int)ld;
   int info;
-  (stf_complex(p->shift[slot]) ? zgbtrs_ : dgbtrs_)("N", &n, &b->kl, &b->ku, &nrhs, f->ab,
+  (stf_is_complex(p->shift[slot]) ? zgbtrs_ : dgbtrs_)("N", &n, &b->kl, &b->ku, &nrhs, f->ab,
                                                     &b->ld, f->pivot, x, &ldx, &info, 1);
   return STEIF_OK;
 }

@@ -51,7 +51,7 @@ static int prepare(steif_pencil *p, int slot, steif_shift s)
 {
   factors *f = &((dense *)p->state)->slot[slot];
   const size_t n = (size_t)p->n;
-  const bool wide = stf_complex(s);
+  const bool wide = stf_is_complex(s);
   if (!f->pivot && !(f->pivot = stf_allocate(p->ctx, n, sizeof(int)))) return STEIF_NO_MEMORY;
   if (f->a && (f->wide || !wide)) return STEIF_OK;
   stf_release(p->ctx, f->a);
@@ -102,7 +102,7 @@ static void assemble(steif_pencil *p, steif_shift s, double *a)
 {
   const sunindextype n = p->n;
   for (sunindextype j = 0; j < n; j++)
-    if (!stf_complex(s))
+    if (!stf_is_complex(s))
       real_column(p, j, s.re, a + n * j);
     else if (n > STF_SMALL)
       interleaved_column(p, j, s, a + 2 * n * j);
@@ -114,7 +114,7 @@ static void factor(steif_pencil *p, int slot, steif_shift s, stf_outcome *out)
 {
   const factors *f = &((dense *)p->state)->slot[slot];
   const int n = (int)p->n;
-  const bool complex = stf_complex(s);
+  const bool complex = stf_is_complex(s);
   int info;
   assemble(p, s, f->a);
   if (!stf_all_finite(f->a, (size_t)n * (size_t)n * (complex ? 2 : 1))) {
@@ -135,7 +135,7 @@ static int columns(steif_pencil *p, int slot, int nrhs, double *b, sunindextype 
   const factors *f = &((dense *)p->state)->slot[slot];
   const int n = (int)p->n, ldb = (int)ld;
   int info;
-  (stf_complex(p->shift[slot]) ? zgetrs_ : dgetrs_)("N", &n, &nrhs, f->a, &n, f->pivot, b, &ldb,
+  (stf_is_complex(p->shift[slot]) ? zgetrs_ : dgetrs_)("N", &n, &nrhs, f->a, &n, f->pivot, b, &ldb,
                                                     &info, 1);
   return STEIF_OK;
 }

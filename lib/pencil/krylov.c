@@ -163,7 +163,7 @@ static int prepare(steif_pencil *p, int slot, steif_shift s)
 {
   krylov *k = p->state;
   (void)slot;
-  if (!stf_complex(s) || k->paired) return STEIF_OK;
+  if (!stf_is_complex(s) || k->paired) return STEIF_OK;
   if (!k->pair_x && !(k->pair_x = pair(p, k->half_x))) return STEIF_NO_MEMORY;
   if (!k->pair_b && !(k->pair_b = pair(p, k->half_b))) return STEIF_NO_MEMORY;
   k->paired = solver_new(p, k->pair_x, paired_times, paired_precondition);

@@ -132,7 +132,7 @@ static void minus_A(const steif_pencil *p, const stf_pattern *u, sunindextype st
 void stf_pattern_assemble(const steif_pencil *p, const stf_pattern *u, steif_shift s,
                           double *restrict v)
 {
-  const bool complex = stf_complex(s);
+  const bool complex = stf_is_complex(s);
   const double *restrict e = p->E ? SM_DATA_S(p->E) : NULL;
   const sunindextype *restrict place = u->placeE, nE = e ? u->ptrE[u->n] : u->n;
   minus_A(p, u, complex ? 2 : 1, v);

@@ -144,7 +144,7 @@ static int list(steif_pencil *p, int count, const steif_shift *s, int *todo)
   int m = 0;
   for (int wanted = 1; wanted >= 0; wanted--)
     for (int k = 0; k < count; k++) {
-      if (stf_complex(s[k]) != (wanted == 1)) continue;
+      if (stf_is_complex(s[k]) != (wanted == 1)) continue;
       if (p->fresh[k] && p->shift[k].re == s[k].re && p->shift[k].im == s[k].im) continue;
       p->fresh[k] = false;
       todo[m++] = k;
@@ -245,7 +245,7 @@ static int check_solve(steif_pencil *p, int k, int nrhs, N_Vector *re, N_Vector 
   STEIF_CHECK(nrhs >= 1 && re, p->ctx, STEIF_BAD_INPUT,
               "%d right-hand sides%s: at least one is needed", nrhs,
               re ? "" : " and re = NULL");
-  STEIF_CHECK(im || !stf_complex(p->shift[k]), p->ctx, STEIF_BAD_INPUT,
+  STEIF_CHECK(im || !stf_is_complex(p->shift[k]), p->ctx, STEIF_BAD_INPUT,
               "slot %d has the complex shift %g%+gi: give imaginary parts (im is NULL)", k,
               p->shift[k].re, p->shift[k].im);
   for (int i = 0; i < nrhs; i++) {
@@ -261,7 +261,7 @@ int steif_pencil_solve(steif_pencil *p, int k, int nrhs, N_Vector *re, N_Vector 
   if (!p) return STEIF_BAD_INPUT;
   STEIF_TRY(check_solve(p, k, nrhs, re, im));
   p->stats.solves += nrhs;
-  if (!im || stf_complex(p->shift[k])) return p->backend->solve(p, k, nrhs, re, im);
+  if (!im || stf_is_complex(p->shift[k])) return p->backend->solve(p, k, nrhs, re, im);
   STEIF_TRY(p->backend->solve(p, k, nrhs, re, NULL));
   return p->backend->solve(p, k, nrhs, im, NULL);
 }

@@ -59,7 +59,7 @@ struct steif_pencil {
 /* Columns of p->work: real right-hand sides that a back end gets at once, or twice the complex. */
 enum { STF_COLUMNS = 8 };
 
-static inline bool stf_complex(steif_shift s) { return s.im != 0; }
+static inline bool stf_is_complex(steif_shift s) { return s.im != 0; }
 
 /* The host array of v, or NULL; without a call for a serial vector. */
 static inline sunrealtype *stf_array(N_Vector v)

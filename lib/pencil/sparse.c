@@ -114,7 +114,7 @@ static int prepare(steif_pencil *p, int slot, steif_shift shift)
   sparse *s = p->state;
   factors *f = s->slot[slot];
   const size_t nnz = (size_t)s->pattern.nnz;
-  const bool wide = stf_complex(shift);
+  const bool wide = stf_is_complex(shift);
   if (!f) {
     if (!(f = s->slot[slot] = stf_allocate(p->ctx, 1, sizeof *f))) return STEIF_NO_MEMORY;
     defaults(&f->common);
@@ -174,7 +174,7 @@ static void factor(steif_pencil *p, int slot, steif_shift shift, stf_outcome *ou
 {
   sparse *s = p->state;
   factors *f = s->slot[slot];
-  const bool complex = stf_complex(shift);
+  const bool complex = stf_is_complex(shift);
   stf_pattern_assemble(p, &s->pattern, shift, f->value);
   if (!stf_all_finite(f->value, (size_t)s->pattern.nnz * (complex ? 2 : 1))) {
     out->code = STEIF_NOT_FINITE;

@@ -1,0 +1,12 @@
+/* main.c: the suites of the pencil room.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_crew[], tests_of_frame[], tests_of_krylov[], tests_of_solve[],
+  tests_of_sparse[];
+
+SUITE_MAIN({.pName = "solve", .pTests = tests_of_solve},
+           {.pName = "frame", .pTests = tests_of_frame},
+           {.pName = "sparse", .pTests = tests_of_sparse},
+           {.pName = "krylov", .pTests = tests_of_krylov},
+           {.pName = "crew", .pTests = tests_of_crew})
