@@ -10,8 +10,9 @@ house_test(measure -DSOURCE=${PROJECT_SOURCE_DIR})
 
 include(CheckLanguage)
 check_language(CXX)
-get_target_property(folders SUNDIALS::nvecserial_shared INTERFACE_INCLUDE_DIRECTORIES)
-list(REMOVE_ITEM folders ${CMAKE_C_IMPLICIT_INCLUDE_DIRECTORIES})
+string(REPLACE ";" "|" implicit "${CMAKE_C_IMPLICIT_INCLUDE_DIRECTORIES}")
+set(folders $<TARGET_PROPERTY:steif::sundials,INTERFACE_INCLUDE_DIRECTORIES>)
+set(folders "$<FILTER:${folders},EXCLUDE,^(${implicit})$>")
 house_test(headers -DCC=${CMAKE_C_COMPILER} -DCXX=$<$<BOOL:${CMAKE_CXX_COMPILER}>:${CMAKE_CXX_COMPILER}>
            -DHEADERS=${PROJECT_SOURCE_DIR}/include/steif "-DFOLDERS=${folders}")
 
@@ -48,4 +49,4 @@ add_test(NAME readme COMMAND readme_program)
 # y_1 of Robertson's problem: 0.98517 at 0.4 and 5.2083e-8 at 4e10 (Hairer and Wanner, 1996, IV.10;
 # cvRoberts of SUNDIALS), both reached, and "ok" at the end.
 set_tests_properties(readme PROPERTIES PASS_REGULAR_EXPRESSION
-                     "^ 4.0e-01  9.8517[0-9]*e-01\n(.*\n)? 4.0e.10  5.208[0-9]*e-08\nok\n$")
+                     "(^|\n) 4.0e-01  9.8517[0-9]*e-01\n(.*\n)? 4.0e.10  5.208[0-9]*e-08\nok\n$")
