@@ -39,7 +39,8 @@ static void axes(const steif_plot *plot, FILE *script)
   setting(script, "title", plot->title);
   setting(script, "xlabel", plot->x_label);
   setting(script, "ylabel", plot->y_label);
-  fputs(plot->count > 1 ? "set key outside right top noenhanced\n" : "unset key\n", script);
+  fputs(plot->count > 1 ? "set key outside right top Left reverse noenhanced\n" : "unset key\n",
+        script);
   if (plot->log_x) fputs("set logscale x\nset format x '10^{%T}'\n", script);
   if (plot->log_y) fputs("set logscale y\nset format y '10^{%T}'\n", script);
   if (plot->equal) fputs("set size ratio -1\nset zeroaxis lt 1 lc rgb '#999999'\n", script);
@@ -83,8 +84,9 @@ static void script_of(const steif_plot *plot, FILE *script)
   }
   for (size_t k = 0; k < plot->count; k++) {
     const steif_curve *c = &plot->curve[k];
-    fprintf(script, "%s $curve%zu using 1:2 with %s title ", k ? "," : "plot", k,
-            style[c->marks == 1 || c->marks == 2 ? c->marks : 0]);
+    fprintf(script, "%s $curve%zu using 1:2 with %s pt %zu lc rgb '%s' title ",
+            k ? "," : "plot", k, style[c->marks == 1 || c->marks == 2 ? c->marks : 0],
+            k % 7 + 5, stf_colours[k % STF_COLOURS]);
     quoted(script, c->label);
   }
   putc('\n', script);

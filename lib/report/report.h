@@ -67,6 +67,8 @@ void stf_axis_range(stf_axis *axis, const steif_plot *plot, bool vertical);
 void stf_axis_equal(stf_axis *x, stf_axis *y);
 void stf_axis_ticks(stf_axis *axis, int about);
 
+enum { STF_COLOURS = 8 };
+extern const char *const stf_colours[]; /* "#rrggbb" of the curves in turn */
 int stf_plot_svg(const steif_plot *plot, FILE *stream);
 int stf_plot_gnuplot(steif_context *ctx, const steif_plot *plot, FILE *stream);
 

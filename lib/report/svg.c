@@ -5,10 +5,10 @@
 #include <string.h>
 
 /* Colours that colour-blind readers tell apart (Okabe and Ito, 2008), darkened where pale. */
-static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#b8568f",
-                                      "#c98a00", "#2f9fd8", "#444444", "#7a3e9d"};
+const char *const stf_colours[] = {"#0072b2", "#d55e00", "#009e73", "#b8568f",
+                                   "#c98a00", "#2f9fd8", "#444444", "#7a3e9d"};
 static const char *const dashes[] = {"", "7 3", "2 3", "8 3 2 3"};
-enum { COLOURS = 8, DASHES = 4, SHAPES = 6 };
+enum { DASHES = 4, SHAPES = 6 };
 
 typedef struct picture {
   FILE *out;
@@ -113,7 +113,7 @@ static double legend_width(const steif_plot *plot)
 
 static picture layout(const steif_plot *plot, FILE *out)
 {
-  picture p = {.out = out, .plot = plot, .top = 46};
+  picture p = {.out = out, .plot = plot, .top = 54};
   p.x.log = plot->log_x, p.y.log = plot->log_y;
   stf_axis_range(&p.x, plot, false);
   stf_axis_range(&p.y, plot, true);
@@ -299,13 +299,13 @@ static void marks(const picture *p, size_t k)
 
 static void open_group(const picture *p, size_t k, bool line)
 {
-  const char *dash = dashes[(k / COLOURS) % DASHES];
+  const char *dash = dashes[(k / STF_COLOURS) % DASHES];
   fprintf(p->out,
           line ? "<g fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" "
                  "stroke-linejoin=\"round\""
                : "<g fill=\"%s\" stroke=\"#fff\" "
                  "stroke-width=\"0.6\"",
-          colours[k % COLOURS]);
+          stf_colours[k % STF_COLOURS]);
   if (line && *dash) fprintf(p->out, " stroke-dasharray=\"%s\"", dash);
   fputs(">\n", p->out);
 }

@@ -1,0 +1,25 @@
+/* layer.h: an initial layer, its picture, and another integrator on the same system.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef LAYER_H
+#define LAYER_H
+
+#include "run.h"
+
+struct layer {
+  size_t k, steps;
+  double h;
+  char problem[96];              /* "jordan:k=3,case=N-inc" */
+  double *t, *error, *x, *exact; /* one block, begins at t; rows 0 .. steps */
+  steif_layer_result result;
+};
+
+/* Take room and measure; the context has the sentence when it fails. Then layer_free. */
+int layer_measure(steif_context *ctx, struct layer *l, const char *method, const char *start);
+void layer_free(struct layer *l);
+/* Another integrator on the same system: its largest deviation from the exact smooth part. */
+outcome layer_against(steif_context *ctx, const struct layer *l, const char *method,
+                      double rtol, double *error);
+int layer_plot(const struct call *call, const struct layer *l, const char *method,
+               const char *path);
+
+#endif

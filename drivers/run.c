@@ -1,0 +1,107 @@
+/* run.c: one integration and its line in a report.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "run.h"
+#include <string.h>
+
+steif_options options_of(const struct call *call)
+{
+  static const char *const name[] = {"dense", "band", "sparse"};
+  static const enum steif_storage storage[] = {STEIF_DENSE, STEIF_BAND, STEIF_SPARSE};
+  steif_options o = steif_defaults();
+  o.rtol = real_of(call, "--rtol", o.rtol);
+  o.atol = real_of(call, "--atol", o.atol);
+  o.h = real_of(call, "--h", 0);
+  o.t1 = real_of(call, "--t1", 0);
+  o.start = word_of(call, "--start", NULL);
+  for (int i = 0; i < 3; i++)
+    if (!strcmp(word_of(call, "--storage", ""), name[i]))
+      o.storage = storage[i], o.force_storage = 1;
+  return o;
+}
+
+/* atol/rtol of the run: how much of the size of a component counts as nothing. */
+static double tolerance_ratio(const steif_problem *problem, const steif_options *o)
+{
+  const double scale = problem->rtol_scale > 0 ? problem->rtol_scale : 1;
+  return o->atol > 0 && o->rtol > 0 ? o->atol / o->rtol : scale;
+}
+
+outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
+                  const steif_options *options, steif_solver **solver)
+{
+  outcome o = {.t = problem->t0};
+  const double t1 = options->t1 > 0 ? options->t1 : problem->t1;
+  steif_forget(ctx);
+  steif_solver *s = steif_solver_new(ctx, problem, method, options);
+  o.code = s ? steif_solve_to(s, t1) : steif_status(ctx);
+  snprintf(o.message, sizeof o.message, "%s", o.code == STEIF_OK ? "ok" : steif_message(ctx));
+  if (s) o.t = steif_time(s), o.stats = *steif_statistics(s);
+  if (s && o.code == STEIF_OK)
+    o.known =
+      steif_problem_digits(ctx, problem, o.t, steif_solution(s),
+                           tolerance_ratio(problem, options), &o.scd, &o.mescd) == STEIF_OK;
+  if (solver)
+    *solver = s;
+  else
+    steif_solver_free(&s);
+  steif_forget(ctx);
+  return o;
+}
+
+static const char *join(char *name, size_t size, const char *prefix, const char *key)
+{
+  snprintf(name, size, "%s%s", prefix, key);
+  return name;
+}
+
+void report_maybe(steif_report *r, const char *prefix, const char *key, bool there,
+                  double value)
+{
+  char name[96];
+  join(name, sizeof name, prefix, key);
+  if (there)
+    steif_report_real(r, name, value);
+  else
+    steif_report_text(r, name, NULL);
+}
+
+void report_digits(steif_report *r, const char *prefix, const outcome *o)
+{
+  report_maybe(r, prefix, "scd", o->known, o->scd);
+  report_maybe(r, prefix, "mescd", o->known, o->mescd);
+}
+
+void report_status(steif_report *r, const char *prefix, const outcome *o)
+{
+  char name[96];
+  steif_report_text(r, join(name, sizeof name, prefix, "status"), steif_code_name(o->code));
+  steif_report_text(r, join(name, sizeof name, prefix, "message"), o->message);
+}
+
+void report_stats(steif_report *r, const char *prefix, const outcome *o)
+{
+  const struct {
+    const char *key;
+    long count;
+  } counts[] = {{"steps", o->stats.steps}, {"rejected", o->stats.rejected},
+                {"nfe", o->stats.nfe},     {"nje", o->stats.nje},
+                {"nlu", o->stats.nlu},     {"nsolve", o->stats.nsolve}};
+  char name[96];
+  for (int i = 0; i < 6; i++)
+    steif_report_whole(r, join(name, sizeof name, prefix, counts[i].key), counts[i].count);
+  steif_report_real(r, join(name, sizeof name, prefix, "cpu_s"), o->stats.cpu_s);
+}
+
+void report_run(steif_report *r, const char *method, const steif_problem *problem,
+                const steif_options *options, const outcome *o)
+{
+  const bool steps = options->h > 0;
+  steif_report_row(r, "rows");
+  steif_report_text(r, "rows.method", method);
+  report_maybe(r, "rows.", "rtol", !steps, options->rtol);
+  report_maybe(r, "rows.", "atol", !steps, options->rtol * tolerance_ratio(problem, options));
+  report_maybe(r, "rows.", "h", steps, options->h);
+  report_digits(r, "rows.", o);
+  report_status(r, "rows.", o);
+  report_stats(r, "rows.", o);
+}

@@ -1,0 +1,57 @@
+/* run.h: one integration and what came of it, for the verbs that integrate.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef RUN_H
+#define RUN_H
+
+#include "face.h"
+
+typedef struct outcome {
+  int code;
+  char message[1200]; /* "ok" or the sentence */
+  double t;
+  bool known; /* there is a reference at t: scd and mescd are set */
+  double scd, mescd;
+  steif_stats stats;
+} outcome;
+
+/* Integrate to options->t1 (the problem's when 0). The solver is kept in *solver unless that is
+ * NULL; it may be NULL afterwards when it could not be made. The context's message is forgotten. */
+outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
+                  const steif_options *options, steif_solver **solver);
+
+/* Under `prefix` ("rows." or ""): scd, mescd; status, message; with stats_prefix: the counts. */
+void report_digits(steif_report *r, const char *prefix, const outcome *o);
+void report_status(steif_report *r, const char *prefix, const outcome *o);
+void report_stats(steif_report *r, const char *prefix, const outcome *o);
+/* A row of the sheet "rows": method, rtol, atol, h, digits, status, counts. */
+void report_run(steif_report *r, const char *method, const steif_problem *problem,
+                const steif_options *options, const outcome *o);
+
+/* "null" unless the number is meant. */
+void report_maybe(steif_report *r, const char *prefix, const char *key, bool there,
+                  double value);
+
+/* The accepted steps of a run; an observer of steif_options. */
+typedef struct trajectory {
+  const struct call *call;
+  size_t n, count, room;
+  double t1, *t, *y; /* y by steps, n values each */
+  bool short_of_memory;
+} trajectory;
+int trajectory_add(steif_solver *s, sunrealtype t, N_Vector y, void *user);
+void trajectory_free(trajectory *tr);
+int trajectory_save(const struct call *call, const trajectory *tr);
+int trajectory_plot(const struct call *call, const trajectory *tr, const char *title);
+
+/* --rtol, --atol, --h, --t1, --start, --storage where given. */
+steif_options options_of(const struct call *call);
+/* The option lines that options_of reads, for the tables of the verbs. */
+#define RUN_OPTIONS                                                                            \
+  {"--t1", POSITIVE, "T", "end of the integration (default: the problem's)"},                  \
+    {"--start", WORD, "S",                                                                     \
+     "starting procedure of multistep methods: exact, ramp, constant, cq"},                    \
+  {                                                                                            \
+    "--storage", CHOICE, "dense|band|sparse", "storage of the matrices"                        \
+  }
+
+#endif

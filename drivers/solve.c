@@ -1,0 +1,70 @@
+/* solve.c: one integration.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "run.h"
+
+static void fill(steif_report *r, const char *const *word, const outcome *o, steif_solver *s,
+                 size_t n)
+{
+  steif_report_text(r, "problem", word[0]);
+  steif_report_text(r, "method", word[1]);
+  report_status(r, "", o);
+  steif_report_real(r, "t", o->t);
+  steif_report_list(r, "y", s ? n : 0, s ? N_VGetArrayPointer(steif_solution(s)) : NULL);
+  report_digits(r, "", o);
+  report_stats(r, "stats.", o);
+}
+
+/* What there is to show; a failed run is shown up to where it came. */
+static int finish(struct call *call, const outcome *o, steif_solver *s, const trajectory *tr)
+{
+  char title[128];
+  snprintf(title, sizeof title, "%s by %s", call->word[0], call->word[1]);
+  int code = o->code == STEIF_OK ? EXIT_OK : exit_of(o->code);
+  steif_report *r = steif_report_new(call->ctx);
+  fill(r, call->word, o, s, tr->n);
+  const bool shown = call->json || s;
+  int output = !r ? fail(call) : shown ? show(call, r) : EXIT_OK;
+  steif_report_free(&r);
+  if (o->code != STEIF_OK)
+    say(call, "%s",
+        tr->short_of_memory ? "no memory for the trajectory; leave out --csv and "
+                              "--plot"
+                            : o->message);
+  if (s && output == EXIT_OK) output = trajectory_save(call, tr);
+  if (s && output == EXIT_OK) output = trajectory_plot(call, tr, title);
+  return code ? code : output;
+}
+
+static int run(struct call *call)
+{
+  steif_problem p;
+  if (steif_problem_find(call->ctx, call->word[0], &p) != STEIF_OK) return fail(call);
+  steif_options options = options_of(call);
+  trajectory tr = {.call = call, .n = (size_t)p.n, .t1 = options.t1 > 0 ? options.t1 : p.t1};
+  options.observe = trajectory_add, options.observer = &tr;
+  steif_solver *s = NULL;
+  const outcome o = integrate(call->ctx, &p, call->word[1], &options, &s);
+  const int code = finish(call, &o, s, &tr);
+  steif_solver_free(&s);
+  trajectory_free(&tr);
+  steif_problem_clear(call->ctx, &p);
+  return code;
+}
+
+static const struct option options[] = {
+  {"--rtol", POSITIVE, "R", "relative tolerance (default 1e-6)"},
+  {"--atol", POSITIVE, "A", "absolute tolerance (default: rtol times the problem's scale)"},
+  {"--h", POSITIVE, "H", "equal steps instead of a tolerance"},
+  RUN_OPTIONS,
+  {NULL, FLAG, NULL, NULL},
+};
+static const char *const clash[][2] = {{"--h", "--rtol"}, {"--h", "--atol"}, {NULL, NULL}};
+
+const struct verb verb_solve = {"solve",
+                                "Integrate one problem with one method",
+                                "PROBLEM METHOD [--rtol R --atol A | --h H] [--t1 T]",
+                                2,
+                                2,
+                                options,
+                                clash,
+                                run};

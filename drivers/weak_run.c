@@ -1,0 +1,29 @@
+/* weak_run.c: ask the library about weak convergence.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "weak.h"
+#include <string.h>
+
+static const char *const name[] = {"P", "R", "C", "stage"}; /* enum steif_convention */
+
+const char *convention_name(enum steif_convention convention) { return name[convention]; }
+
+/* Stages for Runge-Kutta methods with more than one, the comb for convolution quadrature. */
+static enum steif_convention usual(const char *method, const char *start,
+                                   const steif_method_info *m)
+{
+  if (strstr(method, "start=cq") || (start && !strcmp(start, "cq"))) return STEIF_C;
+  return m->stages > 1 && strcmp(m->family, "bdf") ? STEIF_STAGE : STEIF_R;
+}
+
+int weak_measure(steif_context *ctx, struct weak *w)
+{
+  steif_method_info m;
+  const int code = steif_method_find(ctx, w->query.method, &m);
+  if (code != STEIF_OK) return code;
+  snprintf(w->problem, sizeof w->problem, "jordan:k=%ld,case=%s", w->k, w->kind);
+  w->query.problem = w->problem;
+  w->query.convention = usual(w->query.method, w->query.start, &m);
+  for (int i = 0; w->convention && i < 4; i++)
+    if (!strcmp(w->convention, name[i])) w->query.convention = (enum steif_convention)i;
+  return steif_weak_measure(ctx, &w->query, w->row, &w->result);
+}
