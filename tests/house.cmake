@@ -29,10 +29,11 @@ house_test(consumer -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
            -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DVERSION=${PROJECT_VERSION} -DCC=${CMAKE_C_COMPILER}
            -DFLAGS=${flags})
 
-# The first C program of README.md, as printed.
-if(NOT EXISTS ${PROJECT_SOURCE_DIR}/README.md)
-  return()
+if(TARGET steif_program)
+  house_test(commands -DPROGRAM=$<TARGET_FILE:steif_program> -DREADME=${PROJECT_SOURCE_DIR}/README.md)
 endif()
+
+# The first C program of README.md, as printed.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/README.md)
 file(READ README.md text)
 string(REGEX MATCH "\n```c\n([^`]*)\n```\n" found "${text}")

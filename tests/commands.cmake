@@ -1,0 +1,21 @@
+# Every command line of the program in README.md ends with 0 and prints something; the demo, which
+# takes its minute, is left to itself.
+#   cmake -DPROGRAM= -DREADME= -P commands.cmake
+file(STRINGS ${README} lines REGEX "^    steif [a-z]")
+list(FILTER lines EXCLUDE REGEX "^    steif demo")
+list(LENGTH lines count)
+if(count LESS 5)
+  message(FATAL_ERROR "README.md shows ${count} commands only")
+endif()
+file(REMOVE_RECURSE commands)
+file(MAKE_DIRECTORY commands)
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE "^    steif (.*[^ ])   +.*$" "\\1" words "${line}")
+  separate_arguments(words UNIX_COMMAND "${words}")
+  execute_process(COMMAND ${PROGRAM} ${words} WORKING_DIRECTORY commands
+                  RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE said)
+  if(NOT code EQUAL 0 OR out STREQUAL "")
+    string(STRIP "${line}" line)
+    message(SEND_ERROR "'${line}' ended with ${code}: ${said}")
+  endif()
+endforeach()
