@@ -19,15 +19,16 @@ int stf_jordan_open(steif_context *ctx, const char *spec, steif_problem *problem
 {
   STEIF_CHECK(spec, ctx, STEIF_BAD_INPUT,
               "no problem was named: give one such as \"jordan:k=3,case=H-inc\"");
+  steif_spec parsed;
+  STEIF_TRY(steif_spec_parse(ctx, spec, &parsed));
+  STEIF_CHECK(
+    !strcmp(parsed.name, "jordan"), ctx, STEIF_UNSUPPORTED,
+    "the exact distribution is known for Jordan blocks only, not for '%s': name a problem "
+    "such as \"jordan:k=3,case=H-inc\"",
+    spec);
   STEIF_TRY(steif_problem_find(ctx, spec, problem));
-  int code = STEIF_OK;
-  if (!problem->name || strcmp(problem->name, "jordan") || !problem->y0)
-    code = STEIF_FAIL(ctx, STEIF_UNSUPPORTED,
-                      "the exact distribution is known for Jordan blocks only, not for '%s': "
-                      "name a problem such as \"jordan:k=3,case=H-inc\"",
-                      spec);
-  if (code == STEIF_OK)
-    code = stf_block_open(block, ctx, (int)problem->n, problem->g, problem->user, problem->y0);
+  const int code =
+    stf_block_open(block, ctx, (int)problem->n, problem->g, problem->user, problem->y0);
   if (code != STEIF_OK) steif_problem_clear(ctx, problem);
   return code;
 }
