@@ -78,7 +78,10 @@ static sunindextype block_size(sunindextype n, sunindextype from)
 void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vector *x, N_Vector z)
 {
   if (!space->serial) {
-    N_VLinearCombination(count, (sunrealtype *)c, x, z);
+    if (count == 0)
+      N_VConst(0, z);
+    else
+      N_VLinearCombination(count, (sunrealtype *)c, x, z);
     return;
   }
   sunrealtype sum[BLOCK], *out = STF_ARRAY(z);

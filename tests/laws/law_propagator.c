@@ -35,8 +35,8 @@ static void one(steif_context *ctx, const char *method, const double z[2])
     next += (M[2 * j] + I * M[2 * j + 1]) * y[steps - 1 - j];
     size = fmax(size, cabs(y[steps - 1 - j]));
   }
-  if (cabs(next - y[steps]) > 1e-12 * size) printf("\n  %s at z = %g%+gi", method, z[0], z[1]);
-  CLOSE_FLOOR(cabs(next - y[steps]), 0, 1e-12, size);
+  if (cabs(next - y[steps]) > 4e-12 * size) printf("\n  %s at z = %g%+gi", method, z[0], z[1]);
+  CLOSE_FLOOR(cabs(next - y[steps]), 0, 4e-12, size); /* the 12-stage split costs 2 digits */
   steif_solver_free(&s);
   steif_problem_clear(ctx, &p);
 }

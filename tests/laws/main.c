@@ -2,8 +2,11 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_law_propagator[], tests_of_law_retry[], tests_of_law_stumble[];
+extern CU_TestInfo tests_of_law_propagator[], tests_of_law_retry[], tests_of_law_stumble[],
+  tests_of_law_backends[], tests_of_law_memory[];
 
 SUITE_MAIN({.pName = "propagator", .pTests = tests_of_law_propagator},
            {.pName = "retry", .pTests = tests_of_law_retry},
-           {.pName = "stumble", .pTests = tests_of_law_stumble})
+           {.pName = "stumble", .pTests = tests_of_law_stumble},
+           {.pName = "back ends", .pTests = tests_of_law_backends},
+           {.pName = "memory", .pTests = tests_of_law_memory})

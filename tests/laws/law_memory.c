@@ -1,0 +1,143 @@
+/* law_memory.c: thrift: nothing is allocated while stepping; hunger: the k-th allocation fails, for
+ * every k, through the context's allocator and, where the C library can be replaced, in SUNDIALS and
+ * KLU too.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "laws.h"
+#include <stdlib.h>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define REPLACED 0
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define REPLACED 0
+#endif
+#endif
+#if !defined(REPLACED) && defined(__GLIBC__)
+#define REPLACED 1
+#elif !defined(REPLACED)
+#define REPLACED 0
+#endif
+
+static long asked, fail_at; /* fail_at > 0: that allocation of the C library fails */
+
+#if REPLACED
+void *__libc_malloc(size_t);
+void *__libc_calloc(size_t, size_t);
+void *__libc_realloc(void *, size_t);
+static int granted(void) { return ++asked != fail_at; }
+void *malloc(size_t size) { return granted() ? __libc_malloc(size) : NULL; }
+void *calloc(size_t n, size_t size) { return granted() ? __libc_calloc(n, size) : NULL; }
+void *realloc(void *p, size_t size) { return granted() ? __libc_realloc(p, size) : NULL; }
+#endif
+
+static const char *const problems[] = {"hires", "transamp", "heat:n=40", "medakzo", "jordan:k=3"};
+
+static void stepping_allocates_nothing(void)
+{
+#if REPLACED
+  steif_context *ctx = steif_context_new(&(steif_setup){.threads = 1});
+  for (int i = 0; i < 5; i++)
+    for (int m = 0; m < law_implicit_count; m++) {
+      steif_problem p;
+      steif_options o = steif_defaults();
+      CU_ASSERT_FATAL(!steif_problem_find(ctx, problems[i], &p));
+      o.h = 1e-3 * p.t1 / 128, o.t1 = 1e-3 * p.t1;
+      steif_solver *s = steif_solver_new(ctx, &p, law_methods[m], &o);
+      for (int k = 0; s && k < 8; k++) CHECK(!steif_solve_step(s)); /* factors of all orders made */
+      const long before = asked;
+      int code = 0;
+      for (int k = 0; s && k < 20 && !code; k++) code = steif_solve_step(s);
+      if (asked != before) printf("\n  %s %s: %ld", problems[i], law_methods[m], asked - before);
+      CHECK(asked == before);
+      steif_solver_free(&s);
+      steif_problem_clear(ctx, &p);
+    }
+  steif_context_free(&ctx);
+#endif
+}
+
+typedef struct meal {
+  long asked, fail_at, live;
+} meal;
+
+static void *allocate(size_t bytes, void *user)
+{
+  meal *m = user;
+  if (++m->asked == m->fail_at) return NULL;
+  m->live++;
+  return malloc(bytes);
+}
+
+static void release(void *block, void *user)
+{
+  meal *m = user;
+  if (block) m->live--;
+  free(block);
+}
+
+/* Find, open, run and close; the code of the first failure. */
+static int life(steif_context *ctx, const char *problem, const char *method)
+{
+  steif_problem p;
+  int code = steif_problem_find(ctx, problem, &p);
+  if (code) return code;
+  steif_options o = steif_defaults();
+  o.h = p.t1 / 100000, o.t1 = 3 * o.h;
+  steif_solver *s = steif_solver_new(ctx, &p, method, &o);
+  code = s ? steif_solve_to(s, o.t1) : steif_status(ctx);
+  steif_solver_free(&s);
+  steif_problem_clear(ctx, &p);
+  return code;
+}
+
+static const char *const lives[][2] = {{"hires", "radau:s=3"},   {"transamp", "bdf:p=3"},
+                                       {"heat:n=30", "gauss:s=2"}, {"bruss2d:n=4", "radau:s=2"},
+                                       {"jordan:k=3", "dirk:alexander2"}};
+
+static void the_allocator_may_fail_anywhere(void)
+{
+  for (int i = 0; i < 5; i++)
+    for (long k = 1;; k++) {
+      meal m = {.fail_at = k};
+      steif_context *ctx = steif_context_new(&(steif_setup){allocate, release, &m, 1});
+      const int code = ctx ? life(ctx, lives[i][0], lives[i][1]) : STEIF_NO_MEMORY;
+      steif_context_free(&ctx);
+      CHECK(m.live == 0);
+      if (m.asked < k) {
+        if (code) printf("\n  %s %s: %d after %ld", lives[i][0], lives[i][1], code, k);
+        CHECK(code == STEIF_OK && k > 20);
+        break;
+      }
+      if (code != STEIF_NO_MEMORY) printf("\n  %s %s k = %ld: %d", lives[i][0], lives[i][1], k, code);
+      CHECK(code == STEIF_NO_MEMORY);
+    }
+}
+
+static void the_c_library_may_fail_anywhere(void)
+{
+#if REPLACED
+  for (int i = 0; i < 5; i++)
+    for (long k = 1;; k++) {
+      steif_context *ctx = steif_context_new(&(steif_setup){.threads = 1});
+      asked = 0, fail_at = k;
+      const int code = life(ctx, lives[i][0], lives[i][1]);
+      const int reached = asked >= k;
+      fail_at = 0;
+      steif_context_free(&ctx);
+      if (!reached) {
+        if (code) printf("\n  %s %s: %d after %ld", lives[i][0], lives[i][1], code, k);
+        CHECK(code == STEIF_OK && k > 20);
+        break;
+      }
+      if (code != STEIF_NO_MEMORY && code != STEIF_OK)
+        printf("\n  %s %s k = %ld: %d", lives[i][0], lives[i][1], k, code);
+      CHECK(code == STEIF_NO_MEMORY || code == STEIF_OK);
+    }
+#endif
+}
+
+CU_TestInfo tests_of_law_memory[] = {
+  {"stepping allocates nothing", stepping_allocates_nothing},
+  {"the allocator may fail anywhere", the_allocator_may_fail_anywhere},
+  {"the C library may fail anywhere", the_c_library_may_fail_anywhere},
+  CU_TEST_INFO_NULL};
