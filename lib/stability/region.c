@@ -106,7 +106,7 @@ static sunrealtype reach(stf_growth *growth, sunrealtype theta)
   if (height(&line, low + log10(0.25)) > NOISE) return 0;
   while (high - low > 4 * STF_EPS * fmax(1, fabs(high))) {
     const sunrealtype middle = (low + high) / 2;
-    *(height(&line, middle) <= NOISE ? &low : &high) = middle;
+    *(height(&line, middle) <= 8 * STF_EPS ? &low : &high) = middle;
   }
   return pow(10, low);
 }
