@@ -65,39 +65,48 @@ static int published(const steif_problem *problem, sunrealtype t, target *r)
   return 0;
 }
 
+static int arguments(steif_context *ctx, const steif_problem *problem, N_Vector y,
+                     sunrealtype atol_over_rtol)
+{
+  STEIF_CHECK(problem && y, ctx, STEIF_BAD_INPUT,
+              "a problem, a vector and two places for the digits are needed, got NULL");
+  STEIF_CHECK(atol_over_rtol >= 0, ctx, STEIF_BAD_INPUT, "atol/rtol = %g must not be negative",
+              atol_over_rtol);
+  const long long n = (long long)problem->n, length = (long long)N_VGetLength(y);
+  STEIF_CHECK(
+    length == n && N_VGetArrayPointer(y), ctx, STEIF_BAD_INPUT,
+    "digits of %s need a vector of %lld components with an array on the host, got %lld",
+    problem->name, n, length);
+  return STEIF_OK;
+}
+
+/* The target at t; `exact` is NULL or a vector to hold the closed solution. */
+static int aim(steif_context *ctx, const steif_problem *problem, sunrealtype t, N_Vector exact,
+               target *r)
+{
+  const int code = exact ? closed(ctx, problem, t, exact, r) : 1;
+  if (code <= 0 || published(problem, t, r) == 0) return code < 0 ? code : STEIF_OK;
+  const bool has = problem->reference != NULL;
+  return STEIF_FAIL(ctx, STEIF_UNSUPPORTED, "nothing is known of %s at t = %.17g: %s %.17g",
+                    problem->name, t, has ? "its reference is at" : "it has none; its end is",
+                    has ? problem->reference->t : problem->t1);
+}
+
 int steif_problem_digits(steif_context *ctx, const steif_problem *problem, sunrealtype t,
                          N_Vector y, sunrealtype atol_over_rtol, sunrealtype *scd,
                          sunrealtype *mescd)
 {
-  STEIF_CHECK(problem && y && scd && mescd, ctx, STEIF_BAD_INPUT,
-              "a problem, a vector and two places for the digits are needed, got NULL");
-  STEIF_CHECK(atol_over_rtol >= 0, ctx, STEIF_BAD_INPUT, "atol/rtol = %g must not be negative",
-              atol_over_rtol);
-  const sunrealtype *array = N_VGetArrayPointer(y);
-  STEIF_CHECK(
-    array && (sunindextype)N_VGetLength(y) == problem->n, ctx, STEIF_BAD_INPUT,
-    "digits of %s need a vector of %lld components with an array on the host, got %lld",
-    problem->name, (long long)problem->n, (long long)N_VGetLength(y));
+  STEIF_TRY(arguments(ctx, scd && mescd ? problem : NULL, y, atol_over_rtol));
   *scd = *mescd = NAN;
-  N_Vector exact = NULL;
+  N_Vector exact = problem->exact ? N_VClone(y) : NULL;
+  STEIF_CHECK(exact || !problem->exact, ctx, STEIF_NO_MEMORY,
+              "no memory for %lld components of the exact solution", (long long)problem->n);
   target r = {0};
-  sunrealtype relative, mixed;
-  int code = 1;
-  if (problem->exact) {
-    exact = N_VClone(y);
-    STEIF_CHECK(exact, ctx, STEIF_NO_MEMORY,
-                "no memory for %lld components of the exact solution", (long long)problem->n);
-    code = closed(ctx, problem, t, exact, &r);
-  }
-  if (code > 0) code = published(problem, t, &r);
-  if (code == 0) {
-    measure(&r, array, atol_over_rtol, &relative, &mixed);
+  const int code = aim(ctx, problem, t, exact, &r);
+  if (code == STEIF_OK) {
+    sunrealtype relative, mixed;
+    measure(&r, N_VGetArrayPointer(y), atol_over_rtol, &relative, &mixed);
     *scd = digits(relative), *mescd = digits(mixed);
-  } else if (code > 0) {
-    code = STEIF_FAIL(
-      ctx, STEIF_UNSUPPORTED, "nothing is known of %s at t = %.17g: %s %.17g", problem->name, t,
-      problem->reference ? "its reference is at" : "it has no reference; its end is",
-      problem->reference ? problem->reference->t : problem->t1);
   }
   if (exact) N_VDestroy(exact);
   return code;

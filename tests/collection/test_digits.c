@@ -94,6 +94,32 @@ static void chosen_components_are_compared_at_their_time(void)
   steif_context_free(&ctx);
 }
 
+/* Closed solutions that end (> 0) or stop the run (< 0). */
+static int ends(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  (void)y, (void)yp, (void)user;
+  return t > 1 ? 1 : -7;
+}
+
+static void an_exact_solution_may_decline(void)
+{
+  static const sunrealtype value[] = {2.5};
+  static const steif_reference reference = {.t = 3, .value = value, .source = "chosen"};
+  steif_context *ctx = steif_context_new(NULL);
+  const steif_problem p = {
+    .name = "mine", .n = 1, .t1 = 3, .f = decay, .exact = ends, .reference = &reference};
+  N_Vector y = N_VNew_Serial(1, steif_sundials(ctx));
+  double scd, mescd;
+  NV_Ith_S(y, 0) = 2.5 * (1 - 6e-5);
+  CHECK(steif_problem_digits(ctx, &p, 3, y, 1, &scd, &mescd) == STEIF_OK);
+  CLOSE(scd, -log10(6e-5), 1e-9);
+  CHECK(steif_problem_digits(ctx, &p, 2, y, 1, &scd, &mescd) == STEIF_UNSUPPORTED);
+  CHECK(steif_problem_digits(ctx, &p, 0.5, y, 1, &scd, &mescd) == STEIF_CALLBACK);
+  CHECK(strstr(steif_message(ctx), "-7") != NULL);
+  N_VDestroy(y);
+  steif_context_free(&ctx);
+}
+
 static void wrong_arguments_are_refused(void)
 {
   fixture s;
@@ -102,6 +128,8 @@ static void wrong_arguments_are_refused(void)
   N_Vector longer = N_VNew_Serial(5, steif_sundials(s.ctx));
   CHECK(steif_problem_digits(s.ctx, &s.p, 1.5, longer, 1, &scd, &mescd) == STEIF_BAD_INPUT);
   CHECK(steif_problem_digits(s.ctx, &s.p, 1.5, NULL, 1, &scd, &mescd) == STEIF_BAD_INPUT);
+  CHECK(steif_problem_digits(s.ctx, &s.p, 1.5, s.y, 1, NULL, &mescd) == STEIF_BAD_INPUT);
+  CHECK(steif_problem_digits(s.ctx, &s.p, 1.5, s.y, 1, &scd, NULL) == STEIF_BAD_INPUT);
   CHECK(steif_problem_digits(s.ctx, NULL, 1.5, s.y, 1, &scd, &mescd) == STEIF_BAD_INPUT);
   CHECK(steif_problem_digits(s.ctx, &s.p, 1.5, s.y, -1, &scd, &mescd) == STEIF_BAD_INPUT);
   CHECK(steif_problem_digits(s.ctx, &s.p, 1.5, s.y, NAN, &scd, &mescd) == STEIF_BAD_INPUT);
@@ -116,5 +144,6 @@ CU_TestInfo tests_of_digits[] = {
   {"zero references count in mescd only", zero_references_count_in_mescd_only},
   {"chosen components are compared at their time",
    chosen_components_are_compared_at_their_time},
+  {"an exact solution may decline or stop", an_exact_solution_may_decline},
   {"wrong arguments are refused", wrong_arguments_are_refused},
   CU_TEST_INFO_NULL};

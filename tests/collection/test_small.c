@@ -215,6 +215,59 @@ static void brusselator_diffuses_waves(void)
   fixture_close(&s);
 }
 
+/* y := y + h f at weighted stages of the classical Runge-Kutta method, time seen not past `until`. */
+static void classical(fixture *s, double t, double h, double until)
+{
+  static const double node[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+  N_VScale(1, s->y, s->yp);
+  for (int k = 0; k < 4; k++) {
+    N_VLinearSum(1, s->y, node[k] * h, s->r, s->w);
+    CHECK(s->p.f(fmin(t + node[k] * h, until), s->w, s->r, s->p.user) == 0);
+    N_VLinearSum(1, s->yp, weight[k] * h, s->r, s->yp);
+  }
+  N_VScale(1, s->yp, s->y);
+}
+
+static void brusselator_reference_meets_an_explicit_method(void)
+{
+  fixture s;
+  double scd, mescd;
+  if (fixture_open(&s, "bruss2d:n=16")) return;
+  for (int i = 0; i < 512; i++) NV_Ith_S(s.y, i) = s.p.y0[i];
+  for (int k = 0; k < 550; k++) classical(&s, k * 0.002, 0.002, 1.0999999);
+  for (int k = 0; k < 5200; k++) classical(&s, fmax(1.1, 1.1 + k * 0.002), 0.002, 11.5);
+  CHECK(steif_problem_digits(s.ctx, &s.p, 11.5, s.y, 1, &scd, &mescd) == STEIF_OK);
+  if (scd < 8) printf("\n  %.2f digits", scd);
+  CHECK(scd > 8);
+  fixture_close(&s);
+}
+
+static void references_are_known_for_three_grids(void)
+{
+  static const char *const specs[] = {"bruss2d:n=16", "bruss2d:n=32", "bruss2d:n=64"};
+  double far = INFINITY;
+  steif_problem p[3];
+  steif_context *ctx = steif_context_new(NULL);
+  for (int i = 0; i < 3; i++) {
+    CHECK(steif_problem_find(ctx, specs[i], &p[i]) == STEIF_OK);
+    CHECK(p[i].reference && p[i].reference->count == 16);
+    /* v at x = 3/16, y = 1/16 */
+    const int N = 16 << i, apart = 1 << i;
+    CU_ASSERT_EQUAL(p[i].reference->component[9], N * N + apart * N + 3 * apart);
+  }
+  for (int i = 0; i < 2; i++) { /* second differences: finer grids differ less */
+    double most = 0;
+    for (int k = 0; k < 16; k++)
+      most = fmax(most, fabs(p[i + 1].reference->value[k] - p[i].reference->value[k]));
+    CHECK(most < far);
+    far = 0.6 * most;
+  }
+  for (int i = 0; i < 3; i++) steif_problem_clear(ctx, &p[i]);
+  CHECK(steif_problem_find(ctx, "bruss2d:n=17", &p[0]) == STEIF_OK && !p[0].reference);
+  steif_problem_clear(ctx, &p[0]);
+  steif_context_free(&ctx);
+}
+
 static void the_declared_pattern_is_that_of_the_jacobian(void)
 {
   fixture s;
@@ -247,6 +300,10 @@ CU_TestInfo tests_of_small[] = {
    heat_is_its_jacobian_times_u_in_every_storage},
   {"the Brusselator rests but for its source", brusselator_rests_but_for_its_source},
   {"the Brusselator diffuses waves", brusselator_diffuses_waves},
+  {"the Brusselator's reference meets an explicit method",
+   brusselator_reference_meets_an_explicit_method},
+  {"the Brusselator's references are known for three grids",
+   references_are_known_for_three_grids},
   {"the declared pattern is that of the Jacobian",
    the_declared_pattern_is_that_of_the_jacobian},
   CU_TEST_INFO_NULL};
