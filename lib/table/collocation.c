@@ -10,16 +10,38 @@ int stf_family_stages(steif_context *ctx, const steif_spec *spec, int lowest, in
   return stf_spec_int(ctx, spec, "s", lowest, STEIF_STAGES, fallback, s);
 }
 
-/* row_j = int_0^x l_j: degree s - 1, so (s+1)/2 points are exact. */
-static void integrate(int s, const long double *c, long double x, long double *row)
+typedef struct rule {
+  int s, points;
+  long double c[STEIF_STAGES], bary[STEIF_STAGES]; /* l_j = bary_j prod_{k != j} (x - c_k) */
+  long double g[STEIF_STAGES], w[STEIF_STAGES];    /* exact for l_j, of degree s - 1 */
+} rule;
+
+static int prepare(steif_context *ctx, enum stf_node_kind kind, int s, rule *r)
 {
-  long double g[STEIF_STAGES], w[STEIF_STAGES], value[STEIF_STAGES], slope[STEIF_STAGES];
-  const int points = (s + 1) / 2;
-  stf_gauss(points, g, w);
-  for (int j = 0; j < s; j++) row[j] = 0;
-  for (int q = 0; q < points; q++) {
-    stf_lagrange(s, c, x * g[q], value, slope);
-    for (int j = 0; j < s; j++) row[j] += x * w[q] * value[j];
+  r->s = s, r->points = (s + 1) / 2;
+  STEIF_TRY(stf_nodes(ctx, kind, s, r->c));
+  stf_gauss(r->points, r->g, r->w);
+  for (int j = 0; j < s; j++) {
+    long double product = 1;
+    for (int k = 0; k < s; k++)
+      if (k != j) product *= r->c[j] - r->c[k];
+    r->bary[j] = 1 / product;
+  }
+  return STEIF_OK;
+}
+
+/* row_j = int_0^x l_j; the products from the left and from the right of j meet without
+ * division. */
+static void integrate(const rule *r, long double x, long double *row)
+{
+  for (int j = 0; j < r->s; j++) row[j] = 0;
+  for (int q = 0; q < r->points; q++) {
+    const long double at = x * r->g[q];
+    long double before[STEIF_STAGES], after = 1;
+    before[0] = 1;
+    for (int j = 1; j < r->s; j++) before[j] = before[j - 1] * (at - r->c[j - 1]);
+    for (int j = r->s - 1; j >= 0; after *= at - r->c[j--])
+      row[j] += x * r->w[q] * r->bary[j] * before[j] * after;
   }
 }
 
@@ -34,13 +56,14 @@ int stf_family_fill(steif_context *ctx, enum stf_node_kind kind, stf_alter *alte
                     steif_table *self, sunrealtype *A, sunrealtype *b, sunrealtype *c)
 {
   const int s = self->s;
-  long double nodes[STEIF_STAGES], weights[STEIF_STAGES], full[STEIF_STAGES * STEIF_STAGES];
-  STEIF_TRY(stf_nodes(ctx, kind, s, nodes));
-  integrate(s, nodes, 1, weights);
-  for (int i = 0; i < s; i++) integrate(s, nodes, nodes[i], full + i * s);
+  rule r;
+  long double weights[STEIF_STAGES], full[STEIF_STAGES * STEIF_STAGES];
+  STEIF_TRY(prepare(ctx, kind, s, &r));
+  integrate(&r, 1, weights);
+  for (int i = 0; i < s; i++) integrate(&r, r.c[i], full + i * s);
   if (alter) alter(s, weights, full);
   for (int i = 0; i < s * s; i++) halve(full[i], A + i, A + s * s + i);
-  for (int i = 0; i < s; i++) b[i] = (sunrealtype)weights[i], c[i] = (sunrealtype)nodes[i];
+  for (int i = 0; i < s; i++) b[i] = (sunrealtype)weights[i], c[i] = (sunrealtype)r.c[i];
   self->A = A, self->A_low = A + s * s, self->b = b, self->c = c;
   return STEIF_OK;
 }

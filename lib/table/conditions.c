@@ -1,8 +1,8 @@
 /* conditions.c: order conditions over all rooted trees, and the stability function.
  *
  * A tree [t_1 .. t_m] has the stage weights Phi_i = prod_k (A Phi(t_k))_i and the density
- * gamma = |t| prod_k gamma(t_k); order p asks for sum b_i Phi_i = 1/gamma for every tree with at
- * most p vertices (Butcher; Hairer, Norsett, Wanner: Solving ODEs I, II.2).
+ * gamma = |t| prod_k gamma(t_k); order p asks for sum b_i Phi_i = 1/gamma for every tree with
+ * at most p vertices (Butcher; Hairer, Norsett, Wanner: Solving ODEs I, II.2).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table.h"
@@ -95,6 +95,14 @@ static stf_complex weigh(const steif_table *t, int first, const stf_complex *x)
   return sum;
 }
 
+/* b = e_s^T A: then R(z) = e_s^T (1 - z A)^{-1} 1, which does not cancel at large z. */
+static bool ends_in_last_stage(const steif_table *t)
+{
+  bool same = true;
+  for (int j = 0; j < t->s; j++) same = same && t->b[j] == t->A[(t->s - 1) * t->s + j];
+  return same;
+}
+
 static long double largest(const steif_table *t)
 {
   long double most = 0;
@@ -119,7 +127,8 @@ static bool limit(const steif_table *t, stf_complex *R)
   for (int i = 0; i < n; i++) x[i] += 1;
   system_of(t, 1, 0, -1, K, NULL);
   (void)stf_solve(n, 1, K, x, tiny);
-  *R = cabsl(growth) > 1e-13L ? (stf_complex)INFINITY : 1 - weigh(t, 1, x);
+  const bool bounded = ends_in_last_stage(t) || cabsl(growth) <= 1e-13L;
+  *R = bounded ? 1 - weigh(t, 1, x) : (stf_complex)INFINITY;
   return true;
 }
 
@@ -130,7 +139,7 @@ static int at_infinity(steif_context *ctx, const steif_table *t, stf_complex *R)
   if (t->kind == STEIF_EXPLICIT) return STEIF_OK;
   system_of(t, 0, 0, -1, K, x);
   if (stf_solve(t->s, 1, K, x, 4 * STF_EPS * largest(t))) {
-    *R = 1 - weigh(t, 0, x);
+    *R = ends_in_last_stage(t) ? 0 : 1 - weigh(t, 0, x);
     return STEIF_OK;
   }
   STEIF_CHECK(
@@ -148,6 +157,7 @@ static stf_complex finite(const steif_table *t, stf_complex z)
   const bool large = cabsl(z) > 1;
   system_of(t, 0, large ? 1 / z : 1, large ? 1 : z, K, x);
   if (!stf_solve(t->s, 1, K, x, 0)) return INFINITY; /* a pole */
+  if (ends_in_last_stage(t)) return (large ? 1 / z : 1) * x[t->s - 1];
   return 1 + (large ? 1 : z) * weigh(t, 0, x);
 }
 

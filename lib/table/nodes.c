@@ -1,7 +1,8 @@
 /* nodes.c: nodes of Gauss, Radau and Lobatto on [0, 1], and Lagrange's basis on given points.
  *
  * With Q_k(c) = (-1)^k P_k(2c - 1), so Q_k(0) = 1, the nodes are the zeros of
- *   Gauss Q_s,   Radau right Q_s + Q_{s-1},   Radau left Q_s - Q_{s-1},   Lobatto Q_s - Q_{s-2}.
+ *   Gauss Q_s,   Radau right Q_s + Q_{s-1},   Radau left Q_s - Q_{s-1},
+ *   Lobatto Q_s - Q_{s-2}.
  * The three-term recurrence is run on the differences E_k = Q_k - Q_{k-1},
  *   (k+1) E_{k+1} = k E_k - 2 (2k+1) c Q_k,
  * which do not cancel at small c: nodes near 0 keep their relative accuracy.

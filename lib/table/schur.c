@@ -1,9 +1,9 @@
 /* schur.c: real Schur form of B in long double by deflation, lane by lane in order of ascending
- * imaginary parts, each pair acting as one complex number (Golub, Van Loan: Matrix Computations,
- * 7.4 and 7.6).
+ * imaginary parts, each pair acting as one complex number (Golub, Van Loan: Matrix
+ * Computations, 7.4 and 7.6).
  *
- * With v an eigenvector of the trailing block, a reflection carries v (or Re v, then Im v) to the
- * leading axis (axes) of that block. The phase of v = p + iq is chosen so that p and q are
+ * With v an eigenvector of the trailing block, a reflection carries v (or Re v, then Im v) to
+ * the leading axis (axes) of that block. The phase of v = p + iq is chosen so that p and q are
  * orthogonal: in the basis p, -q the block is then [re -im; im re] without further change.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -105,14 +105,15 @@ static void couple(int s, stf_split_work *w)
 }
 
 /* On A, whose entries are known relatively, eigenvalues are better determined than by deflation
- * of B, which is known in norm: taken where the two agree, so that T^{-1} B T keeps its blocks. */
+ * of B, which is known in norm: taken where the two agree, so that T^{-1} B T keeps its blocks.
+ * */
 static void sharpen(int s, stf_split_work *w)
 {
   stf_complex v[STEIF_STAGES];
   for (int k = 0; k < w->lanes; k++) {
     stf_complex mu = 1 / w->lambda[k];
     if (!stf_eigen_refine(s, w->A, &mu, v)) continue;
-    if (cabsl(1 / mu - w->lambda[k]) <= 1e-13L * cabsl(w->lambda[k])) w->lambda[k] = 1 / mu;
+    if (cabsl(1 / mu - w->lambda[k]) <= 2e-14L * cabsl(w->lambda[k])) w->lambda[k] = 1 / mu;
   }
 }
 

@@ -1,6 +1,6 @@
 /* split.c: B = A^{-1} of a table as independent (or triangularly coupled) real and complex
- * shifts: Butcher, BIT 16 (1976); Hairer, Wanner: Solving ODEs II, IV.8. Everything is computed in
- * long double and rounded once.
+ * shifts: Butcher, BIT 16 (1976); Hairer, Wanner: Solving ODEs II, IV.8. Everything is computed
+ * in long double and rounded once.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "split.h"
 #include "table.h"
@@ -51,8 +51,8 @@ static int prepare(steif_context *ctx, const steif_table *table, stf_split_work 
   return STEIF_OK;
 }
 
-/* The lane's columns of T from its eigenvector, scaled to last component 1 (to largest component
- * 1 where the last vanishes). */
+/* The lane's columns of T from its eigenvector, scaled to last component 1 (to largest
+ * component 1 where the last vanishes). */
 static void place(int s, int row, bool pair, const stf_complex *v, long double *T)
 {
   int largest = 0;
@@ -78,8 +78,8 @@ static long double norm(int s, const long double *M)
   return most;
 }
 
-/* Refined on A, whose entries are known relatively, not on B. False when eigenvectors are nearly
- * dependent or not found. */
+/* Refined on A, whose entries are known relatively, not on B. False when eigenvectors are
+ * nearly dependent or not found. */
 static bool eigen(int s, const stf_complex *near, int lanes, stf_split_work *w)
 {
   stf_complex v[STEIF_STAGES];

@@ -19,8 +19,8 @@ steif_table *stf_table_build(steif_context *ctx, const steif_spec *spec);
 /* Refuse NULL, families that are not built, and numbers of stages out of range. */
 int stf_table_check(steif_context *ctx, const steif_table *table);
 
-/* Nodes of collocation on [0, 1], ascending, to the last bit of double (computed in long double):
- * Gauss (roots of P_s), Radau right (c_s = 1), Radau left (c_1 = 0), Lobatto (both). */
+/* Nodes of collocation on [0, 1], ascending, to the last bit of double (computed in long
+ * double): Gauss (roots of P_s), Radau right (c_s = 1), Radau left (c_1 = 0), Lobatto (both). */
 enum stf_node_kind { STF_GAUSS, STF_RADAU_RIGHT, STF_RADAU_LEFT, STF_LOBATTO };
 int stf_nodes(steif_context *ctx, enum stf_node_kind kind, int s, long double *c);
 
@@ -39,8 +39,8 @@ int stf_family_stages(steif_context *ctx, const steif_spec *spec, int lowest, in
 int stf_family_fill(steif_context *ctx, enum stf_node_kind kind, stf_alter *alter,
                     steif_table *self, sunrealtype *A, sunrealtype *b, sunrealtype *c);
 
-/* X := A^{-1} X for A (n x n) and X (n x m), both by rows and overwritten; false when a pivot is
- * not larger than `tiny`. */
+/* X := A^{-1} X for A (n x n) and X (n x m), both by rows and overwritten; false when a pivot
+ * is not larger than `tiny`. */
 typedef long double complex stf_complex;
 bool stf_solve(int n, int m, stf_complex *A, stf_complex *X, long double tiny);
 
@@ -48,22 +48,24 @@ bool stf_solve(int n, int m, stf_complex *A, stf_complex *X, long double tiny);
 int stf_eigen_values(steif_context *ctx, int n, const long double *M, stf_complex *lambda,
                      int *count);
 /* Newton's iteration in long double for the eigenvalue of M near *lambda, and its vector v of
- * length 1; where it diverges, as near multiple eigenvalues, *lambda stays and v is the vector of
- * inverse iteration. False when M v - *lambda v exceeds the rounding of double. */
+ * length 1; where it diverges, as near multiple eigenvalues, *lambda stays and v is the vector
+ * of inverse iteration. False when M v - *lambda v exceeds the rounding of double. */
 bool stf_eigen_refine(int n, const long double *M, stf_complex *lambda, stf_complex *v);
 
-/* The split of B = A^{-1} (s x s) into independent shifts. Lanes are ordered: the real eigenvalue
- * first (if s is odd), then one lane per conjugate pair (im > 0, ascending). With the s x s real
- * matrices T, Tinv
+/* The split of B = A^{-1} (s x s) into independent shifts. Lanes are ordered: the real
+ * eigenvalue first (if s is odd), then one lane per conjugate pair (im > 0, ascending). With
+ * the s x s real matrices T, Tinv
  *     omega = Tinv Z,   Z = T omega,
  * omega holds one row per real lane and two rows (real, imaginary) per pair, in lane order.
- *  - eigen split (coupling NULL): B maps to the lanes' eigenvalues, a pair acting as the complex
- *    number lambda on omega_re + i omega_im. A lane's columns of T are v (real) or 2 Re v, -2 Im v
- *    (pair) for the eigenvector v with last component 1, so that Z = v_0 omega_0
+ *  - eigen split (coupling NULL): B maps to the lanes' eigenvalues, a pair acting as the
+ *    complex number lambda on omega_re + i omega_im. A lane's columns of T are v (real) or 2 Re
+ *    v, -2 Im v (pair) for the eigenvector v with last component 1, so that Z = v_0 omega_0
  *    + sum 2 Re(v_k omega_k) and omega = V^{-1} Z;
- *  - Schur split (s > STF_EIGEN_STAGES, or eigenvectors nearly dependent): the same with strictly
- *    upper coupling S between lanes: (T^{-1} B T) = blockdiag(lambda) + S, S s x s by rows, with
- *    blocks [re -im; im re]. The columns of T are orthogonal, those of a pair scaled by r, 1/r. */
+ *  - Schur split (s > STF_EIGEN_STAGES, or eigenvectors nearly dependent): the same with
+ *    strictly upper coupling S between lanes: (T^{-1} B T) = blockdiag(lambda) + S, S s x s by
+ *    rows, with blocks [re -im; im re]. The columns of T are orthogonal, those of a pair scaled
+ *    by r, 1/r. Above 26 stages double no longer determines the eigenvalues, and a pair near
+ *    the axis may come as two real lanes, not in order. */
 enum { STF_EIGEN_STAGES = 11 };
 typedef struct stf_split {
   int s, lanes;

@@ -1,4 +1,5 @@
-/* alexander2.c: two-stage SDIRK of order 2, L-stable and stiffly accurate, gamma = 1 - 1/sqrt(2).
+/* alexander2.c: two-stage SDIRK of order 2, L-stable and stiffly accurate, gamma =
+ * 1 - 1/sqrt(2).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table.h"
 

@@ -1,5 +1,5 @@
-/* alexander2b.c: two-stage SDIRK of order 2, L-stable, gamma = 1 - 1/sqrt(2) as alexander2, with
- * weights (1/2, 1/2): not stiffly accurate.
+/* alexander2b.c: two-stage SDIRK of order 2, L-stable, gamma = 1 - 1/sqrt(2) as alexander2,
+ * with weights (1/2, 1/2): not stiffly accurate.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table.h"
 

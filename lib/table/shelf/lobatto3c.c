@@ -1,7 +1,7 @@
 /* lobatto3c.c: Lobatto IIIC, order 2s - 2, from a_i1 = b_1 and C(s-1).
  *
- * Rows that share C(s-1) differ by a multiple of the weights w of the highest divided difference
- * on the nodes, and the rows ahat of the collocation method have C(s-1); so
+ * Rows that share C(s-1) differ by a multiple of the weights w of the highest divided
+ * difference on the nodes, and the rows ahat of the collocation method have C(s-1); so
  *   a_ij = ahat_ij + (b_1 - ahat_i1) w_j/w_1,   w_j = 1/prod_{k != j} (c_j - c_k).
  * On Lobatto's nodes w_j^2 is proportional to b_j, with alternating signs.
  *

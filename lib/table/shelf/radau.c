@@ -1,4 +1,5 @@
-/* radau.c: Radau IIA, collocation at the right Radau nodes, order 2s - 1; s = 1 is backward Euler.
+/* radau.c: Radau IIA, collocation at the right Radau nodes, order 2s - 1; s = 1 is
+ * backward Euler.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table.h"
 

@@ -1,0 +1,12 @@
+/* main.c: the suites of the table room.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_nodes[], tests_of_shelf[], tests_of_claims[], tests_of_stability[],
+  tests_of_split[];
+
+SUITE_MAIN({.pName = "nodes", .pTests = tests_of_nodes},
+           {.pName = "shelf", .pTests = tests_of_shelf},
+           {.pName = "claims", .pTests = tests_of_claims},
+           {.pName = "stability", .pTests = tests_of_stability},
+           {.pName = "split", .pTests = tests_of_split})
