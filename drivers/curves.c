@@ -1,4 +1,4 @@
-/* curves.c: errors against steps, work against precision.
+/* curves.c: errors against steps or time, work against precision.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "curves.h"
 
@@ -9,11 +9,11 @@ void errors_open(error_curves *e, const char *label)
   e->curve[e->count++].count = 0;
 }
 
-void errors_add(error_curves *e, double h, double error)
+void errors_add(error_curves *e, double x, double error)
 {
   const size_t k = e->count - 1, i = e->curve[k].count;
-  if (i == HALVINGS) return;
-  e->curve[k].h[i] = h, e->curve[k].error[i] = error < 0 ? -error : error;
+  if (i == ERROR_POINTS) return;
+  e->curve[k].x[i] = x, e->curve[k].error[i] = error < 0 ? -error : error;
   e->curve[k].count++;
 }
 
@@ -22,8 +22,14 @@ int errors_plot(const struct call *call, const error_curves *e, const char *path
   steif_curve curve[ERRORS];
   for (size_t k = 0; k < e->count; k++)
     curve[k] =
-      (steif_curve){e->curve[k].label, e->curve[k].count, e->curve[k].h, e->curve[k].error, 1};
-  const steif_plot plot = {e->title, "h", e->y_label, 1, 1, 0, e->count, curve};
+      (steif_curve){e->curve[k].label, e->curve[k].count, e->curve[k].x, e->curve[k].error, 1};
+  const steif_plot plot = {.title = e->title,
+                           .x_label = e->over_time ? "t" : "h",
+                           .y_label = e->y_label,
+                           .log_x = !e->over_time,
+                           .log_y = 1,
+                           .count = e->count,
+                           .curve = curve};
   return save_plot(call, &plot, path);
 }
 
@@ -41,18 +47,20 @@ void work_add(work_curves *w, const outcome *o)
   w->seconds[w->points++] = o->stats.cpu_s;
 }
 
+/* Methods without a point are left out. */
 int work_plot(const struct call *call, const work_curves *w, const char *problem,
               const char *path)
 {
   steif_curve curve[WORDS];
   char title[128];
+  size_t count = 0;
   for (size_t k = 0; k < w->count; k++) {
     const size_t first = w->first[k], end = k + 1 < w->count ? w->first[k + 1] : w->points;
-    curve[k] =
+    if (first == end) continue;
+    curve[count++] =
       (steif_curve){w->label[k], end - first, w->digits + first, w->seconds + first, 1};
   }
   snprintf(title, sizeof title, "Work against precision: %s", problem);
-  const steif_plot plot = {title, "digits (mescd)", "processor seconds", 0, 1, 0, w->count,
-                           curve};
+  const steif_plot plot = {title, "digits (mescd)", "processor seconds", 0, 1, 0, count, curve};
   return save_plot(call, &plot, path);
 }

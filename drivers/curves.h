@@ -5,20 +5,21 @@
 
 #include "run.h"
 
-/* Errors against steps for several methods, log-log; |error| is drawn. */
-enum { ERRORS = 8, HALVINGS = 40 };
+/* Errors of several methods against the step, log-log, or over time; |error| is drawn. */
+enum { ERRORS = 8, HALVINGS = 40, ERROR_POINTS = 512 };
 typedef struct error_curves {
   const char *title, *y_label;
+  bool over_time;
   size_t count;
   struct {
     const char *label;
     size_t count;
-    double h[HALVINGS], error[HALVINGS];
+    double x[ERROR_POINTS], error[ERROR_POINTS];
   } curve[ERRORS];
 } error_curves;
 /* A curve with one more label; points are added to the last one. */
 void errors_open(error_curves *e, const char *label);
-void errors_add(error_curves *e, double h, double error);
+void errors_add(error_curves *e, double x, double error);
 int errors_plot(const struct call *call, const error_curves *e, const char *path);
 
 /* Work against precision: one curve of (mescd, cpu_s) per method. */

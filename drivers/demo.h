@@ -16,6 +16,8 @@ typedef struct demo {
 
 /* The path of the next picture; it is listed at the end. */
 const char *demo_picture(demo *d, const char *name);
+/* Name the pictures; with --json show the whole report. */
+int demo_finish(demo *d);
 
 int demo_published(demo *d); /* published problems, digits against published solutions */
 int demo_layers(demo *d);    /* index 2 to 4: lengths of the initial layer */

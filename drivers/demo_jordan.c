@@ -18,7 +18,7 @@ static struct layer block(size_t k, const char *kind, size_t steps, double h)
   return l;
 }
 
-static int one_layer(demo *d, size_t i, size_t k)
+static int one_layer(demo *d, size_t i, size_t k, error_curves *errors)
 {
   const size_t expected = layers[i].per_index * (k - 1);
   struct layer l = block(k, "N-inc", 16, 1.0 / 64);
@@ -33,18 +33,21 @@ static int one_layer(demo *d, size_t i, size_t k)
   steif_report_whole(d->report, "layers.theory", (long)expected);
   steif_report_real(d->report, "layers.error_in_layer", code ? 0 : l.error[1]);
   steif_report_real(d->report, "layers.error_after", code ? 0 : l.error[expected + 1]);
-  if (!code && i == 1 && k == 3)
-    code = layer_plot(d->call, &l, layers[i].method, demo_picture(d, "layer.svg"));
+  if (!code && k == 3) layer_errors(&l, layers[i].method, errors);
   layer_free(&l);
   return code;
 }
 
 int demo_layers(demo *d)
 {
+  error_curves errors = {.title =
+                           "The initial layer at index 3: N x' + x = f, inconsistent start",
+                         .y_label = LAYER_ERROR,
+                         .over_time = true};
   int code = EXIT_OK;
   for (size_t i = 0; i < LAYERS; i++)
-    for (size_t k = 2; k <= 4 && code == EXIT_OK; k++) code = one_layer(d, i, k);
-  return code;
+    for (size_t k = 2; k <= 4 && code == EXIT_OK; k++) code = one_layer(d, i, k, &errors);
+  return code ? code : errors_plot(d->call, &errors, demo_picture(d, "layer.svg"));
 }
 
 static int one_baseline(demo *d, size_t k, const char *kind)

@@ -8,7 +8,6 @@ static const struct {
 } methods[] = {
   {"be", "be", NULL},
   {"bdf:p=2, ramp", "bdf:p=2", "ramp"},
-  {"bdf:p=2, constant", "bdf:p=2", "constant"},
   {"bdf:p=2, cq", "bdf:p=2", "cq"},
   {"radau:s=3, stages", "radau:s=3", NULL},
 };
@@ -22,9 +21,8 @@ static void row(demo *d, const char *label, const struct weak *w)
   steif_report_text(r, "weak.method", label);
   steif_report_whole(r, "weak.index", w->k);
   steif_report_text(r, "weak.convention", convention_name(w->query.convention));
-  steif_report_real(r, "weak.h", last->h);
-  steif_report_real(r, "weak.computed", last->value);
-  steif_report_real(r, "weak.reference", w->result.exact);
+  steif_report_real(r, "weak.value", last->value);
+  steif_report_real(r, "weak.exact", w->result.exact);
   steif_report_real(r, "weak.error", last->error);
   steif_report_real(r, "weak.order", last->order);
   steif_report_text(r, "weak.verdict", w->result.verdict);

@@ -31,7 +31,7 @@ static int tell(struct call *call, const struct layer *l)
   }
   const int code = r ? present(call, r) : fail(call);
   steif_report_free(&r);
-  return code ? code : layer_plot(call, l, call->word[0], call->plot);
+  return code ? code : layer_plot(call, l, call->word[0]);
 }
 
 static int run(struct call *call)

@@ -1,9 +1,9 @@
-/* layer.h: an initial layer, its picture, and another integrator on the same system.
+/* layer.h: an initial layer, its errors, and another integrator on the same system.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef LAYER_H
 #define LAYER_H
 
-#include "run.h"
+#include "curves.h"
 
 struct layer {
   size_t k, steps;
@@ -19,7 +19,10 @@ void layer_free(struct layer *l);
 /* Another integrator on the same system: its largest deviation from the exact smooth part. */
 outcome layer_against(steif_context *ctx, const struct layer *l, const char *method,
                       double rtol, double *error);
-int layer_plot(const struct call *call, const struct layer *l, const char *method,
-               const char *path);
+/* The errors of the steps as one more curve. */
+void layer_errors(const struct layer *l, const char *label, error_curves *errors);
+#define LAYER_ERROR "error against the smooth part"
+/* They alone as the picture asked for. */
+int layer_plot(const struct call *call, const struct layer *l, const char *method);
 
 #endif

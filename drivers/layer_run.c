@@ -1,4 +1,4 @@
-/* layer_run.c: measure a layer, run another integrator beside it, draw it.
+/* layer_run.c: measure a layer, run another integrator beside it, collect its errors.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "layer.h"
 #include <stdlib.h>
@@ -48,25 +48,17 @@ outcome layer_against(steif_context *ctx, const struct layer *l, const char *met
 }
 
 /* Row 0 holds x(0-), which is no value of the solution on t > 0. */
-int layer_plot(const struct call *call, const struct layer *l, const char *method,
-               const char *path)
+void layer_errors(const struct layer *l, const char *label, error_curves *errors)
 {
-  enum { SHOWN = 4 };
-  const size_t curves = l->k < SHOWN ? l->k : SHOWN, rows = l->steps;
-  double *y = path ? malloc(2 * curves * rows * sizeof *y) : NULL;
-  char label[2 * SHOWN][32], title[160];
-  steif_curve curve[2 * SHOWN];
-  for (size_t m = 0; y && m < 2 * curves; m++) {
-    const bool own = m < curves;
-    for (size_t i = 0; i < rows; i++)
-      y[m * rows + i] = (own ? l->x : l->exact)[(i + 1) * l->k + m % curves];
-    snprintf(label[m], sizeof label[m], "x%zu%s", m % curves + 1, own ? "" : " exact");
-    curve[m] = (steif_curve){label[m], rows, l->t + 1, y + m * rows, own};
-  }
+  errors_open(errors, label);
+  for (size_t i = 1; i <= l->steps; i++) errors_add(errors, l->t[i], l->error[i]);
+}
+
+int layer_plot(const struct call *call, const struct layer *l, const char *method)
+{
+  char title[160];
   snprintf(title, sizeof title, "%s on %s, h = %g", method, l->problem, l->h);
-  const steif_plot plot = {title, "t", "x", 0, 0, 0, 2 * curves, curve};
-  if (path && !y) say(call, "no memory for the picture; leave it out");
-  const int code = path && !y ? EXIT_FAILED : save_plot(call, &plot, path);
-  free(y);
-  return code;
+  error_curves errors = {.title = title, .y_label = LAYER_ERROR, .over_time = true};
+  layer_errors(l, method, &errors);
+  return errors_plot(call, &errors, call->plot);
 }

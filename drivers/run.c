@@ -12,6 +12,9 @@ steif_options options_of(const struct call *call)
   o.atol = real_of(call, "--atol", o.atol);
   o.h = real_of(call, "--h", 0);
   o.t1 = real_of(call, "--t1", 0);
+  /* Whoever names a step has named the number of steps. */
+  o.max_steps = whole_of(call, "--max-steps",
+                         given(call, "--h") || given(call, "--hs") ? 1000000000 : o.max_steps);
   o.start = word_of(call, "--start", NULL);
   for (int i = 0; i < 3; i++)
     if (!strcmp(word_of(call, "--storage", ""), name[i]))

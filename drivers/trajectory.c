@@ -52,17 +52,42 @@ int trajectory_save(const struct call *call, const trajectory *tr)
   return code;
 }
 
+/* Component k by steps; the largest finite |y_k|. */
+static double component(const trajectory *tr, size_t k, double *y)
+{
+  double most = 0;
+  for (size_t i = 0; i < tr->count; i++) {
+    y[i] = tr->y[i * tr->n + k];
+    const double size = y[i] < 0 ? -y[i] : y[i];
+    if (size > most && size - size == 0) most = size;
+  }
+  return most;
+}
+
+/* Components of very different size are drawn as parts of their largest value. */
+static bool uneven(const double *most, size_t count)
+{
+  double low = 0, high = 0;
+  for (size_t k = 0; k < count; k++) {
+    if (most[k] > high) high = most[k];
+    if (most[k] > 0 && (low <= 0 || most[k] < low)) low = most[k];
+  }
+  return high > 100 * low;
+}
+
 /* The first components over time; long intervals on a logarithmic axis. */
 int trajectory_plot(const struct call *call, const trajectory *tr, const char *title)
 {
-  if (!call->plot) return EXIT_OK;
   const size_t curves = tr->n < CURVES ? tr->n : CURVES;
-  double *y = malloc((tr->count * curves + 1) * sizeof *y);
-  char label[CURVES][24];
+  double *y = call->plot ? malloc((tr->count * curves + 1) * sizeof *y) : NULL, most[CURVES];
+  char label[CURVES][32];
   steif_curve curve[CURVES];
+  for (size_t k = 0; y && k < curves; k++) most[k] = component(tr, k, y + k * tr->count);
+  const bool scaled = y && uneven(most, curves);
   for (size_t k = 0; y && k < curves; k++) {
-    for (size_t i = 0; i < tr->count; i++) y[k * tr->count + i] = tr->y[i * tr->n + k];
-    snprintf(label[k], sizeof label[k], "y%zu", k + 1);
+    const bool divide = scaled && most[k] > 0;
+    for (size_t i = 0; divide && i < tr->count; i++) y[k * tr->count + i] /= most[k];
+    snprintf(label[k], sizeof label[k], divide ? "y%zu / %.3g" : "y%zu", k + 1, most[k]);
     curve[k] = (steif_curve){label[k], tr->count, tr->t, y + k * tr->count, 0};
   }
   const steif_plot plot = {.title = title,
@@ -71,8 +96,8 @@ int trajectory_plot(const struct call *call, const trajectory *tr, const char *t
                            .log_x = tr->t1 >= 1e4,
                            .count = curves,
                            .curve = curve};
-  if (!y) say(call, "no memory for the picture; leave --plot out");
-  const int code = y ? save_plot(call, &plot, call->plot) : EXIT_FAILED;
+  if (!y && call->plot) say(call, "no memory for the picture; leave --plot out");
+  const int code = !call->plot ? EXIT_OK : y ? save_plot(call, &plot, call->plot) : EXIT_FAILED;
   free(y);
   return code;
 }

@@ -97,6 +97,29 @@ static void linear(stf_axis *axis, int about)
   }
 }
 
+static void name_power(stf_tick *tick, int lead, int power)
+{
+  tick->decade = true, tick->lead = lead, tick->power = power;
+}
+
+/* Few decades: 1, 2, 5 (or 1 .. 9) times a power of ten are named. */
+static void within(stf_axis *axis)
+{
+  const double span = axis->hi - axis->lo;
+  for (double d = floor(axis->lo); d <= axis->hi; d++)
+    for (int m = 1; m <= 9; m++) {
+      const double at = d + log10(m);
+      if (at < axis->lo || at > axis->hi) continue;
+      const bool named = span < 0.7 || m == 1 || m == 2 || m == 5;
+      stf_tick *tick = next(axis, at, named);
+      if (!tick || !named) continue;
+      if (fabs(d) > 3)
+        name_power(tick, m, (int)lround(d));
+      else
+        stf_report_number(tick->label, sizeof tick->label, 'g', 3, pow(10, at));
+    }
+}
+
 /* Decades, every so many of them when there are too many; 2 .. 9 between them when few. */
 static void decades(stf_axis *axis, int about)
 {
@@ -106,8 +129,7 @@ static void decades(stf_axis *axis, int about)
   const double first = ceil(axis->lo / every - 1e-9), last = floor(axis->hi / every + 1e-9);
   for (double k = first; k <= last; k++) {
     stf_tick *tick = next(axis, k * every, true);
-    if (!tick) break;
-    tick->decade = true, tick->power = (int)lround(k * every);
+    if (tick) name_power(tick, 1, (int)lround(k * every));
   }
   if (span > 6) return;
   for (double d = floor(axis->lo); d <= axis->hi; d++)
@@ -117,27 +139,13 @@ static void decades(stf_axis *axis, int about)
     }
 }
 
-/* Less than a decade or so: 1, 2, 5 (or all) are named. */
-static void within(stf_axis *axis)
-{
-  for (double d = floor(axis->lo); d <= axis->hi; d++)
-    for (int m = 1; m <= 9; m++) {
-      const double at = d + log10(m);
-      if (at < axis->lo || at > axis->hi) continue;
-      const bool named = axis->hi - axis->lo < 0.7 || m == 1 || m == 2 || m == 5;
-      stf_tick *tick = next(axis, at, named);
-      if (tick && named)
-        stf_report_number(tick->label, sizeof tick->label, 'g', 3, pow(10, at));
-    }
-}
-
 void stf_axis_ticks(stf_axis *axis, int about)
 {
   axis->ticks = axis->scale = 0;
-  if (axis->log && axis->hi - axis->lo < 1.3)
-    within(axis);
-  else if (axis->log)
-    decades(axis, about);
-  else
+  if (!axis->log)
     linear(axis, about);
+  else if (floor(axis->hi) - ceil(axis->lo) < 1)
+    within(axis);
+  else
+    decades(axis, about);
 }

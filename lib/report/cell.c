@@ -67,6 +67,7 @@ enum { SHOWN = 12 };
 static void list(char *out, size_t size, const char *key, const json_t *value)
 {
   const size_t count = json_array_size(value);
+  const char *rule = key && strcmp(key, "exact") ? key : NULL; /* beside computed values */
   const bool words =
     json_is_string(json_array_get(value, 0)) && !stf_report_is_number(json_array_get(value, 0));
   size_t used = 0;
@@ -77,13 +78,20 @@ static void list(char *out, size_t size, const char *key, const json_t *value)
       snprintf(out + used, size - used, " ... (%zu)", count);
       return;
     }
-    stf_report_cell(entry, sizeof entry, key, json_array_get(value, i));
+    stf_report_cell(entry, sizeof entry, rule, json_array_get(value, i));
     used += (size_t)snprintf(out + used, size - used, "%s%s",
                              i == 0  ? ""
                              : words ? ", "
                                      : " ",
                              entry);
   }
+}
+
+/* The first row of a sheet has no observed order. */
+static void text(char *out, size_t size, const char *key, const char *value)
+{
+  const bool none = key && !strcmp(key, "order") && !strcmp(value, "nan");
+  snprintf(out, size, "%s", none ? "-" : value);
 }
 
 void stf_report_cell(char *out, size_t size, const char *key, const json_t *value)
@@ -98,7 +106,7 @@ void stf_report_cell(char *out, size_t size, const char *key, const json_t *valu
   else if (json_is_real(value))
     real(out, size, key, json_real_value(value));
   else if (json_is_string(value))
-    snprintf(out, size, "%s", json_string_value(value));
+    text(out, size, key, json_string_value(value));
   else if (json_is_array(value))
     list(out, size, key, value);
   else if (value)

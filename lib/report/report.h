@@ -46,8 +46,8 @@ enum { STF_TICKS = 64 };
 typedef struct stf_tick {
   double at; /* in axis coordinates */
   bool major;
-  char label[32]; /* empty for minor ticks */
-  int power;      /* with `decade`: the label is 10^power */
+  char label[32];  /* empty for minor ticks */
+  int power, lead; /* with `decade`: the label is lead 10^power */
   bool decade;
 } stf_tick;
 typedef struct stf_axis {

@@ -2,7 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "report.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+#define MINUS "\xE2\x88\x92"
 
 /* Colours that colour-blind readers tell apart (Okabe and Ito, 2008), darkened where pale. */
 const char *const stf_colours[] = {"#0072b2", "#d55e00", "#009e73", "#b8568f",
@@ -97,7 +100,10 @@ static double text_width(const char *text)
 static double widest_tick(const stf_axis *axis)
 {
   double width = axis->log ? 30 : 8;
-  for (int i = 0; i < axis->ticks; i++) width = fmax(width, text_width(axis->tick[i].label));
+  for (int i = 0; i < axis->ticks; i++) {
+    const stf_tick *tick = &axis->tick[i];
+    width = fmax(width, tick->decade && tick->lead > 1 ? 44 : text_width(tick->label));
+  }
   return width;
 }
 
@@ -134,28 +140,32 @@ static picture layout(const steif_plot *plot, FILE *out)
 
 /* ---- axes ---- */
 
-static void power(FILE *out, double x, double y, const char *anchor, int exponent)
+/* 10^exponent, after "lead . " when that is above 1. */
+static void power(const picture *p, double x, double y, const char *anchor, const char *lead,
+                  int exponent)
 {
-  fputs("<text", out);
-  attribute(out, "x", x);
-  attribute(out, "y", y);
-  fprintf(out,
-          " class=\"n\" text-anchor=\"%s\">10<tspan dy=\"-5\" font-size=\"9\">%s%d</tspan>"
-          "</text>\n",
-          anchor, exponent < 0 ? "\xE2\x88\x92" : "", exponent < 0 ? -exponent : exponent);
+  fputs("<text", p->out);
+  attribute(p->out, "x", x);
+  attribute(p->out, "y", y);
+  fprintf(p->out,
+          " class=\"n\" text-anchor=\"%s\">%s10<tspan dy=\"-5\" font-size=\"9\">%s%d"
+          "</tspan></text>\n",
+          anchor, lead, exponent < 0 ? MINUS : "", abs(exponent));
 }
 
-static void tick_label(FILE *out, double x, double y, const char *anchor, const stf_tick *tick)
+static void tick_label(const picture *p, double x, double y, const char *anchor,
+                       const stf_tick *tick)
 {
   char style[64], text[40];
   if (tick->decade) {
-    power(out, x, y, anchor, tick->power);
+    snprintf(text, sizeof text, "%d\xC2\xB7", tick->lead);
+    power(p, x, y, anchor, tick->lead > 1 ? text : "", tick->power);
     return;
   }
+  const bool negative = *tick->label == '-';
   snprintf(style, sizeof style, "class=\"n\" text-anchor=\"%s\"", anchor);
-  snprintf(text, sizeof text, "%s%s", *tick->label == '-' ? "\xE2\x88\x92" : "",
-           tick->label + (*tick->label == '-'));
-  words(out, x, y, style, text);
+  snprintf(text, sizeof text, "%s%s", negative ? MINUS : "", tick->label + negative);
+  words(p->out, x, y, style, text);
 }
 
 static void ticks(const picture *p, const stf_axis *axis, bool vertical)
@@ -167,11 +177,11 @@ static void ticks(const picture *p, const stf_axis *axis, bool vertical)
     if (vertical) {
       segment(p->out, p->left, at, p->right, at, grid);
       segment(p->out, p->left, at, p->left + size, at, "class=\"a\"");
-      tick_label(p->out, p->left - 7, at + 4, "end", tick);
+      tick_label(p, p->left - 7, at + 4, "end", tick);
     } else {
       segment(p->out, at, p->bottom, at, p->top, grid);
       segment(p->out, at, p->bottom, at, p->bottom - size, "class=\"a\"");
-      tick_label(p->out, at, p->bottom + 18, "middle", tick);
+      tick_label(p, at, p->bottom + 18, "middle", tick);
     }
   }
 }
@@ -180,15 +190,7 @@ static void ticks(const picture *p, const stf_axis *axis, bool vertical)
 static void factor(const picture *p, const stf_axis *axis, double x, double y,
                    const char *anchor)
 {
-  if (!axis->scale) return;
-  fputs("<text", p->out);
-  attribute(p->out, "x", x);
-  attribute(p->out, "y", y);
-  fprintf(p->out,
-          " class=\"n\" text-anchor=\"%s\">\xC3\x97 10<tspan dy=\"-5\" font-size=\"9\">%s%d"
-          "</tspan></text>\n",
-          anchor, axis->scale < 0 ? "\xE2\x88\x92" : "",
-          axis->scale < 0 ? -axis->scale : axis->scale);
+  if (axis->scale) power(p, x, y, anchor, "\xC3\x97 ", axis->scale);
 }
 
 static void axes(const picture *p)

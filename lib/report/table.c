@@ -4,7 +4,7 @@
 #include "report.h"
 #include <string.h>
 
-enum { CELL = 1024, LINE = 96, LIST_SHOWN = 24, ROWS_SHOWN = 12 };
+enum { CELL = 1024, LINE = 96, NARROW = 32, LIST_SHOWN = 24, ROWS_SHOWN = 12 };
 
 static void pad(FILE *stream, size_t used, size_t width)
 {
@@ -145,7 +145,7 @@ static bool rightward(json_t *sheet, const char *key)
 }
 
 /* One line: the cells of `row`, or the column names when row is NULL. The last column, when it
- * holds texts, is broken over lines. */
+ * holds texts, is broken over lines if there is room for that. */
 static void line(FILE *stream, json_t *sheet, json_t *columns, const json_t *row)
 {
   const char *key;
@@ -162,7 +162,7 @@ static void line(FILE *stream, json_t *sheet, json_t *columns, const json_t *row
     if (row) stf_report_cell(text, sizeof text, key, json_object_get(row, key));
     const size_t own = stf_report_width(text);
     if (right) pad(stream, own, w);
-    if (--left == 0 && !right) {
+    if (--left == 0 && !right && at + NARROW < LINE) {
       wrapped(stream, text, at);
       return;
     }
