@@ -1,7 +1,9 @@
-/* band.c: band pencils through LAPACK's band LU. The bandwidths are the larger ones of E and A;
- * LAPACK wants kl further rows above for the fill of its row exchanges.
+/* band.c: band pencils. Narrow ones go through the elimination of narrow.c, wide ones through
+ * LAPACK's band LU, in the same storage. The bandwidths are the larger ones of E and A; kl further
+ * rows above take the fill of row exchanges.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "lapack.h"
+#include "narrow.h"
 #include "pencil.h"
 #include <limits.h>
 #include <string.h>
@@ -110,7 +112,11 @@ static void factor(steif_pencil *p, int slot, steif_shift s, stf_outcome *out)
     out->code = STEIF_NOT_FINITE;
     return;
   }
-  (complex ? zgbtrf_ : dgbtrf_)(&n, &n, &b->kl, &b->ku, f->ab, &b->ld, f->pivot, &info);
+  if (b->kl + b->ku <= STF_NARROW)
+    info = (int)(complex ? stf_narrow_zfactor
+                         : stf_narrow_factor)(&(stf_narrow){n, b->kl, b->ku}, f->ab, f->pivot);
+  else
+    (complex ? zgbtrf_ : dgbtrf_)(&n, &n, &b->kl, &b->ku, f->ab, &b->ld, f->pivot, &info);
   out->factors = 1;
   if (info) out->code = info > 0 ? STEIF_SINGULAR : STEIF_BAD_INPUT, out->column = info - 1;
 }
@@ -120,9 +126,19 @@ static int columns(steif_pencil *p, int slot, int nrhs, double *x, sunindextype 
   const band *b = p->state;
   const factors *f = &b->slot[slot];
   const int n = (int)p->n, ldx = (int)ld;
+  const bool complex = stf_is_complex(p->shift[slot]);
   int info;
-  (stf_is_complex(p->shift[slot]) ? zgbtrs_ : dgbtrs_)("N", &n, &b->kl, &b->ku, &nrhs, f->ab,
-                                                    &b->ld, f->pivot, x, &ldx, &info, 1);
+  if (b->kl + b->ku <= STF_NARROW) {
+    const stf_narrow size = {n, b->kl, b->ku};
+    for (int k = 0; k < nrhs; k++)
+      if (complex)
+        stf_narrow_zsolve(&size, f->ab, f->pivot, x + 2 * k * ld);
+      else
+        stf_narrow_solve(&size, f->ab, f->pivot, x + k * ld);
+    return STEIF_OK;
+  }
+  (complex ? zgbtrs_ : dgbtrs_)("N", &n, &b->kl, &b->ku, &nrhs, f->ab, &b->ld, f->pivot, x,
+                                &ldx, &info, 1);
   return STEIF_OK;
 }
 

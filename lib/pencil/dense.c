@@ -135,8 +135,8 @@ static int columns(steif_pencil *p, int slot, int nrhs, double *b, sunindextype 
   const factors *f = &((dense *)p->state)->slot[slot];
   const int n = (int)p->n, ldb = (int)ld;
   int info;
-  (stf_is_complex(p->shift[slot]) ? zgetrs_ : dgetrs_)("N", &n, &nrhs, f->a, &n, f->pivot, b, &ldb,
-                                                    &info, 1);
+  (stf_is_complex(p->shift[slot]) ? zgetrs_ : dgetrs_)("N", &n, &nrhs, f->a, &n, f->pivot, b,
+                                                       &ldb, &info, 1);
   return STEIF_OK;
 }
 

@@ -34,17 +34,49 @@ static inline int factor(const int n, double *restrict a, int *restrict perm)
   return 0;
 }
 
+static inline void subtract(const int n, const int k, const int from, const int to,
+                            const double *restrict a, double *restrict x)
+{
+  for (int i = from; i < to; i++) x[i] -= a[i + n * k] * x[k];
+}
+
+static inline void up(const int n, const int k, const double *restrict a, double *restrict x)
+{
+  x[k] *= a[k + n * k];
+  subtract(n, k, 0, k, a, x);
+}
+
 static inline void solve(const int n, const double *restrict a, const int *restrict perm,
                          double *restrict b)
 {
   double x[STF_SMALL];
   for (int i = 0; i < n; i++) x[i] = b[perm[i]];
-  for (int k = 0; k < n; k++)
-    for (int i = k + 1; i < n; i++) x[i] -= a[i + n * k] * x[k];
-  for (int k = n - 1; k >= 0; k--) {
-    x[k] *= a[k + n * k];
-    for (int i = 0; i < k; i++) x[i] -= a[i + n * k] * x[k];
-  }
+  for (int k = 0; k < n; k++) subtract(n, k, k + 1, n, a, x);
+  for (int k = n - 1; k >= 0; k--) up(n, k, a, x);
+  for (int i = 0; i < n; i++) b[i] = x[i];
+}
+
+/* The same for n <= 8 without a loop over k: with n constant every step is straight code. */
+static inline void solve_short(const int n, const double *restrict a, const int *restrict perm,
+                               double *restrict b)
+{
+  double x[8];
+  for (int i = 0; i < n; i++) x[i] = b[perm[i]];
+  subtract(n, 0, 1, n, a, x);
+  if (n > 1) subtract(n, 1, 2, n, a, x);
+  if (n > 2) subtract(n, 2, 3, n, a, x);
+  if (n > 3) subtract(n, 3, 4, n, a, x);
+  if (n > 4) subtract(n, 4, 5, n, a, x);
+  if (n > 5) subtract(n, 5, 6, n, a, x);
+  if (n > 6) subtract(n, 6, 7, n, a, x);
+  if (n > 7) up(n, 7, a, x);
+  if (n > 6) up(n, 6, a, x);
+  if (n > 5) up(n, 5, a, x);
+  if (n > 4) up(n, 4, a, x);
+  if (n > 3) up(n, 3, a, x);
+  if (n > 2) up(n, 2, a, x);
+  if (n > 1) up(n, 1, a, x);
+  up(n, 0, a, x);
   for (int i = 0; i < n; i++) b[i] = x[i];
 }
 
@@ -163,7 +195,17 @@ int stf_small_zfactor(int n, double *re, double *im, int *perm)
 
 void stf_small_solve(int n, const double *lu, const int *perm, double *b)
 {
-  OF_EACH_SIZE((void), solve, lu, perm, b)
+  switch (n) {
+  case 1: solve_short(1, lu, perm, b); break;
+  case 2: solve_short(2, lu, perm, b); break;
+  case 3: solve_short(3, lu, perm, b); break;
+  case 4: solve_short(4, lu, perm, b); break;
+  case 5: solve_short(5, lu, perm, b); break;
+  case 6: solve_short(6, lu, perm, b); break;
+  case 7: solve_short(7, lu, perm, b); break;
+  case 8: solve_short(8, lu, perm, b); break;
+  default: solve(n, lu, perm, b);
+  }
 }
 
 void stf_small_zsolve(int n, const double *re, const double *im, const int *perm, double *br,

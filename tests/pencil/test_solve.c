@@ -192,6 +192,40 @@ static void neighbours(void)
   }
 }
 
+/* Narrow and wide bands, in line and through LAPACK, without a dominant diagonal: rows are
+ * exchanged nearly everywhere and the fill above the band is used. */
+static void bandwidths(void)
+{
+  enum { N = 45, CASES = 8 };
+  static const int lower[CASES] = {0, 0, 3, 1, 9, 12, 13, 20},
+                   upper[CASES] = {0, 3, 0, 1, 14, 12, 12, 7};
+  static const steif_shift s[2] = {{0.125, 0}, {0.0625, 0.1875}};
+  static gear g;
+  for (int c = 0; c < CASES; c++) {
+    unsigned seed = 31337;
+    gear_fill(&g, N, true, 1);
+    for (int j = 0; j < N; j++)
+      for (int i = 0; i < N; i++)
+        g.A[i + N * j] = j - i <= upper[c] && i - j <= lower[c] ? gear_random(&seed) : 0;
+    steif_context *ctx = steif_context_new(NULL);
+    SUNContext sun = steif_sundials(ctx);
+    SUNMatrix A = gear_matrix(g.A, N, SUNMATRIX_BAND, sun);
+    steif_pencil *p = steif_pencil_new(ctx, NULL, A);
+    CHECK(steif_pencil_factor(p, 2, s) == STEIF_OK);
+    for (int k = 0; k < 2; k++) {
+      N_Vector re = gear_vector(N, 5, sun), im = gear_vector(N, 6, sun);
+      N_Vector br = gear_vector(N, 5, sun), bi = gear_vector(N, 6, sun);
+      CHECK(steif_pencil_solve(p, k, 1, &re, &im) == STEIF_OK);
+      CHECK(gear_residual(&g, s[k], NV_DATA_S(re), NV_DATA_S(im), NV_DATA_S(br),
+                          NV_DATA_S(bi)) < 1e-14);
+      N_VDestroy(re), N_VDestroy(im), N_VDestroy(br), N_VDestroy(bi);
+    }
+    steif_pencil_free(&p);
+    SUNMatDestroy(A);
+    steif_context_free(&ctx);
+  }
+}
+
 static void products(void)
 {
   for (int kind = 0; kind < KINDS; kind++)
@@ -222,6 +256,7 @@ CU_TestInfo tests_of_solve[] = {
   {"a complex 2 x 2 solve equals the one by hand", by_hand},
   {"a real shift takes a complex right-hand side", complex_rhs_real_shift},
   {"columns with gaps are solved in place, the gaps untouched", neighbours},
+  {"narrow and wide bands solve with rows exchanged", bandwidths},
   {"products equal plain sums", products},
   CU_TEST_INFO_NULL,
 };
