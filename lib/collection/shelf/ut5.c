@@ -26,6 +26,7 @@ static const sunrealtype tail[SIZE][SIZE] = {{.5, 3, 3.5, 0, 3},
                                              {.5, 3, 3.5, 1, 4}};
 
 static const sunrealtype before[] = {1, 2, 3, 4, 5}, after[] = {-8, -2, 12, 0, 0};
+static const sunrealtype slope[] = {-56, -18, 25, -10, -1}; /* of x at 0+ */
 static const int component_index[] = {3, 3, 3, 2, 1};
 
 static const sunrealtype end[] = {-9.83990493625282, -14.7438400658581, 6.64909590232396,
@@ -130,6 +131,7 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   STEIF_CHECK(!word || consistent || !strcmp(word, "inc"), ctx, STEIF_UNKNOWN_NAME,
               "case=%s of '%s' is not known: choose inc or cons", word, spec->name);
   self->y0 = consistent ? after : before;
+  self->yp0 = consistent ? slope : NULL;
   return STEIF_OK;
 }
 
