@@ -20,7 +20,7 @@ steif_table *stf_table_build(steif_context *ctx, const steif_spec *spec);
 int stf_table_check(steif_context *ctx, const steif_table *table);
 
 /* Nodes of collocation on [0, 1], ascending, to the last bit of double (computed in long
- * double): Gauss (roots of P_s), Radau right (c_s = 1), Radau left (c_1 = 0), Lobatto (both). */
+ * double): Gauss (roots of P_s), Radau right (c_s = 1), left (c_1 = 0), Lobatto (both). */
 enum stf_node_kind { STF_GAUSS, STF_RADAU_RIGHT, STF_RADAU_LEFT, STF_LOBATTO };
 int stf_nodes(steif_context *ctx, enum stf_node_kind kind, int s, long double *c);
 

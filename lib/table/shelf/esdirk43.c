@@ -14,6 +14,7 @@ static const sunrealtype A[] = {
   82889 / 524892.0, 0, 15625 / 83664.0, 69875 / 102672.0, -2260 / 8211.0, 1 / 4.0
 };
 /* clang-format on */
+static const sunrealtype c[] = {0, 1 / 2.0, 83 / 250.0, 31 / 50.0, 17 / 20.0, 1};
 static const sunrealtype bhat[] = {4586570599 / 29645900160.0, 0,
                                    178811875 / 945068544.0,    814220225 / 1159782912.0,
                                    -3700637 / 11593932.0,      61727 / 225920.0};
@@ -27,6 +28,7 @@ const steif_table steif_table_esdirk43 = {
   .stage_order = 2,
   .A = A,
   .b = A + 30,
+  .c = c,
   .bhat = bhat,
   .order_hat = 3,
   .claims = STEIF_A_STABLE | STEIF_L_STABLE | STEIF_STIFFLY_ACCURATE,

@@ -12,6 +12,7 @@ static const sunrealtype A[] = {
   25 / 24.0,  -49 / 48.0,    125 / 16.0, -85 / 12.0, 1 / 4.0
 };
 /* clang-format on */
+static const sunrealtype c[] = {1 / 4.0, 3 / 4.0, 11 / 20.0, 1 / 2.0, 1};
 static const sunrealtype bhat[] = {59 / 48.0, -17 / 96.0, 225 / 32.0, -85 / 12.0, 0};
 
 const steif_table steif_table_hw43 = {
@@ -23,6 +24,7 @@ const steif_table steif_table_hw43 = {
   .stage_order = 1,
   .A = A,
   .b = A + 20,
+  .c = c,
   .bhat = bhat,
   .order_hat = 3,
   .claims = STEIF_A_STABLE | STEIF_L_STABLE | STEIF_STIFFLY_ACCURATE,
