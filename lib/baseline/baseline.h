@@ -40,6 +40,9 @@ typedef struct stf_baseline {
     sunrealtype t;
     bool now; /* in this step */
   } fault;
+  int next_break;      /* index into problem.breaks */
+  bool restart;        /* a break was reached: the next step begins anew */
+  steif_stats past;    /* counted before the last restart */
   sunrealtype before;  /* time before the step */
   int stalls;          /* steps in a row that time did not feel */
   char said[STF_SAID]; /* last message of the package */
@@ -80,20 +83,12 @@ SUNLinearSolver stf_baseline_solver(stf_baseline *base, SUNMatrix M);
 /* Around every stretch of calls to a package: its messages are collected, never printed. */
 void stf_baseline_enter(stf_baseline *base, stf_run *run);
 void stf_baseline_leave(stf_baseline *base);
-/* enter, after t_stop and max_steps were looked at. */
-int stf_baseline_ready(stf_baseline *base, stf_run *run, sunrealtype t_stop);
 
 /* What a callback returned; a value that is not finite becomes 1, "try a smaller step". */
 int stf_baseline_watch(stf_baseline *base, const char *who, int verdict, sunrealtype t,
                        N_Vector out);
 int stf_baseline_watch_matrix(stf_baseline *base, const char *who, int verdict, sunrealtype t,
                               SUNMatrix M);
-/* STEIF_OK, or the sentence of a negative flag or of a solution that is not finite. */
-int stf_baseline_verdict(stf_baseline *base, int flag, sunrealtype h, int order);
-
-/* Dense output: is t inside the last step, and leave with the sentence of a negative flag. */
-int stf_baseline_inside(const stf_baseline *base, sunrealtype t);
-int stf_baseline_dense(stf_baseline *base, int flag, sunrealtype t);
 
 /* CVODE and ARKODE: f, df/dy and its product, in their signatures. */
 int stf_baseline_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *base);
@@ -103,6 +98,24 @@ int stf_baseline_jv(N_Vector v, N_Vector Jv, sunrealtype t, N_Vector y, N_Vector
                     N_Vector tmp);
 /* True if df/dy comes from a callback. */
 bool stf_baseline_has_jac(const stf_baseline *base);
+/* Every component is a finite number. */
+bool stf_baseline_finite(N_Vector v);
+
+/* --- verdict.c: before and after a step --- */
+/* enter, after t_stop and max_steps were looked at; t_stop is lowered to the next break. */
+int stf_baseline_ready(stf_baseline *base, stf_run *run, sunrealtype *t_stop);
+/* Time from which the next step begins anew: just behind a break, where f has its new value. */
+sunrealtype stf_baseline_renew(stf_baseline *base);
+/* Statistics of the run from the counters of the package. */
+void stf_baseline_count(stf_baseline *base, const steif_stats *now);
+
+/* STEIF_OK, or the sentence of a negative flag or of a solution that is not finite. */
+int stf_baseline_verdict(stf_baseline *base, int flag, sunrealtype h, int order);
+
+/* Dense output: t must lie inside the last step, up to rounding; and leave, with the sentence
+ * of a negative flag. */
+int stf_baseline_inside(const stf_baseline *base, sunrealtype *t);
+int stf_baseline_dense(stf_baseline *base, int flag, sunrealtype t);
 
 /* --- matrix.c: E and A, their sum and product; arrays only --- */
 SUNMatrix stf_matrix_new(stf_run *run, enum steif_storage storage, sunindextype nnz);

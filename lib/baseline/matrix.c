@@ -124,8 +124,8 @@ SUNMatrix stf_matrix_identity(stf_run *run)
   return M;
 }
 
-/* Place the rows of column j of M that are not there yet at `end` and after; place[i] - 1 is the
- * place of row i, and of an earlier column if place[i] <= begin. */
+/* Place the rows of column j of M that are not there yet, at `end` and after; place[i] - 1 is
+ * the place of row i, and of an earlier column if place[i] <= begin. */
 static sunindextype place_column(SUNMatrix M, sunindextype j, sunindextype begin,
                                  sunindextype end, stf_merge *merge, sunindextype *place,
                                  sunindextype *from)

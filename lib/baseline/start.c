@@ -40,8 +40,8 @@ int stf_start_mass(stf_baseline *base)
 
 /* --- slopes --- */
 
-/* E y' = b row by row where a row of E has one entry; true if that settles every row. `count` and
- * `at` are the number of entries in a row and the column of one of them. */
+/* E y' = b row by row where a row of E has one entry; true if that settles every row. `count`
+ * and `at` are the number of entries in a row and the column of one of them. */
 static bool single_rows(SUNMatrix E, sunindextype n, const sunrealtype *b, sunrealtype *yp,
                         sunindextype *count, sunindextype *at, sunrealtype *value)
 {

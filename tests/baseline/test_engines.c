@@ -97,7 +97,7 @@ static void order_limits_what_is_reached(void)
   }
 }
 
-/* u' = 400 (u_{i-1} - 2 u_i + u_{i+1}) with u = 0 at the ends: the mode sin(pi i / (n+1)) decays
+/* u' = 400 (u_{i-1} - 2 u_i + u_{i+1}), u = 0 at the ends: the mode sin(pi i / (n+1)) decays
  * with 400 (2 - 2 cos(pi / (n+1))). */
 enum { N = 19 };
 static const sunrealtype K = 400;
@@ -276,6 +276,43 @@ static void opened_and_closed_again_and_again(void)
     }
 }
 
+/* y' = -30 (y - s(t)), s = 1 until 0.7, then -2: from 1, y = -2 + 3 exp(-30 (t - 0.7)). */
+static int jump(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  (void)user;
+  NV_Ith_S(ydot, 0) = -30 * (NV_Ith_S(y, 0) - (t <= 0.7 ? 1 : -2));
+  return 0;
+}
+
+static void breaks_are_stopped_at(void)
+{
+  const sunrealtype y0[] = {1}, breaks[] = {0, 0.7, 0.95, 3};
+  const steif_problem p = {
+    .name = "jump", .n = 1, .t1 = 1, .y0 = y0, .f = jump, .breaks = breaks, .break_count = 4};
+  steif_problem unaware = p;
+  unaware.break_count = 0;
+  for (int e = 0; e < 3; e++) {
+    ride r, other;
+    CHECK(ride_open(&r, &p, all[e], NULL) == STEIF_OK);
+    int seen = 0;
+    sunrealtype last = 0;
+    while (!r.code && r.run.t < 1) {
+      r.code = r.engine->step(&r.run, r.state, 1);
+      seen += r.run.t == 0.7 || r.run.t == 0.95;
+      CHECK(r.run.t > last);
+      last = r.run.t;
+    }
+    if (r.code) printf("\n  %s", ride_says(&r));
+    CHECK(r.code == STEIF_OK && seen == 2 && r.run.t == 1);
+    CLOSE(ride_y(&r, 0), -2 + 3 * exp(-30 * 0.3), 1e-4);
+    CHECK(ride_whole(&other, &unaware, all[e], NULL) == STEIF_OK);
+    CHECK(r.run.stats.rejected < other.run.stats.rejected);
+    CHECK(r.run.stats.steps > 20 && r.run.stats.nfe > r.run.stats.steps);
+    ride_close(&other);
+    ride_close(&r);
+  }
+}
+
 CU_TestInfo tests_of_engines[] = {
   {"a stiff pair is solved to tolerance", pair_to_tolerance},
   {"every evaluation of f is counted", evaluations_are_all_counted},
@@ -285,6 +322,7 @@ CU_TestInfo tests_of_engines[] = {
   {"sparse storage without entries is refused", sparse_needs_entries},
   {"tolerances by component", tolerances_by_component},
   {"first and largest step are kept", first_and_largest_steps_are_kept},
+  {"declared breaks are stopped at", breaks_are_stopped_at},
   {"interleaved runs do not disturb each other", runs_do_not_disturb_each_other},
   {"opened and closed again and again", opened_and_closed_again_and_again},
   CU_TEST_INFO_NULL};

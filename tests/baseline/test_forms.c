@@ -166,8 +166,8 @@ static void algebraic_components_are_found(void)
   }
 }
 
-/* E x' = A x + g with E = diag(1, 0), A = [-2 1; 1 -3], g = (0, sin t): x2 = (x1 + sin t) / 3 and
- * x1' = -5/3 x1 + sin(t) / 3. */
+/* E x' = A x + g with E = diag(1, 0), A = [-2 1; 1 -3], g = (0, sin t): x2 = (x1 + sin t) / 3
+ * and x1' = -5/3 x1 + sin(t) / 3. */
 static int index1_E(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
 {
   (void)t, (void)y, (void)yp, (void)user;
@@ -209,7 +209,7 @@ static int index1_Av(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vecto
   return 0;
 }
 
-/* x1 with x1(0) = 1: a particular solution (5/3 sin t - cos t) / 3 / (1 + 25/9) and the rest. */
+/* x1 with x1(0) = 1: a particular solution (5/3 sin t - cos t) / (3 + 25/3) and the rest. */
 static sunrealtype index1_exact(sunrealtype t)
 {
   const sunrealtype d = 3 * (1 + 25.0 / 9);

@@ -1,4 +1,4 @@
-/* test_index.c: IDA on N x' + x = f with one nilpotent block of size k, whose index is k: where it
+/* test_index.c: IDA on N x' + x = f with one nilpotent block of size k, index k: where it
  * works and how it gives up (measured behaviour of IDA 6.4 at rtol = atol = 1e-6).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "ride.h"

@@ -155,8 +155,8 @@ static int attach(arkode *s)
   return flag;
 }
 
-/* Equal steps: as many as fill [t, t1], and a Newton iteration at the level of rounding, so that
- * the result is that of the table: 1e-2 of weights of 1e-10 relative. */
+/* Equal steps: as many as fill [t, t1], and a Newton iteration at the level of rounding, so
+ * that the result is that of the table: 1e-2 of weights of 1e-10 relative. */
 static int equal_steps(arkode *s)
 {
   const stf_run *run = s->base.run;
@@ -222,27 +222,31 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
 
 static void collect(arkode *s)
 {
-  steif_stats *n = &s->base.run->stats;
+  steif_stats n = {0};
   void *m = s->memory;
   long more = 0, explicit_part = 0;
-  ARKStepGetNumSteps(m, &n->steps);
-  ARKStepGetNumErrTestFails(m, &n->rejected);
-  ARKStepGetNumRhsEvals(m, &explicit_part, &n->nfe);
+  ARKStepGetNumSteps(m, &n.steps);
+  ARKStepGetNumErrTestFails(m, &n.rejected);
+  ARKStepGetNumRhsEvals(m, &explicit_part, &n.nfe);
   ARKStepGetNumLinRhsEvals(m, &more);
-  n->nfe += more;
-  ARKStepGetNumJacEvals(m, &n->nje);
-  ARKStepGetNumLinSolvSetups(m, &n->nlu);
-  ARKStepGetNumNonlinSolvIters(m, &n->newton);
-  ARKStepGetNumStepSolveFails(m, &n->newton_fails);
-  n->nsolve = n->newton;
-  ARKStepGetLastStep(m, &n->h_last);
+  n.nfe += more;
+  ARKStepGetNumJacEvals(m, &n.nje);
+  ARKStepGetNumLinSolvSetups(m, &n.nlu);
+  ARKStepGetNumNonlinSolvIters(m, &n.newton);
+  ARKStepGetNumStepSolveFails(m, &n.newton_fails);
+  ARKStepGetLastStep(m, &n.h_last);
+  stf_baseline_count(&s->base, &n);
 }
 
 static int step(stf_run *run, void *state, sunrealtype t_stop)
 {
   arkode *s = state;
-  STEIF_TRY(stf_baseline_ready(&s->base, run, t_stop));
-  int flag = ARKStepSetStopTime(s->memory, t_stop);
+  STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
+  int flag = 0;
+  if (s->base.restart)
+    flag =
+      ARKStepReInit(s->memory, NULL, stf_baseline_rhs, stf_baseline_renew(&s->base), run->y);
+  STF_CALL(flag, ARKStepSetStopTime(s->memory, t_stop));
   STF_CALL(flag, ARKStepEvolve(s->memory, t_stop, run->y, &run->t, ARK_ONE_STEP));
   collect(s);
   return verdict(s, flag);
@@ -251,7 +255,7 @@ static int step(stf_run *run, void *state, sunrealtype t_stop)
 static int dense(stf_run *run, void *state, sunrealtype t, N_Vector y)
 {
   arkode *s = state;
-  STEIF_TRY(stf_baseline_inside(&s->base, t));
+  STEIF_TRY(stf_baseline_inside(&s->base, &t));
   stf_baseline_enter(&s->base, run);
   const int flag = ARKStepGetDky(s->memory, t, 0, y);
   return stf_baseline_dense(&s->base, flag, t);

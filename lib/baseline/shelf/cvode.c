@@ -102,27 +102,29 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
 
 static void collect(cvode *s)
 {
-  steif_stats *n = &s->base.run->stats;
+  steif_stats n = {0};
   void *m = s->memory;
   long more = 0;
-  CVodeGetNumSteps(m, &n->steps);
-  CVodeGetNumErrTestFails(m, &n->rejected);
-  CVodeGetNumRhsEvals(m, &n->nfe);
+  CVodeGetNumSteps(m, &n.steps);
+  CVodeGetNumErrTestFails(m, &n.rejected);
+  CVodeGetNumRhsEvals(m, &n.nfe);
   CVodeGetNumLinRhsEvals(m, &more);
-  n->nfe += more;
-  CVodeGetNumJacEvals(m, &n->nje);
-  CVodeGetNumLinSolvSetups(m, &n->nlu);
-  CVodeGetNumNonlinSolvIters(m, &n->newton);
-  CVodeGetNumStepSolveFails(m, &n->newton_fails);
-  n->nsolve = n->newton;
-  CVodeGetLastStep(m, &n->h_last);
+  n.nfe += more;
+  CVodeGetNumJacEvals(m, &n.nje);
+  CVodeGetNumLinSolvSetups(m, &n.nlu);
+  CVodeGetNumNonlinSolvIters(m, &n.newton);
+  CVodeGetNumStepSolveFails(m, &n.newton_fails);
+  CVodeGetLastStep(m, &n.h_last);
+  stf_baseline_count(&s->base, &n);
 }
 
 static int step(stf_run *run, void *state, sunrealtype t_stop)
 {
   cvode *s = state;
-  STEIF_TRY(stf_baseline_ready(&s->base, run, t_stop));
-  int flag = CVodeSetStopTime(s->memory, t_stop);
+  STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
+  int flag = 0;
+  if (s->base.restart) flag = CVodeReInit(s->memory, stf_baseline_renew(&s->base), run->y);
+  STF_CALL(flag, CVodeSetStopTime(s->memory, t_stop));
   STF_CALL(flag, CVode(s->memory, t_stop, run->y, &run->t, CV_ONE_STEP));
   collect(s);
   return verdict(s, flag);
@@ -131,7 +133,7 @@ static int step(stf_run *run, void *state, sunrealtype t_stop)
 static int dense(stf_run *run, void *state, sunrealtype t, N_Vector y)
 {
   cvode *s = state;
-  STEIF_TRY(stf_baseline_inside(&s->base, t));
+  STEIF_TRY(stf_baseline_inside(&s->base, &t));
   stf_baseline_enter(&s->base, run);
   const int flag = CVodeGetDky(s->memory, t, 0, y);
   return stf_baseline_dense(&s->base, flag, t);

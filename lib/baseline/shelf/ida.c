@@ -163,27 +163,39 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
 
 static void collect(ida *s)
 {
-  steif_stats *n = &s->base.run->stats;
+  steif_stats n = {0};
   void *m = s->memory;
   long more = 0;
-  IDAGetNumSteps(m, &n->steps);
-  IDAGetNumErrTestFails(m, &n->rejected);
-  IDAGetNumResEvals(m, &n->nfe);
+  IDAGetNumSteps(m, &n.steps);
+  IDAGetNumErrTestFails(m, &n.rejected);
+  IDAGetNumResEvals(m, &n.nfe);
   IDAGetNumLinResEvals(m, &more);
-  n->nfe += more;
-  IDAGetNumJacEvals(m, &n->nje);
-  IDAGetNumLinSolvSetups(m, &n->nlu);
-  IDAGetNumNonlinSolvIters(m, &n->newton);
-  IDAGetNumStepSolveFails(m, &n->newton_fails);
-  n->nsolve = n->newton;
-  IDAGetLastStep(m, &n->h_last);
+  n.nfe += more;
+  IDAGetNumJacEvals(m, &n.nje);
+  IDAGetNumLinSolvSetups(m, &n.nlu);
+  IDAGetNumNonlinSolvIters(m, &n.newton);
+  IDAGetNumStepSolveFails(m, &n.newton_fails);
+  IDAGetLastStep(m, &n.h_last);
+  stf_baseline_count(&s->base, &n);
+}
+
+/* Behind a break; y' is f of that side where the form tells it. */
+static int renew(ida *s)
+{
+  stf_run *run = s->base.run;
+  const sunrealtype t = stf_baseline_renew(&s->base);
+  if (run->form == STEIF_ODE && stf_baseline_rhs(t, run->y, run->yp, &s->base))
+    return IDA_FIRST_RES_FAIL;
+  return IDAReInit(s->memory, t, run->y, run->yp);
 }
 
 static int step(stf_run *run, void *state, sunrealtype t_stop)
 {
   ida *s = state;
-  STEIF_TRY(stf_baseline_ready(&s->base, run, t_stop));
-  int flag = IDASetStopTime(s->memory, t_stop);
+  STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
+  int flag = 0;
+  if (s->base.restart) flag = renew(s);
+  STF_CALL(flag, IDASetStopTime(s->memory, t_stop));
   STF_CALL(flag, IDASolve(s->memory, t_stop, &run->t, run->y, run->yp, IDA_ONE_STEP));
   collect(s);
   return verdict(s, flag);
@@ -192,7 +204,7 @@ static int step(stf_run *run, void *state, sunrealtype t_stop)
 static int dense(stf_run *run, void *state, sunrealtype t, N_Vector y)
 {
   ida *s = state;
-  STEIF_TRY(stf_baseline_inside(&s->base, t));
+  STEIF_TRY(stf_baseline_inside(&s->base, &t));
   stf_baseline_enter(&s->base, run);
   const int flag = IDAGetDky(s->memory, t, 0, y);
   return stf_baseline_dense(&s->base, flag, t);

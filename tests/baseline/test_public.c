@@ -1,0 +1,181 @@
+/* test_public.c: the baselines through the public interface, as a user calls them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+#include <nvector/nvector_serial.h>
+#include <steif/steif.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+static const char *const all[] = {"cvode", "ida", "arkode:order=5,newton=1e-3"};
+
+/* van der Pol, mu = 9: y1' = y2, y2' = 9 (1 - y1^2) y2 - y1 */
+static int vdpol(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  (void)t, (void)user;
+  const sunrealtype *x = NV_DATA_S(y);
+  NV_Ith_S(ydot, 0) = x[1];
+  NV_Ith_S(ydot, 1) = 9 * (1 - x[0] * x[0]) * x[1] - x[0];
+  return 0;
+}
+
+static int vdpol_jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user,
+                     N_Vector a, N_Vector b, N_Vector c)
+{
+  (void)t, (void)fy, (void)user, (void)a, (void)b, (void)c;
+  const sunrealtype *x = NV_DATA_S(y);
+  SM_ELEMENT_D(J, 0, 1) = 1;
+  SM_ELEMENT_D(J, 1, 0) = -18 * x[0] * x[1] - 1;
+  SM_ELEMENT_D(J, 1, 1) = 9 * (1 - x[0] * x[0]);
+  return 0;
+}
+
+static const sunrealtype y0[] = {2.1, -0.3};
+static const steif_problem problem = {
+  .name = "vdpol9", .n = 2, .t1 = 21, .y0 = y0, .f = vdpol, .jac = vdpol_jac};
+
+/* Solve to t and return the first component. */
+static sunrealtype solve(const char *method, sunrealtype rtol, sunrealtype t)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_options o = steif_defaults();
+  o.rtol = rtol;
+  steif_solver *s = steif_solver_new(ctx, &problem, method, &o);
+  const int code = s ? steif_solve_to(s, t) : steif_status(ctx);
+  if (code) printf("\n  %s: %s", method, steif_message(ctx));
+  CHECK(code == STEIF_OK);
+  const sunrealtype value = s ? NV_Ith_S(steif_solution(s), 0) : NAN;
+  steif_solver_free(&s);
+  steif_context_free(&ctx);
+  return value;
+}
+
+static void all_agree_with_radau(void)
+{
+  const sunrealtype reference = solve("radau:s=3", 1e-10, 20.7);
+  for (int e = 0; e < 3; e++) CLOSE(solve(all[e], 1e-9, 20.7), reference, 1e-5);
+}
+
+static void output_between_the_steps(void)
+{
+  for (int e = 0; e < 3; e++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_options o = steif_defaults();
+    o.rtol = 1e-8;
+    steif_solver *s = steif_solver_new(ctx, &problem, all[e], &o);
+    for (int i = 1; i <= 5; i++) {
+      CHECK(steif_solve_to(s, 1.3 * i) == STEIF_OK);
+      CHECK(steif_time(s) == 1.3 * i);
+      CLOSE(NV_Ith_S(steif_solution(s), 0), solve("radau:s=3", 1e-10, 1.3 * i), 1e-4);
+    }
+    const steif_stats *n = steif_statistics(s);
+    CHECK(n->steps > 20 && n->nfe > n->steps && n->nje > 0 && n->nlu > 0 && n->cpu_s > 0);
+    steif_solver_free(&s);
+    steif_context_free(&ctx);
+  }
+}
+
+static void failures_reach_the_context(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_options o = steif_defaults();
+  CHECK(steif_solver_new(ctx, &problem, "cvode:order=7", &o) == NULL);
+  CHECK(steif_status(ctx) == STEIF_BAD_INPUT && strstr(steif_message(ctx), "order=7"));
+  o.h = 0.01;
+  CHECK(steif_solver_new(ctx, &problem, "ida", &o) == NULL);
+  CHECK(steif_status(ctx) == STEIF_UNSUPPORTED && strstr(steif_message(ctx), "IDA chooses"));
+  o.h = 0, o.max_steps = 30;
+  steif_solver *s = steif_solver_new(ctx, &problem, "cvode", &o);
+  CHECK(steif_solve_to(s, 20) == STEIF_STEP_LIMIT);
+  CHECK(strstr(steif_message(ctx), "made 30 steps") != NULL);
+  CHECK(steif_statistics(s)->steps == 30 && steif_time(s) > 0);
+  steif_solver_free(&s);
+  steif_context_free(&ctx);
+}
+
+static void equal_steps_of_arkode_are_those_of_our_engine(void)
+{
+  static const char *const tables[] = {"alexander2", "alexander3", "trbdf2", "esdirk43"};
+  for (int k = 0; k < 4; k++) {
+    sunrealtype end[2][2];
+    for (int ours = 0; ours < 2; ours++) {
+      char spec[64];
+      snprintf(spec, sizeof spec, ours ? "dirk:%s" : "arkode:table=%s", tables[k]);
+      steif_context *ctx = steif_context_new(NULL);
+      steif_options o = steif_defaults();
+      o.h = 0.013;
+      steif_solver *s = steif_solver_new(ctx, &problem, spec, &o);
+      CHECK(s && steif_solve_to(s, 21) == STEIF_OK);
+      if (steif_status(ctx)) printf("\n  %s: %s", spec, steif_message(ctx));
+      CHECK(steif_statistics(s)->steps == 1616); /* 21 / 0.013 rounded up */
+      for (int i = 0; i < 2; i++) end[ours][i] = NV_Ith_S(steif_solution(s), i);
+      steif_solver_free(&s);
+      steif_context_free(&ctx);
+    }
+    CLOSE(end[1][0], end[0][0], 1e-9);
+    CLOSE(end[1][1], end[0][1], 1e-8);
+  }
+}
+
+/* An allocator whose request number `fatal` fails. */
+typedef struct tap {
+  int seen, fatal;
+} tap;
+
+static void *allocate(size_t bytes, void *user)
+{
+  tap *t = user;
+  return ++t->seen == t->fatal ? NULL : malloc(bytes);
+}
+
+static void release(void *block, void *user)
+{
+  (void)user;
+  free(block);
+}
+
+/* Open, run and free; the number of requests. */
+static int starve(const steif_problem *p, const char *method, int fatal)
+{
+  tap t = {0, fatal};
+  const steif_setup setup = {.allocate = allocate, .release = release, .user = &t};
+  steif_context *ctx = steif_context_new(&setup);
+  if (!ctx) return t.seen;
+  steif_solver *s = steif_solver_new(ctx, p, method, NULL);
+  if (fatal && t.seen >= fatal) CHECK(!s && steif_status(ctx) == STEIF_NO_MEMORY);
+  const int opened = t.seen;
+  if (s) CHECK(steif_solve_to(s, 0.4) == STEIF_OK && t.seen == opened);
+  steif_solver_free(&s);
+  steif_context_free(&ctx);
+  return t.seen;
+}
+
+static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  SM_ELEMENT_D(E, 0, 0) = SM_ELEMENT_D(E, 1, 0) = 1;
+  SM_ELEMENT_D(E, 1, 1) = 1;
+  return 0;
+}
+
+static void memory_may_end_anywhere(void)
+{
+  steif_problem p[2] = {problem, problem};
+  p[1].E = mass;
+  for (int e = 0; e < 3; e++)
+    for (int form = e == 0 ? 1 : 0; form < 2; form++) {
+      const steif_problem *which = e == 0 ? &p[0] : &p[form];
+      const int total = starve(which, all[e], 0);
+      CHECK(total > 8);
+      for (int k = 1; k <= total; k++) starve(which, all[e], k);
+    }
+}
+
+CU_TestInfo tests_of_public[] = {
+  {"all agree with radau", all_agree_with_radau},
+  {"output between the steps", output_between_the_steps},
+  {"failures reach the context", failures_reach_the_context},
+  {"equal steps of ARKODE are those of our engine",
+   equal_steps_of_arkode_are_those_of_our_engine},
+  {"memory may end anywhere, and none is asked for while stepping", memory_may_end_anywhere},
+  CU_TEST_INFO_NULL};
