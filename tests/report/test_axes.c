@@ -50,6 +50,19 @@ static void log_axes_have_decades(void)
   CHECK(named >= 2);
 }
 
+static void few_decades_have_numbers_between(void)
+{
+  stf_axis axis = {.log = true, .lo = -6.6, .hi = -5.31};
+  stf_axis_ticks(&axis, 8);
+  int twos = 0, fives = 0;
+  for (int k = 0; k < axis.ticks; k++) {
+    if (!axis.tick[k].decade) continue;
+    CLOSE(axis.tick[k].at, axis.tick[k].power + log10(axis.tick[k].lead), 1e-12);
+    twos += axis.tick[k].lead == 2, fives += axis.tick[k].lead == 5;
+  }
+  CHECK(twos == 1 && fives == 1); /* 2e-6 and 5e-7; 5e-6 is at -5.301 */
+}
+
 static void range_leaves_out_what_cannot_be_drawn(void)
 {
   static const sunrealtype x[] = {1.25, 2.5, 3.75, NAN, 40},
@@ -79,6 +92,7 @@ CU_TestInfo tests_of_axes[] = {
   {"ticks step by 1, 2 or 5 inside the range", steps_are_1_2_5},
   {"labels tell neighbouring ticks apart", labels_tell_the_ticks_apart},
   {"log axes have decades, narrow ones some between", log_axes_have_decades},
+  {"few decades have numbers between", few_decades_have_numbers_between},
   {"ranges leave out points that cannot be drawn", range_leaves_out_what_cannot_be_drawn},
   {"equal axes share a unit", equal_axes_share_a_unit},
   CU_TEST_INFO_NULL};
