@@ -3,7 +3,8 @@
 #include "face.h"
 #include <string.h>
 
-#define VERBS(X) X(list) X(solve) X(compare) X(order) X(layer) X(weak) X(region) X(demo)
+#define VERBS(X)                                                                               \
+  X(list) X(solve) X(compare) X(order) X(layer) X(weak) X(region) X(demo) X(bench)
 
 #define DECLARE(name) extern const struct verb verb_##name;
 #define ENTRY(name) &verb_##name,

@@ -4,6 +4,7 @@
 #define STEIF_STEIF_H
 
 #include <steif/base.h>
+#include <steif/bench.h>
 #include <steif/collection.h>
 #include <steif/descriptor.h>
 #include <steif/method.h>

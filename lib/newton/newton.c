@@ -25,9 +25,12 @@ int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split, 
   newton->Zp = stf_claim_vectors(pool, s, like);
   newton->omega = s > 1 ? stf_claim_vectors(pool, s, like) : newton->residual;
   newton->dZ = s > 1 ? stf_claim_vectors(pool, s, like) : newton->residual;
+  newton->zero = stf_claim_vector(pool, like);
   newton->B_over_h = stf_claim(pool, (size_t)(s * s), sizeof *newton->B_over_h);
+  newton->minus_T = stf_claim(pool, (size_t)(s * s), sizeof *newton->minus_T);
+  for (int i = 0; newton->minus_T && i < s * s; i++) newton->minus_T[i] = -split->T[i];
   const bool good = newton->Y && newton->residual && newton->Zp && newton->omega && newton->dZ &&
-                    newton->B_over_h;
+                    newton->zero && newton->B_over_h && newton->minus_T;
   return good ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
@@ -49,6 +52,16 @@ int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vecto
   STEIF_TRY(steif_pencil_factor(newton->system->pencil, split->lanes, shift));
   newton->h = h, newton->factored = true;
   newton->eta = 1;
+  return STEIF_OK;
+}
+
+/* The first residual of a solve from Z = 0: slopes are the offsets, arguments the bases. */
+static int first_residuals(stf_newton *newton, const stf_stages *g)
+{
+  for (int j = 0; j < newton->split.s; j++)
+    STEIF_TRY(stf_system_residual(newton->system, g->t + g->c[j] * g->h,
+                                  g->base ? g->base[j] : newton->zero,
+                                  g->offset ? g->offset[j] : newton->zero, newton->residual[j]));
   return STEIF_OK;
 }
 
@@ -125,7 +138,7 @@ static int refuse(stf_newton *newton, const stf_stages *g, int iterations, sunre
   steif_context *ctx = newton->system->ctx;
   newton->fails++, newton->wanted = true, newton->eta = 1;
   if (!isfinite(norm)) {
-    const sunindextype i = stf_not_finite(newton->dZ[0]);
+    const sunindextype i = stf_not_finite(newton->system->linear ? g->Z[0] : newton->dZ[0]);
     return STEIF_RECOVER(ctx, STEIF_NOT_FINITE,
                          "a stage of problem '%s' is not finite (component %lld) in the step from "
                          "t = %.12g with h = %.6g: the callbacks returned NaN or infinity, or the "
@@ -143,8 +156,27 @@ static int refuse(stf_newton *newton, const stf_stages *g, int iterations, sunre
 /* Corrections that no longer shrink though tiny are rounding: accept within this factor. */
 static const sunrealtype stagnation = 100;
 
+/* A linear system is solved by one sweep from Z = 0: Z = -T omega. */
+static int solve_linear(stf_newton *newton, const stf_stages *g)
+{
+  const int s = newton->split.s;
+  const stf_space *space = &newton->system->space;
+  newton->sweeps++, newton->count = 1;
+  STEIF_TRY(first_residuals(newton, g));
+  if (s > 1) stf_mix(space, s, s, newton->split.Tinv, newton->residual, newton->omega);
+  STEIF_TRY(solve_lanes(newton));
+  if (s > 1)
+    stf_mix(space, s, s, newton->minus_T, newton->omega, g->Z);
+  else
+    stf_scale(space, -1, newton->omega[0], g->Z[0]);
+  for (int j = 0; j < s; j++)
+    if (!stf_finite(space, g->Z[j])) return refuse(newton, g, 1, NAN, 0);
+  return STEIF_OK;
+}
+
 int stf_newton_solve(stf_newton *newton, const stf_stages *g)
 {
+  if (newton->system->linear) return solve_linear(newton, g);
   sunrealtype norm, last = 0, theta = 0;
   newton->theta = 0;
   newton->eta = sqrt(newton->eta * sqrt(newton->eta)); /* eta^(3/4): trust the last step a little less */
@@ -152,7 +184,6 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
     STEIF_TRY(sweep(newton, g, &norm));
     newton->count = m;
     if (!(norm <= 1e300)) return refuse(newton, g, m, norm, theta);
-    if (newton->system->linear) return STEIF_OK;
     if (m > 1) {
       const sunrealtype quotient = norm / last;
       theta = m == 2 ? quotient : sqrt(theta * quotient);

@@ -25,7 +25,8 @@ typedef struct stf_newton {
   sunrealtype stale;         /* a rate above this asks for a new Jacobian next time */
   N_Vector weights;          /* reciprocal weights; the caller keeps them current */
   N_Vector *residual, *omega, *dZ, *Zp, Y; /* s, s, s, s, 1 vectors */
-  sunrealtype *B_over_h;     /* B / h */
+  N_Vector zero;
+  sunrealtype *B_over_h, *minus_T; /* B / h, -T */
   sunrealtype h;             /* of B_over_h and the shifts */
   bool factored, fresh;      /* factors exist for (h, E, A); Jacobian made in this step */
   bool wanted;               /* a new Jacobian is wanted */
@@ -40,7 +41,8 @@ typedef struct stf_stages {
   const sunrealtype *c;      /* s */
   N_Vector *base;            /* s vectors (the same one repeated is fine); NULL: zero */
   N_Vector *offset;          /* s vectors; NULL: zero */
-  N_Vector *Z;               /* in: start of the iteration; out: solution */
+  N_Vector *Z;               /* in: start of the iteration (linear systems need none, and start
+                                from 0); out: solution */
 } stf_stages;
 
 int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split, N_Vector weights,

@@ -206,6 +206,8 @@ static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im
   return stf_columns(p, slot, nrhs, re, im, columns);
 }
 
+void stf_sparse_direct(steif_pencil *p, int slot, double *b) { columns(p, slot, 1, b, p->n); }
+
 static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
 {
   SUNMatrix M = which == 'E' ? p->E : p->A;

@@ -93,6 +93,15 @@ static void coefficients(stf_step *s, sunrealtype h, int k)
   e->cached = k, e->guess_points = points;
 }
 
+/* base: the extrapolated solution. */
+static void guess(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  stf_combine(space, e->guess_points, e->guess, e->y, e->base);
+  if (s->adaptive && e->points == 1 && s->yp_known) stf_axpy(space, h, s->yp, e->base);
+}
+
 static int solve(stf_step *s, sunrealtype h)
 {
   static const sunrealtype c[] = {1};
@@ -100,21 +109,19 @@ static int solve(stf_step *s, sunrealtype h)
   const stf_space *space = &s->system.space;
   sunrealtype a[HIGHEST + 1];
   for (int j = 1; j <= e->k; j++) a[j - 1] = e->alpha[j] / h;
-  stf_combine(space, e->k, a, e->y, e->offset);
   stf_newton_single(&s->newton, e->alpha[0]);
-  stf_zero(space, e->Z);
-  if (!s->absolute) {
-    stf_combine(space, e->guess_points, e->guess, e->y, e->base);
-    if (s->adaptive && e->points == 1 && s->yp_known) stf_axpy(space, h, s->yp, e->base);
+  N_Vector base = s->system.linear ? e->y[0] : e->base;
+  if (s->system.linear && !s->absolute) a[0] += e->alpha[0] / h;
+  stf_combine(space, e->k, a, e->y, e->offset);
+  if (!s->system.linear) {
+    guess(s, h);
     stf_axpy(space, e->alpha[0] / h, e->base, e->offset);
+    stf_zero(space, e->Z);
   }
-  const stf_stages g = {.t = s->t, .h = h, .c = c, .base = s->absolute ? NULL : &e->base,
-                        .offset = &e->offset, .Z = &e->Z};
+  const stf_stages g = {.t = s->t, .h = h, .c = c, .base = s->absolute ? NULL : &base,
+                        .offset = &e->offset, .Z = s->absolute ? &s->next : &e->Z};
   STEIF_TRY(stf_solve_stages(s, &g));
-  if (s->absolute)
-    stf_copy(space, e->Z, s->next);
-  else
-    stf_sum(space, 1, e->base, 1, e->Z, s->next);
+  if (!s->absolute) stf_sum(space, 1, base, 1, e->Z, s->next);
   return STEIF_OK;
 }
 
@@ -139,7 +146,7 @@ static int attempt(stf_step *s, sunrealtype h)
   STEIF_TRY(solve(s, h));
   if (!s->adaptive) return STEIF_OK;
   const sunrealtype span = e->points > e->k ? s->t + h - e->t[e->k] : 2 * h;
-  if (s->absolute) stf_combine(&s->system.space, e->guess_points, e->guess, e->y, e->base);
+  if (s->system.linear) guess(s, h);
   stf_sum(&s->system.space, h / span, s->next, -h / span, e->base, s->error);
   s->error_order = e->k;
   return STEIF_OK;

@@ -60,6 +60,14 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
                                                                              : STEIF_NO_MEMORY;
 }
 
+/* Z begins with the slope before it. */
+static void guess(stf_step *s, int i, sunrealtype gh)
+{
+  state *e = s->state;
+  N_Vector slope = i ? e->K[i - 1] : e->stepped && !s->restart ? e->old[e->s - 1] : NULL;
+  slope ? stf_scale(&s->system.space, gh, slope, e->Z) : stf_zero(&s->system.space, e->Z);
+}
+
 /* Stage i: K_i and X_i from the slopes before it. */
 static int stage(stf_step *s, int i, sunrealtype h)
 {
@@ -73,14 +81,12 @@ static int stage(stf_step *s, int i, sunrealtype h)
                         .offset = s->absolute ? &e->offset : NULL, .Z = &e->Z};
   if (s->absolute) {
     stf_scale(space, -1 / gh, e->base, e->offset);
-    stf_zero(space, e->Z);
     STEIF_TRY(stf_solve_stages(s, &g));
     stf_copy(space, e->Z, e->X[i]);
     stf_sum(space, 1 / gh, e->Z, -1 / gh, e->base, e->K[i]);
     return STEIF_OK;
   }
-  N_Vector guess = i ? e->K[i - 1] : e->stepped && !s->restart ? e->old[e->s - 1] : NULL;
-  guess ? stf_scale(space, gh, guess, e->Z) : stf_zero(space, e->Z);
+  if (!s->system.linear) guess(s, i, gh);
   STEIF_TRY(stf_solve_stages(s, &g));
   stf_sum(space, 1, e->base, 1, e->Z, e->X[i]);
   stf_scale(space, 1 / gh, e->Z, e->K[i]);

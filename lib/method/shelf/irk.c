@@ -140,7 +140,8 @@ static void predict(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
-  if (!e->history || s->system.linear || s->restart) {
+  if (s->system.linear) return;
+  if (!e->history || s->restart) {
     for (int j = 0; j < e->s; j++) stf_zero(space, e->trial[j]);
     return;
   }
