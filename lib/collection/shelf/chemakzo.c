@@ -1,0 +1,89 @@
+/* chemakzo.c: the chemical Akzo Nobel problem: carbon dioxide bubbles through a mixture of two
+ * species; five kinetic equations and one equilibrium, M y' = f(y), M = diag(1,1,1,1,1,0), index 1.
+ * W. J. H. Stortelder, Parameter estimation in dynamic systems, CWI (1998); IVP Test Set.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "published.h"
+#include <math.h>
+
+static const sunrealtype K1 = 18.7, K2 = 0.58, K3 = 0.09, K4 = 0.42, KEQ = 34.4, KLA = 3.3,
+                         KS = 115.83, PCO2 = 0.9, H = 737;
+
+static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  const sunrealtype *u = NV_DATA_S(y);
+  sunrealtype *d = NV_DATA_S(ydot);
+  (void)t, (void)user;
+  if (!(u[1] >= 0)) return 1;
+  const sunrealtype root = sqrt(u[1]), square = u[0] * u[0];
+  const sunrealtype r1 = K1 * square * square * root, r2 = K2 * u[2] * u[3],
+                    r3 = K2 / KEQ * u[0] * u[4], r4 = K3 * u[0] * u[3] * u[3],
+                    r5 = K4 * u[5] * u[5] * root, in = KLA * (PCO2 / H - u[1]);
+  d[0] = -2 * r1 + r2 - r3 - r4;
+  d[1] = -0.5 * r1 - r4 - 0.5 * r5 + in;
+  d[2] = r1 - r2 + r3;
+  d[3] = -r2 + r3 - 2 * r4;
+  d[4] = r2 - r3 + r5;
+  d[5] = KS * u[0] * u[3] - u[5];
+  return 0;
+}
+
+static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector tmp1,
+               N_Vector tmp2, N_Vector tmp3)
+{
+  const sunrealtype *u = NV_DATA_S(y);
+  (void)t, (void)fy, (void)user, (void)tmp1, (void)tmp2, (void)tmp3;
+  if (!(u[1] > 0)) return 1;
+  const sunrealtype root = sqrt(u[1]), cube = u[0] * u[0] * u[0];
+  const sunrealtype r11 = 4 * K1 * cube * root, r12 = K1 * cube * u[0] / (2 * root),
+                    r23 = K2 * u[3], r24 = K2 * u[2], r31 = K2 / KEQ * u[4],
+                    r35 = K2 / KEQ * u[0], r41 = K3 * u[3] * u[3], r44 = 2 * K3 * u[0] * u[3],
+                    r52 = K4 * u[5] * u[5] / (2 * root), r56 = 2 * K4 * u[5] * root;
+  const sunrealtype columns[6][6] = {
+    {-2 * r11 - r31 - r41, -0.5 * r11 - r41, r11 + r31, r31 - 2 * r41, -r31, KS * u[3]},
+    {-2 * r12, -0.5 * (r12 + r52) - KLA, r12, 0, r52, 0},
+    {r23, 0, -r23, -r23, r23, 0},
+    {r24 - r44, -r44, -r24, -r24 - 2 * r44, r24, KS * u[0]},
+    {-r35, 0, r35, r35, -r35, 0},
+    {0, -0.5 * r56, 0, 0, r56, -1},
+  };
+  for (sunindextype j = 0; j < 6; j++)
+    for (sunindextype i = 0; i < 6; i++) SM_ELEMENT_D(J, i, j) = columns[j][i];
+  return 0;
+}
+
+static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  for (sunindextype i = 0; i < 5; i++) SM_ELEMENT_D(E, i, i) = 1;
+  return 0;
+}
+
+/* y6 = KS y1 y4; slopes of the differential part are f, y6' = KS (y1' y4 + y1 y4'). */
+static const sunrealtype y0[] = {0.444, 0.00123, 0, 0.007, 0, 115.83 * 0.444 * 0.007};
+static const sunrealtype yp0[] = {-0.05097681765216577,  -0.013729322308134246,
+                                  0.025487429806082887,  -3.91608e-6,
+                                  0.0019090002227229194, -0.04153391171915414};
+static const int index[] = {1, 1, 1, 1, 1, 1};
+static const sunrealtype end[] = {0.1150794920661702,   0.001203831471567715,
+                                  0.1611562887407974,   0.00036561564212492828,
+                                  0.017080108852644039, 0.0048735313103074546};
+static const steif_reference reference = {
+  .t = 180, .value = end, .digits = 13, .source = IVP_TEST_SET "chemakzo"};
+
+const steif_problem steif_problem_chemakzo = {
+  .name = "chemakzo",
+  .about = "Chemical Akzo Nobel problem, five kinetic equations and one equilibrium, index 1. "
+           "W. J. H. Stortelder (1998); IVP Test Set II-3.",
+  .n = 6,
+  .t1 = 180,
+  .y0 = y0,
+  .yp0 = yp0,
+  .f = f,
+  .jac = jac,
+  .E = mass,
+  .index = index,
+  .dae_index = 1,
+  .autonomous = 1,
+  .reference = &reference,
+};
