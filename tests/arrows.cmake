@@ -33,6 +33,14 @@ foreach(line ${lines})
   endif()
 endforeach()
 
+string(REGEX MATCHALL "\n    [a-z]+ +-> " drawn "${readme}")
+foreach(line ${drawn})
+  string(REGEX REPLACE "[^a-z]" "" room "${line}")
+  if(NOT room IN_LIST rooms)
+    message(SEND_ERROR "README.md draws a room '${room}' that CMakeLists.txt does not declare")
+  endif()
+endforeach()
+
 # The room that an #include of `from` leads to, "" for the outside world.
 function(target_of from kind name out)
   set(room "")
