@@ -1,6 +1,7 @@
 /* test_weak.c: verdicts and refusals of the weak measurement.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "data.h"
+#include <stdlib.h>
 
 static void expect(const char *method, int k, const char *name, enum steif_convention c,
                    const char *start, int converges, const char *words)
@@ -89,9 +90,46 @@ static void questions_without_sense_are_refused(void)
   q = good, q.method = "bdf:p=2", q.start = "jump", refuse(&q, STEIF_UNKNOWN_NAME, "jump");
 }
 
+/* Every allocation fails in turn: the code says so, nothing leaks (AddressSanitizer watches). */
+static void *starving(size_t bytes, void *user)
+{
+  long *left = user;
+  return (*left)-- > 0 ? malloc(bytes) : NULL;
+}
+
+static void feeding(void *block, void *user)
+{
+  (void)user;
+  free(block);
+}
+
+static void memory_may_run_short_anywhere(void)
+{
+  const steif_weak_query query = {.method = "bdf:p=2",
+                                  .problem = "jordan:k=3,case=N-inc",
+                                  .convention = STEIF_R,
+                                  .h = 0.25,
+                                  .rows = 2};
+  int code = STEIF_NO_MEMORY, hungry = 0;
+  for (long meals = 1; code != STEIF_OK && meals < 1000; meals++) {
+    long left = meals;
+    steif_weak_row row[2];
+    steif_weak_result result;
+    const steif_setup setup = {.allocate = starving, .release = feeding, .user = &left};
+    steif_context *ctx = steif_context_new(&setup);
+    if (!ctx) continue;
+    code = steif_weak_measure(ctx, &query, row, &result);
+    CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
+    hungry += code == STEIF_NO_MEMORY;
+    steif_context_free(&ctx);
+  }
+  CHECK(code == STEIF_OK && hungry > 10);
+}
+
 CU_TestInfo tests_of_weak[] = {
   {"verdicts say what happens", verdicts_say_what_happens},
   {"the first-order constant belongs to backward Euler",
    first_order_constant_is_for_euler_alone},
   {"questions without sense are refused with a sentence", questions_without_sense_are_refused},
+  {"memory may run short anywhere", memory_may_run_short_anywhere},
   CU_TEST_INFO_NULL};

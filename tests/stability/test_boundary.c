@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stability.h"
 #include "suite.h"
+#include <stdlib.h>
 
 enum { COUNT = 300 };
 static sunrealtype points[2 * COUNT];
@@ -85,9 +86,39 @@ static void one_point_is_refused(void)
   steif_context_free(&ctx);
 }
 
+/* Every allocation fails in turn: the code says so, nothing leaks (AddressSanitizer watches). */
+static void *starving(size_t bytes, void *user)
+{
+  long *left = user;
+  return (*left)-- > 0 ? malloc(bytes) : NULL;
+}
+
+static void feeding(void *block, void *user)
+{
+  (void)user;
+  free(block);
+}
+
+static void memory_may_run_short_anywhere(void)
+{
+  int code = STEIF_NO_MEMORY, hungry = 0;
+  for (long meals = 1; code != STEIF_OK && meals < 100; meals++) {
+    long left = meals;
+    const steif_setup setup = {.allocate = starving, .release = feeding, .user = &left};
+    steif_context *ctx = steif_context_new(&setup);
+    if (!ctx) continue;
+    code = steif_region_boundary(ctx, "bdf:p=2", COUNT, points);
+    CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
+    hungry += code == STEIF_NO_MEMORY;
+    steif_context_free(&ctx);
+  }
+  CHECK(code == STEIF_OK && hungry >= 6);
+}
+
 CU_TestInfo tests_of_boundary[] = {
   {"the boundaries of both Euler methods are closed circles", circles_of_euler},
   {"leftmost points are the known extremes", extremes_are_reached},
   {"the boundary of Gauss methods is the imaginary axis", axis_of_gauss},
   {"a boundary of one point is refused", one_point_is_refused},
+  {"memory may run short anywhere", memory_may_run_short_anywhere},
   CU_TEST_INFO_NULL};
