@@ -10,7 +10,7 @@ static char text[TEXT], folder[64];
 
 static const char *inside(const char *name)
 {
-  static char path[128];
+  static char path[512];
   snprintf(path, sizeof path, "%s/%s", folder, name);
   return path;
 }
@@ -93,7 +93,7 @@ static void link_stays_a_link(void)
   steif_context *ctx = steif_context_new(NULL);
   steif_report *r = mixed(ctx);
   struct stat info;
-  char target[128];
+  char target[512];
   enter();
   CHECK(steif_report_save(r, STEIF_JSON, inside("real.json")) == STEIF_OK);
   CHECK(!chmod(inside("real.json"), 0640));
