@@ -1,11 +1,11 @@
 /* test_jacobian.c: over the whole shelf, the matrices E and A that a problem declares are the
  * derivatives of its residual F(t, y, y'), at the start and beside it.
  *
- * With v in the scale of the unknowns, E v and A v are compared with central differences of F in
- * y' and y, row by row: each row i within 1e-6 of its entries plus what the differences themselves
- * cannot resolve (rounding of the terms of row i, and the change when the step is halved), so that
- * a small entry in a column of large ones is seen too. v runs through the unit vectors, or through
- * random ones where n is large.
+ * With v in the scale of the unknowns, E v and A v are compared with central differences of F
+ * in y' and y, row by row: each row i within 1e-6 of its entries plus what the differences
+ * themselves cannot resolve (rounding of the terms of row i, and the change when the step is
+ * halved), so that a small entry in a column of large ones is seen too. v runs through the unit
+ * vectors, or through random ones where n is large.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"
@@ -83,8 +83,8 @@ static void drop(matrices *m)
   if (m->A) SUNMatDestroy(m->A);
 }
 
-/* (F(x + delta v) - F(x - delta v))/(2 delta) with x = y or y' moved; terms_i grows to the largest
- * |F_i| seen. */
+/* (F(x + delta v) - F(x - delta v))/(2 delta) with x = y or y' moved; terms_i grows to the
+ * largest |F_i| seen. */
 static int difference(fixture *s, const matrices *m, double t, N_Vector moved, N_Vector v,
                       double delta, N_Vector out, N_Vector terms)
 {
@@ -157,7 +157,7 @@ static void terms_of(const matrices *m, N_Vector y, N_Vector out)
 {
   SUNMatrix M = SUNMatClone(m->A);
   CHECK(SUNMatCopy(m->A, M) == 0);
-  const int kind = SUNMatGetID(M);
+  const SUNMatrix_ID kind = SUNMatGetID(M);
   const int dense = kind == SUNMATRIX_DENSE, band = kind == SUNMATRIX_BAND;
   double *entry = dense ? SM_DATA_D(M) : band ? SM_DATA_B(M) : SM_DATA_S(M);
   const sunindextype count = dense  ? SM_LDATA_D(M)
@@ -168,8 +168,9 @@ static void terms_of(const matrices *m, N_Vector y, N_Vector out)
   SUNMatDestroy(M);
 }
 
-/* dF/dy' where E or idajac gives it: E v against differences in y' (of F itself for the implicit
- * form; the mass and descriptor forms contain E, and there it must not depend on the point). */
+/* dF/dy' where E or idajac gives it: E v against differences in y' (of F itself for the
+ * implicit form; the mass and descriptor forms contain E, and there it must not depend on the
+ * point). */
 static int slopes_agree(fixture *s, const matrices *m, double t, N_Vector v, N_Vector zero)
 {
   const steif_problem *p = &s->p;

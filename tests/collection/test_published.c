@@ -240,7 +240,8 @@ static void chemistry_at_hand_computed_points(void)
   }
 }
 
-/* Medical Akzo at rest: only u_1 is fed, by the boundary value that falls from 2 to 0 at t = 5. */
+/* Medical Akzo at rest: only u_1 is fed, by the boundary value that falls from 2 to 0
+ * at t = 5. */
 static void tumour_is_fed_until_five(void)
 {
   const double z = 1.0 / 200 - 1, fed = pow(z, 4) / 16 * 4e4 - 2 * pow(z, 3) / 16 * 100;
@@ -254,8 +255,8 @@ static void tumour_is_fed_until_five(void)
   }
 }
 
-/* Without currents and voltages but with the high-frequency signal at its peak of 2 V, two diodes
- * conduct and two are blocked. */
+/* Without currents and voltages but with the high-frequency signal at its peak of 2 V, two
+ * diodes conduct and two are blocked. */
 static void modulator_at_the_peak_of_its_carrier(void)
 {
   static const double zero[15];
@@ -272,8 +273,9 @@ static void modulator_at_the_peak_of_its_carrier(void)
   fixture_close(&s);
 }
 
-/* Accelerations of the straight beam under its end force are zero but for the last segment, since
- * the row sums of the inverse inertia are 0, ..., 0, 2; a rigid turn by d adds 2 N^4 d at the clamp. */
+/* Accelerations of the straight beam under its end force are zero but for the last segment,
+ * since the row sums of the inverse inertia are 0, ..., 0, 2; a rigid turn by d adds 2 N^4 d at
+ * the clamp. */
 static void beam_bends_from_its_end(void)
 {
   static const double straight[80];

@@ -1,9 +1,9 @@
 /* beam.c: the elastic beam as a chain of N segments with angles theta, clamped at one end and
  * pulled at the other by the force (F_x, F_y) = (-phi, phi), phi = 1.5 sin^2 t up to t = pi.
  *
- * With G_lk = N + 1/2 - max(l, k) and B = G .* exp(i (theta_l - theta_k)), the equations of motion
- * Re(B) theta'' + Im(B) theta'^2 = v are solved in O(N) operations, because B^-1 = C + i D is
- * tridiagonal: C u = D v + theta'^2, theta'' = C v + D u.
+ * With G_lk = N + 1/2 - max(l, k) and B = G .* exp(i (theta_l - theta_k)), the equations of
+ * motion Re(B) theta'' + Im(B) theta'^2 = v are solved in O(N) operations, because
+ * B^-1 = C + i D is tridiagonal: C u = D v + theta'^2, theta'' = C v + D u.
  * E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.1.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -12,8 +12,9 @@
 
 enum { N = 40 };
 
-/* Everything at one (t, theta, p = theta'): off-diagonals of C and D (c[l] and d[l] couple l and
- * l + 1; D is antisymmetric with d above the diagonal), the pivots of C, v, u and theta''. */
+/* Everything at one (t, theta, p = theta'): off-diagonals of C and D (c[l] and d[l] couple l
+ * and l + 1; D is antisymmetric with d above the diagonal), the pivots of C, v, u and
+ * theta''. */
 struct chain {
   sunrealtype c[N], d[N], pivot[N], v[N], u[N], a[N], bend[N];
 };
@@ -41,8 +42,9 @@ static void solve_c(const struct chain *m, sunrealtype *x)
   for (int l = N - 1; l-- > 0;) x[l] = (x[l] - m->c[l] * x[l + 1]) / m->pivot[l];
 }
 
-/* v = N^4 (second difference of theta) + N^2 (F_y cos theta - F_x sin theta), theta_0 = -theta_1,
- * theta_(N+1) = theta_N; bend = the part of dv/dtheta that the force adds to the diagonal. */
+/* v = N^4 (second difference of theta) + N^2 (F_y cos theta - F_x sin theta),
+ * theta_0 = -theta_1, theta_(N+1) = theta_N; bend = the part of dv/dtheta that the force adds
+ * to the diagonal. */
 static void forces(sunrealtype t, const sunrealtype *q, struct chain *m)
 {
   const sunrealtype s = sin(t), phi = t < 3.14159265358979323846 ? 1.5 * s * s : 0;
@@ -96,7 +98,8 @@ static void stiffness(const struct chain *m, int j, sunrealtype *out)
 }
 
 /* dtheta''/dtheta = C K + D C^-1 (D K + diag(theta'')) + diag(p^2), because dC v = (D diag(v) -
- * diag(D v)) dtheta and dD u = (diag(C u) - C diag(u)) dtheta; dtheta''/dp = 2 D C^-1 diag(p). */
+ * diag(D v)) dtheta and dD u = (diag(C u) - C diag(u)) dtheta; dtheta''/dp = 2 D C^-1
+ * diag(p). */
 static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector tmp1,
                N_Vector tmp2, N_Vector tmp3)
 {

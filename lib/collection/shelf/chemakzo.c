@@ -1,6 +1,7 @@
 /* chemakzo.c: the chemical Akzo Nobel problem: carbon dioxide bubbles through a mixture of two
- * species; five kinetic equations and one equilibrium, M y' = f(y), M = diag(1,1,1,1,1,0), index 1.
- * W. J. H. Stortelder, Parameter estimation in dynamic systems, CWI (1998); IVP Test Set.
+ * species; five kinetic equations and one equilibrium, M y' = f(y), M = diag(1,1,1,1,1,0),
+ * index 1. W. J. H. Stortelder, Parameter estimation in dynamic systems, CWI (1998); IVP Test
+ * Set.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"

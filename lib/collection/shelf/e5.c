@@ -1,6 +1,6 @@
-/* e5.c: chemical pyrolysis E5 of the collection of Enright, Hull and Lindberg; concentrations fall
- * to 1e-23 over thirteen decades of time, y2 = y3 + y4 throughout.
- * W. H. Enright, T. E. Hull, B. Lindberg, BIT 15 (1975) 10-48.
+/* e5.c: chemical pyrolysis E5 of the collection of Enright, Hull and Lindberg; concentrations
+ * fall to 1e-23 over thirteen decades of time, y2 = y3 + y4 throughout. W. H. Enright, T. E.
+ * Hull, B. Lindberg, BIT 15 (1975) 10-48.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"
@@ -48,10 +48,10 @@ static int balance(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 }
 
 /* Exactly y2 = y3 + y4, and y4 < 1e-100 at the end, so y2 = y3. The published values y2 =
- * 8.8676555176421201e-23, y3 = 8.8548146262688376e-23 differ: rounding of the early y of 1e-10 stays
- * in that balance, and only their mean is right to more than three digits. These are from Radau IIA
- * with 1000 steps per decade in quadruple precision; 300 steps agree to 1.2e-13. y1 (published:
- * 1.1529032787118289e-291) and y4 are far below every tolerance. */
+ * 8.8676555176421201e-23, y3 = 8.8548146262688376e-23 differ: rounding of the early y of 1e-10
+ * stays in that balance, and only their mean is right to more than three digits. These are from
+ * Radau IIA with 1000 steps per decade in quadruple precision; 300 steps agree to 1.2e-13. y1
+ * (published: 1.1529032787118289e-291) and y4 are far below every tolerance. */
 static const sunrealtype y0[] = {1.76e-3, 0, 0, 0};
 static const sunindextype component[] = {1, 2};
 static const sunrealtype end[] = {8.86123352129109e-23, 8.86123352129109e-23};
@@ -62,8 +62,8 @@ static const steif_reference reference = {.t = 1e13,
                                           .digits = 12,
                                           .source = "Radau IIA in quadruple precision"};
 
-/* The test set holds atol at 1.7e-24, a fiftieth of the end values; atol = 1e-20 rtol is that at
- * rtol = 1.7e-4 and follows rtol from there, so that tighter tolerances give more digits. */
+/* The test set holds atol at 1.7e-24, a fiftieth of the end values; atol = 1e-20 rtol is that
+ * at rtol = 1.7e-4 and follows rtol from there, so that tighter tolerances give more digits. */
 const steif_problem steif_problem_e5 = {
   .name = "e5",
   .about = "Chemical pyrolysis with concentrations down to 1e-23. W. H. Enright, T. E. Hull, "

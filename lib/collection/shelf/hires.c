@@ -1,5 +1,5 @@
-/* hires.c: High Irradiance RESponses of photomorphogenesis, eight reactants; y7 + y8 is constant.
- * E. Schaefer, J. Math. Biol. 2 (1975) 41-56.
+/* hires.c: High Irradiance RESponses of photomorphogenesis, eight reactants; y7 + y8 is
+ * constant. E. Schaefer, J. Math. Biol. 2 (1975) 41-56.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"

@@ -9,8 +9,9 @@
 
 static const sunrealtype K = 100, C = 4;
 
-/* u' = alpha (u_right - u_left)/(2 d) + beta (u_left - 2 u + u_right)/d^2 - k u v at zeta = j d,
- * alpha = 2 (zeta - 1)^3/c^2, beta = (zeta - 1)^4/c^2: the weights of u_left and u_right. */
+/* u' = alpha (u_right - u_left)/(2 d) + beta (u_left - 2 u + u_right)/d^2 - k u v at
+ * zeta = j d, alpha = 2 (zeta - 1)^3/c^2, beta = (zeta - 1)^4/c^2: the weights of
+ * u_left and u_right. */
 static void weights(sunindextype j, sunindextype N, sunrealtype *left, sunrealtype *right)
 {
   const sunrealtype z = (sunrealtype)(j - N) / (sunrealtype)N, z3 = z * z * z / (C * C);

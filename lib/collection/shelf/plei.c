@@ -1,6 +1,6 @@
-/* plei.c: the Pleiades, seven stars of masses 1 .. 7 in a plane under gravitation; not stiff, with
- * close encounters. Unknowns x, y, x', y'. E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary
- * Differential Equations I, section II.10.
+/* plei.c: the Pleiades, seven stars of masses 1 .. 7 in a plane under gravitation; not stiff,
+ * with close encounters. Unknowns x, y, x', y'. E. Hairer, S. P. Norsett, G. Wanner, Solving
+ * Ordinary Differential Equations I, section II.10.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"

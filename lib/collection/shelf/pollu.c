@@ -68,8 +68,8 @@ static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
   return 0;
 }
 
-/* Columns of the Jacobian from the derivatives of the rates: a reaction that consumes y_j enters
- * column j with its stoichiometric column times dr/dy_j. */
+/* Columns of the Jacobian from the derivatives of the rates: a reaction that consumes y_j
+ * enters column j with its stoichiometric column times dr/dy_j. */
 static void nitrogen(SUNMatrix J, const sunrealtype *y)
 {
   const sunrealtype p10 = k[10] * y[10], p14 = k[14] * y[5], p23 = k[23] * y[3],

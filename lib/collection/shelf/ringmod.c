@@ -1,6 +1,6 @@
-/* ringmod.c: a ring modulator that mixes a low- and a high-frequency signal through four diodes;
- * parasitic capacitances Cs make it an oscillatory stiff ODE.
- * E. H. Horneber, Analyse nichtlinearer RLCUE-Netzwerke, dissertation, Kaiserslautern (1976).
+/* ringmod.c: a ring modulator that mixes a low- and a high-frequency signal through four
+ * diodes; parasitic capacitances Cs make it an oscillatory stiff ODE. E. H. Horneber, Analyse
+ * nichtlinearer RLCUE-Netzwerke, dissertation, Kaiserslautern (1976).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"

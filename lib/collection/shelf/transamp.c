@@ -8,8 +8,8 @@
 
 static const sunrealtype UB = 6, UF = 0.026, ALPHA = 0.99, BETA = 1e-6, R0 = 1000, R = 9000;
 
-/* Emitter currents BETA (e^(U/UF) - 1) of both transistors, or where `slope` their derivatives; 1
- * on overflow. */
+/* Emitter currents BETA (e^(U/UF) - 1) of both transistors, or where `slope` their derivatives;
+ * 1 on overflow. */
 static int emitters(const sunrealtype *u, int slope, sunrealtype g[2])
 {
   for (int i = 0; i < 2; i++) {
@@ -55,7 +55,8 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
   return 0;
 }
 
-/* Capacitors 1, 3, 5 uF join nodes 1-2, 4-5, 7-8; 2 and 4 uF join nodes 3 and 6 to the ground. */
+/* Capacitors 1, 3, 5 uF join nodes 1-2, 4-5, 7-8; 2 and 4 uF join nodes 3 and 6
+ * to the ground. */
 static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
 {
   (void)t, (void)y, (void)yp, (void)user;
@@ -70,8 +71,8 @@ static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
 }
 
 /* Slopes from M U' = f and the derivatives of the three hidden constraints f1 + f2 = 0,
- * f4 + f5 = 0, f7 + f8 = 0. The values that circulate with the test set (51.338775, -24.9757667,
- * -10.00564453) satisfy neither to more than four digits. */
+ * f4 + f5 = 0, f7 + f8 = 0. The values that circulate with the test set (51.338775,
+ * -24.9757667, -10.00564453) satisfy neither to more than four digits. */
 static const sunrealtype y0[] = {0, 3, 3, 6, 3, 3, 6, 0};
 static const sunrealtype yp0[] = {
   51.3392765171807206,  51.3392765171807206,  -166.666666666666667, -24.9703285154063289,

@@ -3,8 +3,8 @@
  *   scaled    y1' = y2, y2' = ((1 - y1^2) y2 - y1)/eps    vdpol, vdpol:eps=1e-3
  *   unscaled  q' = p,   p'  = mu (1 - q^2) p - q          vdpol:mu=10
  *
- * B. van der Pol, Phil. Mag. 2 (1926) 978-992. Time of the unscaled form is mu times that of the
- * scaled one with eps = 1/mu^2.
+ * B. van der Pol, Phil. Mag. 2 (1926) 978-992. Time of the unscaled form is mu times that of
+ * the scaled one with eps = 1/mu^2.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"
