@@ -108,13 +108,14 @@ static int run(FILE *script, FILE *picture, pid_t *child)
   return failed;
 }
 
-static bool succeeded(pid_t child)
+/* Exit code of the child; 127 is also how POSIX lets a spawn say that the program was not found. */
+static int waited(pid_t child)
 {
   int status = 0;
   pid_t got;
   do got = waitpid(child, &status, 0);
   while (got < 0 && errno == EINTR);
-  return got == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return got == child && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 int stf_plot_gnuplot(steif_context *ctx, const steif_plot *plot, FILE *stream)
@@ -127,13 +128,14 @@ int stf_plot_gnuplot(steif_context *ctx, const steif_plot *plot, FILE *stream)
   const bool written = !fflush(script) && !ferror(script) && !fseek(script, 0, SEEK_SET) &&
                        lseek(fileno(script), 0, SEEK_SET) == 0;
   const int failed = written ? run(script, stream, &child) : EIO;
-  const bool good = !failed && succeeded(child);
+  const int left = failed ? -1 : waited(child);
   fclose(script);
   STEIF_CHECK(
     failed != ENOENT, ctx, STEIF_UNSUPPORTED,
     "PNG pictures are drawn by gnuplot, which was not found: install gnuplot or name an "
     ".svg file");
-  STEIF_CHECK(good, ctx, STEIF_UNSUPPORTED, "gnuplot drew no picture%s%s; name an .svg file",
-              failed ? ": " : "", failed ? strerror(failed) : "");
+  STEIF_CHECK(left == 0, ctx, STEIF_UNSUPPORTED,
+              "gnuplot drew no picture%s%s; name an .svg file", failed ? ": " : "",
+              failed ? strerror(failed) : "");
   return STEIF_OK;
 }
