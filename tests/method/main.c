@@ -1,0 +1,9 @@
+/* Tests of the method room.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_stiffpair[], tests_of_nonlinear[], tests_of_start[];
+
+SUITE_MAIN({.pName = "stiff pair", .pTests = tests_of_stiffpair},
+           {.pName = "nonlinear", .pTests = tests_of_nonlinear},
+           {.pName = "starts", .pTests = tests_of_start})
