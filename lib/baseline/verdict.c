@@ -7,16 +7,19 @@
 
 /* --- before a step --- */
 
-/* The next break behind t, if it comes before t_stop. Given steps do not look at breaks. */
+/* The last time before the next break: f may have its new value at the break already, or only
+ * behind it. Infinite where there is none. Given steps do not look at breaks. */
+static sunrealtype before_break(const stf_baseline *base)
+{
+  const steif_problem *p = base->run->problem;
+  const bool none = base->next_break >= p->break_count || base->run->options->h > 0;
+  return none ? INFINITY : nextafter(p->breaks[base->next_break], -INFINITY);
+}
+
 static void stop_at_break(stf_baseline *base, sunrealtype *t_stop)
 {
-  const stf_run *run = base->run;
-  const steif_problem *p = run->problem;
-  if (run->options->h > 0) return;
-  while (base->next_break < p->break_count && p->breaks[base->next_break] <= run->t)
-    base->next_break++;
-  if (base->next_break < p->break_count && p->breaks[base->next_break] < *t_stop)
-    *t_stop = p->breaks[base->next_break];
+  while (before_break(base) <= base->run->t) base->next_break++;
+  *t_stop = fmin(*t_stop, before_break(base));
 }
 
 int stf_baseline_ready(stf_baseline *base, stf_run *run, sunrealtype *t_stop)
@@ -42,9 +45,8 @@ sunrealtype stf_baseline_renew(stf_baseline *base)
 
 void stf_baseline_count(stf_baseline *base, const steif_stats *now)
 {
-  const stf_run *run = base->run;
-  const steif_problem *p = run->problem;
-  steif_stats *sum = &base->run->stats;
+  stf_run *run = base->run;
+  steif_stats *sum = &run->stats;
   const steif_stats *past = &base->past;
   *sum = (steif_stats){.steps = past->steps + now->steps,
                        .rejected = past->rejected + now->rejected,
@@ -55,8 +57,8 @@ void stf_baseline_count(stf_baseline *base, const steif_stats *now)
                        .newton = past->newton + now->newton,
                        .newton_fails = past->newton_fails + now->newton_fails,
                        .h_last = now->h_last};
-  base->restart = base->next_break < p->break_count && run->t == p->breaks[base->next_break] &&
-                  !(run->options->h > 0);
+  base->restart = run->t >= before_break(base);
+  if (base->restart) run->t = run->problem->breaks[base->next_break];
 }
 
 /* --- after it --- */

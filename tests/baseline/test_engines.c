@@ -279,19 +279,29 @@ static void opened_and_closed_again_and_again(void)
 /* y' = -30 (y - s(t)), s = 1 until 0.7, then -2: from 1, y = -2 + 3 exp(-30 (t - 0.7)). */
 static int jump(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 {
-  (void)user;
-  NV_Ith_S(ydot, 0) = -30 * (NV_Ith_S(y, 0) - (t <= 0.7 ? 1 : -2));
+  const bool late = *(bool *)user ? t >= 0.7 : t > 0.7;
+  NV_Ith_S(ydot, 0) = -30 * (NV_Ith_S(y, 0) - (late ? -2 : 1));
   return 0;
 }
 
 static void breaks_are_stopped_at(void)
 {
   const sunrealtype y0[] = {1}, breaks[] = {0, 0.7, 0.95, 3};
-  const steif_problem p = {
-    .name = "jump", .n = 1, .t1 = 1, .y0 = y0, .f = jump, .breaks = breaks, .break_count = 4};
+  bool closed = false;
+  const steif_problem p = {.user = &closed,
+                           .name = "jump",
+                           .n = 1,
+                           .t1 = 1,
+                           .y0 = y0,
+                           .f = jump,
+                           .breaks = breaks,
+                           .break_count = 4};
   steif_problem unaware = p;
   unaware.break_count = 0;
-  for (int e = 0; e < 3; e++) {
+  sunrealtype first[3] = {0, 0, 0};
+  for (int k = 0; k < 6; k++) {
+    const int e = k % 3;
+    closed = k < 3; /* f has its new value at the break */
     ride r, other;
     CHECK(ride_open(&r, &p, all[e], NULL) == STEIF_OK);
     int seen = 0;
@@ -307,6 +317,8 @@ static void breaks_are_stopped_at(void)
     CLOSE(ride_y(&r, 0), -2 + 3 * exp(-30 * 0.3), 1e-4);
     CHECK(ride_whole(&other, &unaware, all[e], NULL) == STEIF_OK);
     CHECK(r.run.stats.rejected < other.run.stats.rejected);
+    if (closed) first[e] = ride_y(&r, 0);
+    CHECK(ride_y(&r, 0) == first[e]);
     CHECK(r.run.stats.steps > 20 && r.run.stats.nfe > r.run.stats.steps);
     ride_close(&other);
     ride_close(&r);
