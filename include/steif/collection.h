@@ -23,9 +23,9 @@ STEIF_EXPORT void steif_problem_clear(steif_context *ctx, steif_problem *problem
 /* Digits of y against the problem's reference or exact solution at time t:
  *   scd   = -log10 max_i |y_i - ref_i| / |ref_i|                 (components with ref_i = 0 left out)
  *   mescd = -log10 max_i |y_i - ref_i| / (atol/rtol + |ref_i|)
- * An error below the unit round-off counts as the unit round-off (15.95 digits); a component that is
- * not finite gives -infinity; scd is NaN when every ref_i is 0. STEIF_UNSUPPORTED, and both NaN,
- * when nothing is known at t. */
+ * An error below the unit round-off counts as the unit round-off (15.95 digits); a component that
+ * is not finite gives -infinity; scd is NaN when every ref_i is 0. STEIF_UNSUPPORTED, and both
+ * NaN, when nothing is known at t. */
 STEIF_EXPORT int steif_problem_digits(steif_context *ctx, const steif_problem *problem,
                                       sunrealtype t, N_Vector y, sunrealtype atol_over_rtol,
                                       sunrealtype *scd, sunrealtype *mescd);

@@ -13,10 +13,10 @@ typedef struct stf_problem_entry {
 extern const stf_problem_entry stf_problem_shelf[];
 extern const size_t stf_problem_count;
 
-/* .build works on a copy of the shelf entry. When it fails, steif_problem_find calls .destroy, so
- * build releases nothing itself and destroy accepts whatever build had set, user == NULL too. */
+/* .build works on a copy of the shelf entry. When it fails, steif_problem_find calls .destroy:
+ * build releases nothing itself, and destroy accepts what build had set, user == NULL too. */
 
-/* self->user: one zeroed block of `fixed` bytes and then `count` reals; NULL when memory is short.
+/* self->user: one zeroed block of `fixed` bytes and `count` reals; NULL when memory is short.
  * stf_collection_release is the .destroy that goes with it. */
 void *stf_collection_claim(steif_context *ctx, steif_problem *self, size_t fixed, size_t count);
 void stf_collection_release(steif_context *ctx, steif_problem *self);
@@ -31,8 +31,8 @@ int stf_collection_toeplitz(SUNMatrix M, sunindextype first, sunindextype last,
 /* Its number of entries. */
 sunindextype stf_collection_count(sunindextype n, sunindextype first, sunindextype last);
 
-/* Angle from the vertical below and angular velocity at t of phi'' = -g sin phi, oscillating, by
- * Jacobi's elliptic functions. */
+/* Angle from the vertical below and angular velocity at t of phi'' = -g sin phi, oscillating,
+ * by Jacobi's elliptic functions. */
 void stf_collection_pendulum(sunrealtype g, sunrealtype phi0, sunrealtype rate0, sunrealtype t,
                              sunrealtype *phi, sunrealtype *rate);
 

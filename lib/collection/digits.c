@@ -3,9 +3,9 @@
  *   scd   = -log10 max_i |y_i - r_i| / |r_i|,  r_i = 0 left out
  *   mescd = -log10 max_i |y_i - r_i| / (atol/rtol + |r_i|)
  *
- * Both are the measures of the Test Set for IVP Solvers (Mazzia, Magherini 2008). An error below
- * the unit round-off counts as the unit round-off: 15.95 digits are the most that double precision
- * can show. A component that is not finite, where the reference is, gives -infinity.
+ * Both are the measures of the Test Set for IVP Solvers (Mazzia, Magherini 2008). An error
+ * below the unit round-off counts as the unit round-off: 15.95 digits are the most that double
+ * precision can show. A component that is not finite gives -infinity.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"

@@ -215,7 +215,7 @@ static void brusselator_diffuses_waves(void)
   fixture_close(&s);
 }
 
-/* y := y + h f at weighted stages of the classical Runge-Kutta method, time seen not past `until`. */
+/* One step of the classical Runge-Kutta method, its times cut off at `until`. */
 static void classical(fixture *s, double t, double h, double until)
 {
   static const double node[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};

@@ -1,9 +1,10 @@
-/* bruss2d.c: the Brusselator with diffusion on a periodic square, N x N points, u block, v block.
+/* bruss2d.c: the Brusselator with diffusion on a periodic square of N x N points.
  *
  *   u_t = 1 + u^2 v - 4.4 u + alpha (u_xx + u_yy) + f(x, y, t)
  *   v_t = 3.4 u - u^2 v + alpha (v_xx + v_yy),  alpha = 0.1,
  * f = 5 in the disc (x - 0.3)^2 + (y - 0.6)^2 <= 0.1^2 for t >= 1.1, else 0;
  * u = 22 y (1-y)^{3/2}, v = 27 x (1-x)^{3/2} at t = 0; x = i/N, y = j/N, 0 <= i, j < N.
+ * Unknowns: u of all points, x running first, then v.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"
@@ -50,7 +51,7 @@ typedef struct square {
 
 static const sunrealtype breaks[] = {IGNITION};
 
-/* One row of cells: w the unknown itself, up and down its neighbours; spread * five-point sum. */
+/* Five-point sums times spread of one row of cells w between the rows up and down. */
 static void diffuse(const square *s, const sunrealtype *w, const sunrealtype *up,
                     const sunrealtype *down, sunrealtype *out)
 {

@@ -1,7 +1,7 @@
 /* heat.c: u_t = u_xx on (0, 1), u = 0 at both ends, by second differences on n inner points.
  *
  * The grid functions sin(k pi x_i), x_i = i h, h = 1/(n+1), are eigenvectors with eigenvalue
- * -4/h^2 sin^2(k pi h/2); started from sin(pi x) + sin(3 pi x)/2 the system has a closed solution.
+ * -4/h^2 sin^2(k pi h/2): from sin(pi x) + sin(3 pi x)/2 the system has a closed solution.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"

@@ -1,4 +1,4 @@
-/* jordan.c: N x' + x = f(t), N the k x k nilpotent Jordan block (ones above the diagonal): index k.
+/* jordan.c: N x' + x = f(t), index k: N the k x k Jordan block with ones above a zero diagonal.
  *
  * Smooth part x_s = sum_{i<k} (-1)^i N^i f^(i), whatever the start; x(0-) off it adds impulses.
  *

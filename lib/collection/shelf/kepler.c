@@ -1,8 +1,8 @@
-/* kepler.c: the two-body problem q'' = -q/|q|^3 from the pericentre of an orbit of eccentricity e.
+/* kepler.c: the two-body problem q'' = -q/|q|^3 from the pericentre, eccentricity e.
  *
  * With the eccentric anomaly E, E - e sin E = t (period 2 pi):
  *   q = (cos E - e, sqrt(1-e^2) sin E),  p = (-sin E, sqrt(1-e^2) cos E) / (1 - e cos E).
- * Conserved: energy |p|^2/2 - 1/|q| = -1/2 and angular momentum q_1 p_2 - q_2 p_1 = sqrt(1-e^2).
+ * Conserved: energy |p|^2/2 - 1/|q| = -1/2, angular momentum q_1 p_2 - q_2 p_1 = sqrt(1-e^2).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"

@@ -9,7 +9,10 @@ static const sunrealtype start[] = {1, 0};
 
 static const sunrealtype end[] = {-0.998949814623850652, -0.0420333775342122937};
 static const steif_reference reference = {
-  .t = 10, .value = end, .digits = 17, .source = "elliptic functions in 30-digit arithmetic"};
+  .t = 10,
+  .value = end,
+  .digits = 17,
+  .source = "Taylor series of order 36 in 50-digit arithmetic, steps 0.1 and 0.08 agree"};
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 {

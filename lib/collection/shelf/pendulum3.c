@@ -26,8 +26,8 @@ typedef struct model {
   int form; /* 1, 2, 3 or GGL */
 } model;
 
-/* (x, y, u, v, lambda, mu) and slopes at PHI0, RATE0; the first four of lambda's are exact in
- * closed form: lambda = u^2 + v^2 - g y, lambda' = -3 g v. */
+/* (x, y, u, v, lambda, mu) and slopes at PHI0, RATE0:
+ * lambda = u^2 + v^2 - g y, lambda' = -3 g v. */
 static const sunrealtype start[] = {.8253356149096783,  -.56464247339503536, .39524973137652475,
                                     .57773493043677481, 6.0291426640052969,  0};
 static const sunrealtype slope[] = {.39524973137652475, .57773493043677481,  -4.976066167974989,
@@ -116,7 +116,7 @@ static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
   return 0;
 }
 
-/* Energy, and the constraints of position and velocity, which the lower index forms only keep. */
+/* Energy, and the constraints of position and velocity: free to drift in lower index forms. */
 static int conserved(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 {
   const sunrealtype *z = N_VGetArrayPointer(y);

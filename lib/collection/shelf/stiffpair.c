@@ -37,8 +37,8 @@ static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 }
 
 const steif_problem steif_problem_stiffpair = {
-  .about = "two decoupled decays with rates 1 and 1000; the stiff linear example of Hairer and "
-           "Wanner, Solving Ordinary Differential Equations II, Springer 1996, ch. IV.1",
+  .about = "two decoupled decays with rates 1 and 1000; on stiffness: E. Hairer and G. Wanner, "
+           "Solving Ordinary Differential Equations II, Springer 1996, ch. IV",
   .n = 2,
   .t1 = 4,
   .y0 = start,

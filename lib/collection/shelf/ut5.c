@@ -1,7 +1,7 @@
 /* ut5.c: a regular 5 x 5 pencil E x' + F x = f of index 3 with two finite eigenvalues.
  *
- * E = U diag(I_2, N_3) V, F = U diag(J, I_3) V with integer unimodular U and V, J = [1/2 3; -3 1/2]
- * and N_3 the nilpotent block with ones above the diagonal. With h = U^{-1} f,
+ * E = U diag(I_2, N_3) V, F = U diag(J, I_3) V with integer unimodular U and V,
+ * J = [1/2 3; -3 1/2] and N_3 nilpotent with ones above the diagonal. With h = U^{-1} f,
  *   zeta = z_1 + i z_2:  zeta' + (1/2 - 3i) zeta = h_1 + i h_2,
  *   w_3 = h_5,  w_2 = h_4 - h_5',  w_1 = h_3 - h_4' + h_5'',
  *   x = (z_1 - w_1 + w_2, z_2 - w_1 + w_2 - w_3, w_1 - w_2, w_2, w_3) = V^{-1} (z, w).
@@ -138,7 +138,7 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
 const steif_problem steif_problem_ut5 = {
   .about =
     "5 x 5 pencil of index 3 with eigenvalues -1/2 +- 3i, impulses at the start (case=inc); "
-    "after S. L. Campbell, Singular Systems of Differential Equations, Pitman 1980",
+    "theory: S. L. Campbell, Singular Systems of Differential Equations, Pitman 1980",
   .n = SIZE,
   .t1 = 1,
   .E = E,
