@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "report.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <spawn.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -102,7 +103,7 @@ static int run(FILE *script, FILE *picture, pid_t *child)
   if (failed) return failed;
   failed = posix_spawn_file_actions_adddup2(&streams, fileno(script), 0);
   if (!failed) failed = posix_spawn_file_actions_adddup2(&streams, fileno(picture), 1);
-  if (!failed) failed = posix_spawn_file_actions_addopen(&streams, 2, "/dev/null", 1, 0);
+  if (!failed) failed = posix_spawn_file_actions_addopen(&streams, 2, "/dev/null", O_WRONLY, 0);
   if (!failed) failed = posix_spawnp(child, program, &streams, NULL, arguments, environ);
   posix_spawn_file_actions_destroy(&streams);
   return failed;
@@ -131,7 +132,7 @@ int stf_plot_gnuplot(steif_context *ctx, const steif_plot *plot, FILE *stream)
   const int left = failed ? -1 : waited(child);
   fclose(script);
   STEIF_CHECK(
-    failed != ENOENT, ctx, STEIF_UNSUPPORTED,
+    failed != ENOENT && left != 127, ctx, STEIF_UNSUPPORTED,
     "PNG pictures are drawn by gnuplot, which was not found: install gnuplot or name an "
     ".svg file");
   STEIF_CHECK(left == 0, ctx, STEIF_UNSUPPORTED,
