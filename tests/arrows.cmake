@@ -7,6 +7,7 @@ cmake_minimum_required(VERSION 3.18)
 # The lowest room that may see a public header, where its name is not a room: methods read the
 # options and the statistics of solver.h, whose functions are those of march.
 set(room_of_solver method)
+set(room_of_impulse descriptor)
 
 file(READ ${SOURCE}/CMakeLists.txt text)
 file(READ ${SOURCE}/README.md readme)
@@ -99,7 +100,11 @@ foreach(header ${headers})
   get_filename_component(name ${header} NAME)
   if(NOT name STREQUAL "steif.h")
     target_of("" "<" "steif/${name}" room)
-    check(${header} ${room})
+    if(room IN_LIST rooms)
+      check(${header} ${room})
+    else()
+      message(SEND_ERROR "${name} belongs to no room: name one above, or declare '${room}'")
+    endif()
   endif()
 endforeach()
 
