@@ -3,7 +3,7 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_find[], tests_of_digits[], tests_of_exact[], tests_of_jordan[],
-  tests_of_small[], tests_of_jacobian[], tests_of_published[];
+  tests_of_small[], tests_of_jacobian[], tests_of_published[], tests_of_start[];
 
 SUITE_MAIN({.pName = "find", .pTests = tests_of_find},
            {.pName = "digits", .pTests = tests_of_digits},
@@ -11,4 +11,5 @@ SUITE_MAIN({.pName = "find", .pTests = tests_of_find},
            {.pName = "jordan", .pTests = tests_of_jordan},
            {.pName = "small", .pTests = tests_of_small},
            {.pName = "jacobian", .pTests = tests_of_jacobian},
-           {.pName = "published", .pTests = tests_of_published})
+           {.pName = "published", .pTests = tests_of_published},
+           {.pName = "start", .pTests = tests_of_start})
