@@ -81,7 +81,7 @@ static const sunrealtype end[] = {
   0.59523963542087099, -3.7412449612340102,  0.37734596857506297,  0.93868588695510735,
   0.36679222272005713, -0.34740463538084898, 2.3449154481809371,   -1.947020434263292};
 static const steif_reference reference = {
-  .t = 3, .value = end, .digits = 9, .source = IVP_TEST_SET "plei"};
+  .t = 3, .value = end, .digits = 10, .source = IVP_TEST_SET "plei"};
 
 const steif_problem steif_problem_plei = {
   .name = "plei",

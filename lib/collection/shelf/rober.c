@@ -88,7 +88,7 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
 static const sunrealtype end[] = {2.083340149701255e-08, 8.3333607703347131e-14,
                                   0.99999997916650496};
 static const steif_reference reference = {
-  .t = 1e11, .value = end, .digits = 10, .source = IVP_TEST_SET "rober"};
+  .t = 1e11, .value = end, .digits = 12, .source = IVP_TEST_SET "rober"};
 
 const steif_problem steif_problem_rober = {
   .name = "rober",
