@@ -2,7 +2,7 @@
 # drivers/ and include/. A room includes its own headers, those of rooms below it, and the public
 # headers of itself and of rooms below it; nobody goes up, and README.md draws the same arrows.
 #   cmake -DSOURCE= -P arrows.cmake
-cmake_minimum_required(VERSION 3.18)
+cmake_minimum_required(VERSION 3.19)
 
 # The lowest room that may see a public header, where its name is not a room: methods read the
 # options and the statistics of solver.h, whose functions are those of march.

@@ -3,7 +3,7 @@
 # A function is counted from the first line of its signature to its closing brace, both of which
 # clang-format puts at column 0.
 #   cmake -DSOURCE= -P measure.cmake
-cmake_minimum_required(VERSION 3.18)
+cmake_minimum_required(VERSION 3.19)
 set(file_limit 400)
 set(function_limit 80)
 

@@ -47,7 +47,9 @@ typedef struct steif_operator {
 
 /* Counters since the pencil was made. */
 typedef struct steif_pencil_stats {
-  long analyses, factors, refactors, fallbacks, solves, iterations;
+  long analyses, factors, refactors, fallbacks; /* fallbacks are among the factors */
+  long solves;            /* right-hand sides */
+  long iterations;        /* Krylov */
   long fill;              /* entries of L + U of the last sparse factor */
 } steif_pencil_stats;
 
@@ -59,7 +61,7 @@ STEIF_EXPORT steif_pencil *steif_pencil_new_operator(steif_context *ctx, const s
                                                      N_Vector like);
 STEIF_EXPORT void steif_pencil_free(steif_pencil **p);
 
-/* The values of E or A changed: factors become stale. A changed sparse pattern is found and
+/* The values of E or A changed: factors become stale, factor before the next solve. A changed sparse pattern is found and
  * analysed anew. STEIF_NOT_FINITE names the first entry that is NaN or infinite. */
 STEIF_EXPORT int steif_pencil_update(steif_pencil *p);
 

@@ -37,9 +37,10 @@ typedef struct steif_options {
   sunrealtype h0, h_max;    /* first and largest chosen step; 0: automatic, none */
   sunrealtype t1;           /* end; 0: the problem's */
   long max_steps;           /* default 1 000 000 */
-  sunrealtype newton;       /* Newton stops at newton * weights; default 1e-2 (chosen steps) or
-                               1e-3 of 1e-10 relative (given steps) */
-  int iterations;           /* most Newton iterations in a stage; default 10 */
+  sunrealtype newton;       /* Newton stops when the estimated error of the stages is below newton *
+                               tolerance; default 1e-2 of rtol |y| + atol (chosen steps), 1e-3 of
+                               1e-10 (|y| + atol/rtol) (given steps) */
+  int iterations;           /* most Newton iterations in a stage; default 10 (chosen), 30 (given) */
   enum steif_storage storage; /* with force_storage: instead of the problem's */
   int force_storage;
   N_Vector like;            /* the kind of vector to clone; NULL: serial */

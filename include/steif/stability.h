@@ -25,8 +25,8 @@ typedef struct steif_region {
 
 STEIF_EXPORT int steif_region_find(steif_context *ctx, const char *method, steif_region *region);
 
-/* Points of the boundary rho(M(z)) = 1 on rays from an inner point, in order; NaN where a ray meets
- * none. points: count pairs (re, im). */
+/* Points of the boundary rho(M(z)) = 1, piece after piece (the longest first) with NaN between
+ * pieces and behind the last. points: count pairs (re, im). */
 STEIF_EXPORT int steif_region_boundary(steif_context *ctx, const char *method, size_t count,
                                        sunrealtype *points);
 

@@ -137,6 +137,7 @@ static void open_newton(steif_solver *s)
   newton->tolerance = o->newton > 0 ? o->newton : adaptive ? 1e-2 : 1e-3;
   newton->iterations = o->iterations ? o->iterations : adaptive ? 10 : 30;
   newton->stale = adaptive ? 1e-3 : 0.1;
+  newton->eta_least = adaptive ? 0 : 1e-2;
   newton->fresh = true;
 }
 

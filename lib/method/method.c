@@ -107,7 +107,10 @@ int stf_solve_stages(stf_step *s, const stf_stages *g)
   if (code <= 0) return code;
   zero_stages(s, g);
   STEIF_TRY(stf_newton_prepare(newton, s->t, g->h, s->y, s->yp, !newton->fresh));
-  return stf_newton_solve(newton, g);
+  code = stf_newton_solve(newton, g);
+  if (code <= 0 || s->adaptive || s->system.linear) return code;
+  zero_stages(s, g);
+  return stf_newton_full(newton, g);
 }
 
 void stf_interpolate(int k, const sunrealtype *node, sunrealtype x, sunrealtype *value)

@@ -73,7 +73,8 @@ int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_meth
                     steif_table **table);
 
 /* Solve stages with the factors at hand: prepares them, renews a stale Jacobian, and repeats a
- * refused solve with a new Jacobian and Z = 0 before giving up. */
+ * refused solve with a new Jacobian and Z = 0, and when the step is given once more with a new
+ * Jacobian in every iteration, before giving up. */
 int stf_solve_stages(stf_step *s, const stf_stages *stages);
 
 /* y <-> next. */

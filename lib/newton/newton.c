@@ -179,7 +179,7 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
   if (newton->system->linear) return solve_linear(newton, g);
   sunrealtype norm, last = 0, theta = 0;
   newton->theta = 0;
-  newton->eta = sqrt(newton->eta * sqrt(newton->eta)); /* eta^(3/4): trust the last step a little less */
+  newton->eta = fmax(newton->eta_least, sqrt(newton->eta * sqrt(newton->eta))); /* eta^(3/4) */
   for (int m = 1;; m++) {
     STEIF_TRY(sweep(newton, g, &norm));
     newton->count = m;
@@ -197,6 +197,28 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
   }
   if (theta > newton->stale) newton->wanted = true;
   return STEIF_OK;
+}
+
+int stf_newton_full(stf_newton *newton, const stf_stages *g)
+{
+  const stf_space *space = &newton->system->space;
+  const int end = newton->split.s - 1;
+  sunrealtype norm = 0, last = 0;
+  for (int m = 1; m <= newton->iterations; m++) {
+    STEIF_TRY(residuals(newton, g)); /* leaves Zp at Z */
+    stf_copy(space, g->Z[end], newton->Y);
+    if (g->base) stf_axpy(space, 1, g->base[end], newton->Y);
+    STEIF_TRY(stf_newton_prepare(newton, g->t + g->c[end] * g->h, g->h, newton->Y,
+                                 newton->Zp[end], true));
+    STEIF_TRY(sweep(newton, g, &norm));
+    newton->wanted = true; /* the Jacobian is that of another point */
+    newton->count = m;
+    if (!(norm <= 1e300)) break;
+    if (norm <= newton->tolerance || (norm >= last / 2 && m > 1 && norm <= stagnation * newton->tolerance))
+      return STEIF_OK;
+    last = norm;
+  }
+  return refuse(newton, g, newton->count, norm, last > 0 ? norm / last : 0);
 }
 
 void stf_newton_single(stf_newton *newton, sunrealtype b)

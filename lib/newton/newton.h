@@ -31,6 +31,7 @@ typedef struct stf_newton {
   bool factored, fresh;      /* factors exist for (h, E, A); Jacobian made in this step */
   bool wanted;               /* a new Jacobian is wanted */
   sunrealtype theta, eta;    /* of the last solve */
+  sunrealtype eta_least;     /* floor of the eta that a first correction is judged by */
   int count;                 /* iterations of the last solve */
   long solves, sweeps, fails; /* lane solves, iterations, refusals */
 } stf_newton;
@@ -60,6 +61,10 @@ int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vecto
 
 /* Solve; STEIF_RETRY when refused. */
 int stf_newton_solve(stf_newton *newton, const stf_stages *stages);
+
+/* The same with a new Jacobian in every iteration, made at the last stage: for steps that must not
+ * be made smaller. */
+int stf_newton_full(stf_newton *newton, const stf_stages *stages);
 
 /* Convergence was slow or refused: the next prepare should renew the Jacobian. */
 bool stf_newton_stale(const stf_newton *newton);

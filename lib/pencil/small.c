@@ -26,8 +26,7 @@ static inline int factor(const int n, double *restrict a, int *restrict perm)
       perm[k] = perm[p], perm[p] = t;
       for (int j = 0; j < n; j++) swap(&a[k + n * j], &a[p + n * j]);
     }
-    const double r = a[k + n * k] = 1 / a[k + n * k];
-    for (int i = k + 1; i < n; i++) a[i + n * k] *= r;
+    for (int i = k + 1; i < n; i++) a[i + n * k] /= a[k + n * k];
     for (int j = k + 1; j < n; j++)
       for (int i = k + 1; i < n; i++) a[i + n * j] -= a[i + n * k] * a[k + n * j];
   }
@@ -42,7 +41,7 @@ static inline void subtract(const int n, const int k, const int from, const int 
 
 static inline void up(const int n, const int k, const double *restrict a, double *restrict x)
 {
-  x[k] *= a[k + n * k];
+  x[k] /= a[k + n * k]; /* exact where the quotient is: index-k layers keep their zeros */
   subtract(n, k, 0, k, a, x);
 }
 
