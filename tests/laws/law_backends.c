@@ -3,6 +3,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "laws.h"
 #include <nvector/nvector_manyvector.h>
+#ifdef HAVE_NVECTOR_OPENMP
+#include <nvector/nvector_openmp.h>
+#endif
 #include <sunmatrix/sunmatrix_band.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
@@ -154,6 +157,23 @@ static void any_vector_serves(void)
   steif_context_free(&ctx);
 }
 
+/* OpenMP vectors have a host array, so every storage serves; sums run through their operations. */
+static void openmp_vectors_serve(void)
+{
+#ifdef HAVE_NVECTOR_OPENMP
+  steif_context *ctx = steif_context_new(NULL);
+  N_Vector like = N_VNew_OpenMP(N, 2, steif_sundials(ctx));
+  const steif_problem p = chain();
+  for (int storage = STEIF_DENSE; storage <= STEIF_SPARSE; storage++) {
+    steif_problem q = p;
+    q.storage = (enum steif_storage)storage;
+    CLOSE_FLOOR(apart(ctx, &p, &q, like), 0, 1e-11, 1);
+  }
+  N_VDestroy(like);
+  steif_context_free(&ctx);
+#endif
+}
+
 /* -- forms ----------------------------------------------------------------------------------- */
 
 static int identity(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
@@ -228,6 +248,7 @@ static void missing_entries_are_named(void)
 CU_TestInfo tests_of_law_backends[] = {{"storages agree", storages_agree},
                                        {"differences agree with given Jacobians", differences_agree},
                                        {"any vector serves", any_vector_serves},
+                                       {"OpenMP vectors serve", openmp_vectors_serve},
                                        {"forms agree", forms_agree},
                                        {"missing entries are named", missing_entries_are_named},
                                        CU_TEST_INFO_NULL};
