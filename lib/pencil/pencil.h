@@ -85,4 +85,8 @@ bool stf_all_finite(const double *x, size_t count);
  * the floor that benchmarks compare with. */
 void stf_sparse_direct(steif_pencil *p, int slot, double *b);
 
+/* log |det(s E - A)| of a factored slot, sparse pencils only: the logarithms of the diagonal of U
+ * and of KLU's row scales, summed with compensation. */
+int stf_pencil_logdet(steif_pencil *p, int slot, sunrealtype *log_abs_det);
+
 #endif

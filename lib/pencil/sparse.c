@@ -208,6 +208,32 @@ static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im
 
 void stf_sparse_direct(steif_pencil *p, int slot, double *b) { columns(p, slot, 1, b, p->n); }
 
+/* sum += x with the error of the sum carried along (A. Neumaier, ZAMM 54, 1974). */
+static void add(double x, double *sum, double *error)
+{
+  const double t = *sum + x;
+  *error += fabs(*sum) >= fabs(x) ? (*sum - t) + x : (x - t) + *sum;
+  *sum = t;
+}
+
+int stf_pencil_logdet(steif_pencil *p, int slot, sunrealtype *log_abs_det)
+{
+  STEIF_CHECK(p->backend == &stf_backend_sparse, p->ctx, STEIF_UNSUPPORTED,
+              "the determinant of a %s pencil is not kept: use sparse matrices",
+              p->backend->name);
+  STEIF_CHECK(slot >= 0 && slot < p->slots && p->fresh[slot], p->ctx, STEIF_BAD_INPUT,
+              "slot %d of %d has no factors: call steif_pencil_factor first", slot, p->slots);
+  const factors *f = ((sparse *)p->state)->slot[slot];
+  const double *u = f->numeric->Udiag, *row = f->numeric->Rs;
+  double sum = 0, error = 0;
+  for (sunindextype k = 0; k < p->n; k++) {
+    add(log(f->complex ? hypot(u[2 * k], u[2 * k + 1]) : fabs(u[k])), &sum, &error);
+    if (row) add(log(row[k]), &sum, &error);
+  }
+  *log_abs_det = sum + error;
+  return STEIF_OK;
+}
+
 static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
 {
   SUNMatrix M = which == 'E' ? p->E : p->A;

@@ -1,6 +1,7 @@
 /* test_sparse.c: one analysis, refactorisation, the growth check, changing patterns.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "gear.h"
+#include "pencil.h"
 #include "suite.h"
 #include <string.h>
 
@@ -208,6 +209,46 @@ static void structurally_singular(void)
   end();
 }
 
+/* s I - A with A = tridiag(1, -2, 1) has the eigenvalues s + 2 - 2 cos(k pi / (n + 1)). */
+static void determinant(void)
+{
+  enum { ENTRIES = 3 * N - 2 };
+  ctx = steif_context_new(NULL);
+  SUNContext sun = steif_sundials(ctx);
+  A = SUNSparseMatrix(N, N, ENTRIES, CSC_MAT, sun);
+  sunindextype used = 0;
+  for (int j = 0; j < N; j++) {
+    SM_INDEXPTRS_S(A)[j] = used;
+    for (int i = j > 0 ? j - 1 : 0; i < N && i <= j + 1; i++) {
+      SM_INDEXVALS_S(A)[used] = i;
+      SM_DATA_S(A)[used++] = i == j ? -2 : 1;
+    }
+  }
+  SM_INDEXPTRS_S(A)[N] = used;
+  p = steif_pencil_new(ctx, NULL, A);
+  const steif_shift s[3] = {{1.7, 0}, {-0.83, 2.9}, {-7.1, 0}};
+  double value;
+  CHECK(stf_pencil_logdet(p, 0, &value) == STEIF_BAD_INPUT);
+  CHECK(says("slot 0"));
+  CHECK(steif_pencil_factor(p, 3, s) == STEIF_OK);
+  for (int i = 0; i < 3; i++) {
+    double expected = 0;
+    for (int k = 1; k <= N; k++)
+      expected += log(hypot(s[i].re + 2 - 2 * cos(k * acos(-1) / (N + 1)), s[i].im));
+    CHECK(stf_pencil_logdet(p, i, &value) == STEIF_OK);
+    CLOSE(value, expected, 1e-14);
+  }
+  steif_pencil_free(&p);
+  SUNMatDestroy(A);
+  A = SUNDenseMatrix(2, 2, sun);
+  SM_ELEMENT_D(A, 0, 0) = SM_ELEMENT_D(A, 1, 1) = 1;
+  p = steif_pencil_new(ctx, NULL, A);
+  CHECK(steif_pencil_factor(p, 1, s) == STEIF_OK);
+  CHECK(stf_pencil_logdet(p, 0, &value) == STEIF_UNSUPPORTED);
+  E = NULL;
+  end();
+}
+
 CU_TestInfo tests_of_sparse[] = {
   {"one analysis serves all shifts, real and complex", one_analysis},
   {"a refactorisation is counted and equals a factorisation", refactor_is_factor},
@@ -218,5 +259,6 @@ CU_TestInfo tests_of_sparse[] = {
   {"duplicate entries add up", duplicates},
   {"bad index arrays are refused by place, and may be mended", bad_indices},
   {"a pattern without full rank is called so", structurally_singular},
+  {"the determinant is the product of the eigenvalues", determinant},
   CU_TEST_INFO_NULL,
 };
