@@ -12,21 +12,27 @@
 int stf_fail(steif_context *ctx, int code, const char *where, const char *format, ...)
   STEIF_PRINTF(4, 5);
 
-#define STEIF_TRY(call)                                                                          \
-  do {                                                                                           \
-    const int stf_code_ = (call);                                                                \
-    if (stf_code_ != STEIF_OK) return stf_code_;                                                 \
+#define STEIF_TRY(call)                                                                        \
+  do {                                                                                         \
+    const int stf_code_ = (call);                                                              \
+    if (stf_code_ != STEIF_OK) return stf_code_;                                               \
   } while (0)
 
 #define STEIF_FAIL(ctx, code, ...) stf_fail(ctx, code, __func__, __VA_ARGS__)
 
-#define STEIF_CHECK(condition, ctx, code, ...)                                                   \
-  do {                                                                                           \
-    if (!(condition)) return STEIF_FAIL(ctx, code, __VA_ARGS__);                                 \
+#define STEIF_CHECK(condition, ctx, code, ...)                                                 \
+  do {                                                                                         \
+    if (!(condition)) return STEIF_FAIL(ctx, code, __VA_ARGS__);                               \
   } while (0)
 
 /* A failure that a smaller step may cure: cause and sentence are stored, STEIF_RETRY is returned. */
-#define STEIF_RECOVER(ctx, cause, ...) (stf_fail(ctx, cause, __func__, __VA_ARGS__), STEIF_RETRY)
+#define STEIF_RECOVER(ctx, cause, ...) stf_recover(ctx, cause, __func__, __VA_ARGS__)
+int stf_recover(steif_context *ctx, int cause, const char *where, const char *format, ...)
+  STEIF_PRINTF(4, 5);
+
+/* While hushed, recoverable failures store their cause but make no sentence: for attempts whose refusal
+ * is part of normal work. Returns what it was. */
+bool stf_hush(steif_context *ctx, bool hushed);
 
 /* Single blocks, zeroed; NULL with the message set when memory is short. */
 void *stf_allocate(steif_context *ctx, size_t count, size_t size);

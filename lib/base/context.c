@@ -15,6 +15,7 @@ struct steif_context {
   steif_setup setup;
   SUNContext sundials;
   int code;
+  bool hushed;
   char message[MESSAGE];
 };
 
@@ -62,8 +63,9 @@ void steif_context_free(steif_context **ctx)
 
 const char *steif_message(const steif_context *ctx)
 {
-  return ctx ? ctx->message : "no context: memory is short, or only one of allocate and release "
-                              "was given";
+  return ctx ? ctx->message
+             : "no context: memory is short, or only one of allocate and release "
+               "was given";
 }
 
 int steif_status(const steif_context *ctx) { return ctx ? ctx->code : STEIF_NO_MEMORY; }
@@ -79,31 +81,61 @@ SUNContext steif_sundials(steif_context *ctx) { return ctx ? ctx->sundials : NUL
 
 int stf_threads(const steif_context *ctx) { return ctx->setup.threads; }
 
-int stf_fail(steif_context *ctx, int code, const char *where, const char *format, ...)
+bool stf_hush(steif_context *ctx, bool hushed)
 {
-  if (!ctx) return code;
+  const bool before = ctx->hushed;
+  ctx->hushed = hushed;
+  return before;
+}
+
+static void keep(steif_context *ctx, int code, const char *where, const char *format,
+                 va_list arguments)
+{
   ctx->code = code;
-  va_list arguments;
-  va_start(arguments, format);
   const int used = vsnprintf(ctx->message, MESSAGE, format, arguments);
-  va_end(arguments);
   if (used >= 0 && used < MESSAGE)
     snprintf(ctx->message + used, (size_t)(MESSAGE - used), " [%s, %s]", steif_code_name(code),
              where);
+}
+
+int stf_fail(steif_context *ctx, int code, const char *where, const char *format, ...)
+{
+  if (!ctx) return code;
+  va_list arguments;
+  va_start(arguments, format);
+  keep(ctx, code, where, format, arguments);
+  va_end(arguments);
   return code;
 }
 
+int stf_recover(steif_context *ctx, int cause, const char *where, const char *format, ...)
+{
+  if (!ctx) return STEIF_RETRY;
+  ctx->code = cause;
+  if (ctx->hushed) return STEIF_RETRY;
+  va_list arguments;
+  va_start(arguments, format);
+  keep(ctx, cause, where, format, arguments);
+  va_end(arguments);
+  return STEIF_RETRY;
+}
 void *stf_allocate(steif_context *ctx, size_t count, size_t size)
 {
   if (count == 0) count = 1;
   if (size == 0) size = 1;
-  void *block = count <= PTRDIFF_MAX / size ? ctx->setup.allocate(count * size, ctx->setup.user) : NULL;
+  void *block =
+    count <= PTRDIFF_MAX / size ? ctx->setup.allocate(count * size, ctx->setup.user) : NULL;
   if (!block)
-    STEIF_FAIL(ctx, STEIF_NO_MEMORY, "no memory for %zu items of %zu bytes; make the problem "
-               "smaller", count, size);
+    STEIF_FAIL(ctx, STEIF_NO_MEMORY,
+               "no memory for %zu items of %zu bytes; make the problem "
+               "smaller",
+               count, size);
   else
     memset(block, 0, count * size);
   return block;
 }
 
-void stf_release(steif_context *ctx, void *block) { ctx->setup.release(block, ctx->setup.user); }
+void stf_release(steif_context *ctx, void *block)
+{
+  ctx->setup.release(block, ctx->setup.user);
+}

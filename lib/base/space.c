@@ -75,7 +75,8 @@ static sunindextype block_size(sunindextype n, sunindextype from)
   return n - from < BLOCK ? n - from : BLOCK;
 }
 
-void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vector *x, N_Vector z)
+void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vector *x,
+                 N_Vector z)
 {
   if (!space->serial) {
     if (count == 0)
@@ -113,8 +114,8 @@ static void combine_add(const stf_space *space, int count, const sunrealtype *c,
   }
 }
 
-void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtype *M, N_Vector *x,
-                 N_Vector *z)
+void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtype *M,
+                 N_Vector *x, N_Vector *z)
 {
   for (int i = 0; i < rows; i++) combine_add(space, columns, M + i * columns, x, z[i]);
 }
@@ -158,7 +159,8 @@ void stf_weights(const stf_space *space, sunrealtype rtol, sunrealtype atol, N_V
   }
   const sunrealtype *a = STF_ARRAY(y), *t = atols ? STF_ARRAY(atols) : NULL;
   sunrealtype *b = STF_ARRAY(w);
-  for (sunindextype i = 0; i < space->n; i++) b[i] = 1 / (rtol * fabs(a[i]) + (t ? t[i] : atol));
+  for (sunindextype i = 0; i < space->n; i++)
+    b[i] = 1 / (rtol * fabs(a[i]) + (t ? t[i] : atol));
 }
 
 bool stf_finite(const stf_space *space, N_Vector x)

@@ -19,19 +19,20 @@ void stf_space_open(stf_space *space, N_Vector like);
 #define STF_ARRAY(v) NV_DATA_S(v)
 
 void stf_zero(const stf_space *space, N_Vector x);
-void stf_copy(const stf_space *space, N_Vector x, N_Vector y);                       /* y = x */
-void stf_scale(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y);       /* y = c x */
-void stf_axpy(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y);        /* y += c x */
+void stf_copy(const stf_space *space, N_Vector x, N_Vector y);                 /* y = x */
+void stf_scale(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y); /* y = c x */
+void stf_axpy(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y);  /* y += c x */
 void stf_sum(const stf_space *space, sunrealtype a, N_Vector x, sunrealtype b, N_Vector y,
-             N_Vector z);                                                    /* z = a x + b y */
+             N_Vector z); /* z = a x + b y */
 /* z = sum_{j<count} c_j x_j; z may be x_0. */
-void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vector *x, N_Vector z);
+void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vector *x,
+                 N_Vector z);
 /* z_i = sum_{j<columns} M[i columns + j] x_j, i < rows; z and x are disjoint. */
 void stf_mix(const stf_space *space, int rows, int columns, const sunrealtype *M, N_Vector *x,
              N_Vector *z);
 /* z_i += the same. */
-void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtype *M, N_Vector *x,
-                 N_Vector *z);
+void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtype *M,
+                 N_Vector *x, N_Vector *z);
 sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w);
 sunrealtype stf_max(const stf_space *space, N_Vector x);
 /* w_i = 1 / (rtol |y_i| + atol_i); atols NULL: atol for all. */

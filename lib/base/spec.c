@@ -44,11 +44,13 @@ int steif_spec_parse(steif_context *ctx, const char *text, steif_spec *spec)
   memset(spec, 0, sizeof *spec);
   const char *at = text;
   bool good = word(&at, spec->name);
-  for (char mark = ':'; good && *at; mark = ',') good = *at == mark && (at++, parameter(&at, spec));
-  STEIF_CHECK(good, ctx, STEIF_BAD_INPUT,
-              "cannot read '%.60s' near position %d: write name:key=value,key=value with words of "
-              "letters, digits and . - + _, each key once, at most %d parameters",
-              text, (int)(at - text), STEIF_SPEC_PARAMS);
+  for (char mark = ':'; good && *at; mark = ',')
+    good = *at == mark && (at++, parameter(&at, spec));
+  STEIF_CHECK(
+    good, ctx, STEIF_BAD_INPUT,
+    "cannot read '%.60s' near position %d: write name:key=value,key=value with words of "
+    "letters, digits and . - + _, each key once, at most %d parameters",
+    text, (int)(at - text), STEIF_SPEC_PARAMS);
   return STEIF_OK;
 }
 
@@ -105,9 +107,9 @@ int stf_spec_only(steif_context *ctx, const steif_spec *spec, const char *const 
     for (const char *const *k = keys; *k; k++)
       if (**k && strlen(known) + strlen(*k) + 2 < sizeof known)
         strcat(strcat(known, *known ? ", " : ""), *k);
-    return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "'%s' has no parameter '%s'; it takes %s",
-                      spec->name, *spec->param[i].key ? spec->param[i].key : spec->param[i].value,
-                      *known ? known : "none");
+    return STEIF_FAIL(
+      ctx, STEIF_UNKNOWN_NAME, "'%s' has no parameter '%s'; it takes %s", spec->name,
+      *spec->param[i].key ? spec->param[i].key : spec->param[i].value, *known ? known : "none");
   }
   return STEIF_OK;
 }

@@ -19,7 +19,8 @@ static const struct {
   {STEIF_STEP_LIMIT, "step limit", "raise max_steps, or loosen the tolerance"},
   {STEIF_STEP_SIZE, "step size", "loosen the tolerance, or look for a singularity there"},
   {STEIF_IO, "input or output", "check the path and the permissions"},
-  {STEIF_BASELINE, "baseline failed", "see the sentence; the same problem may suit a steif method"},
+  {STEIF_BASELINE, "baseline failed",
+   "see the sentence; the same problem may suit a steif method"},
   {STEIF_NOT_CERTIFIED, "not certified", "read the numbers as an estimate only"},
 };
 

@@ -106,7 +106,8 @@ static int open(steif_context *ctx, size_t i, subject *s)
   for (int k = 0; k < 60; k++) STEIF_TRY(steif_solve_step(s->solver));
   s->y = N_VClone(s->solver->step.y), s->out = N_VClone(s->y), s->im = N_VClone(s->y);
   s->b = stf_allocate(ctx, (size_t)(2 * s->problem.n), sizeof *s->b);
-  STEIF_CHECK(s->y && s->out && s->im && s->b, ctx, STEIF_NO_MEMORY, "no memory for a benchmark");
+  STEIF_CHECK(s->y && s->out && s->im && s->b, ctx, STEIF_NO_MEMORY,
+              "no memory for a benchmark");
   N_VScale(1, s->solver->step.y, s->y);
   N_VConst(0, s->im);
   return STEIF_OK;

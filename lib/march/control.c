@@ -8,8 +8,8 @@
 #include "march.h"
 #include <math.h>
 
-static const sunrealtype safety = 0.9, shrink_most = 0.125, grow_most = 5, keep_up_to = 1.2;
-enum { REFUSALS = 40 };  /* refused attempts in one step before the run stops */
+static const sunrealtype safety = 0.9, shrink_most = 0.125;
+enum { REFUSALS = 40 }; /* refused attempts in one step before the run stops */
 
 static void renew_weights(steif_solver *s, sunrealtype h)
 {
@@ -35,18 +35,16 @@ static void accept(steif_solver *s, sunrealtype h, sunrealtype t)
 }
 
 /* What a refused attempt with a given step means for the run. */
-static int give_up(steif_solver *s, int code)
-{
-  return code > 0 ? steif_status(s->ctx) : code;
-}
+static int give_up(steif_solver *s, int code) { return code > 0 ? steif_status(s->ctx) : code; }
 
 static int given(steif_solver *s)
 {
   stf_step *step = &s->step;
   const steif_options *o = &s->options;
   const bool mesh = o->mesh != NULL;
-  const sunrealtype t = mesh ? o->mesh[s->mesh_at + 1]
-                             : s->t1 - (sunrealtype)(s->total - step->count - 1) * step->h_equal;
+  const sunrealtype t = mesh
+                          ? o->mesh[s->mesh_at + 1]
+                          : s->t1 - (sunrealtype)(s->total - step->count - 1) * step->h_equal;
   const sunrealtype h = mesh ? t - step->t : step->h_equal;
   renew_weights(s, h);
   const int code = step->method->attempt(step, h);
@@ -65,11 +63,12 @@ static sunrealtype clamp(sunrealtype x, sunrealtype low, sunrealtype high)
 static sunrealtype grown(const steif_solver *s, sunrealtype h, sunrealtype e)
 {
   const sunrealtype power = 1 / (s->step.error_order + 1.0);
-  sunrealtype factor = safety * pow(fmax(e, 1e-10), -power);
+  sunrealtype factor = s->step.safety * pow(fmax(e, 1e-10), -power);
   if (s->step.count > 1 && s->h_old > 0)
-    factor = fmin(factor, safety * h / s->h_old * pow(fmax(s->error_old, 1e-2) / (e * e + 1e-20), power));
-  factor = clamp(factor, shrink_most, s->after_reject ? 1 : grow_most);
-  return factor >= 1 && factor <= keep_up_to ? h : h * factor;
+    factor = fmin(factor, s->step.safety * h / s->h_old *
+                            pow(fmax(s->error_old, 1e-2) / (e * e + 1e-20), power));
+  factor = clamp(factor, shrink_most, s->after_reject ? 1 : s->step.grow_most);
+  return factor >= 1 && factor <= s->step.keep_up_to ? h : h * factor;
 }
 
 /* Fill the way to t_stop without a sliver at its end. */
@@ -78,16 +77,37 @@ static sunrealtype fitted(sunrealtype h, sunrealtype left)
   return h >= left * (1 - 1e-12) ? left : h > left / 2 ? left / 2 : h;
 }
 
+/* An attempt whose refusal is part of normal work: no sentence is made. */
+static int quietly(steif_solver *s, sunrealtype h)
+{
+  const bool hushed = stf_hush(s->ctx, true);
+  const int code = s->step.method->attempt(&s->step, h);
+  stf_hush(s->ctx, hushed);
+  return code;
+}
+
+/* The last refusal once more, for its sentence. */
+static int aloud(steif_solver *s, sunrealtype h)
+{
+  const int code = s->step.method->attempt(&s->step, h);
+  STEIF_CHECK(code, s->ctx, STEIF_STEP_SIZE,
+              "the step of problem '%s' from t = %.12g became %.3g before one succeeded",
+              s->problem->name, s->step.t, h);
+  return give_up(s, code);
+}
+
 static int refused(steif_solver *s, int code, sunrealtype *h, int tries)
 {
+  stf_step *step = &s->step;
+  const sunrealtype least = 10 * STF_EPS * fmax(fabs(step->t), fabs(s->t1 - step->t0) * 1e-16);
+  const sunrealtype shorter = *h * (step->shrink > 0 ? step->shrink : tries < 2 ? 0.5 : 0.25);
   s->rejected++;
   s->after_reject = true;
+  step->shrink = 0;
   if (code < 0 && code != STEIF_SINGULAR) return code;
-  if (tries >= REFUSALS) return give_up(s, code);
-  *h *= tries < 2 ? 0.5 : 0.25;
-  const stf_step *step = &s->step;
-  const sunrealtype least = 10 * STF_EPS * fmax(fabs(step->t), fabs(s->t1 - step->t0) * 1e-16);
-  return *h > least ? STEIF_OK : give_up(s, code);
+  if (tries >= REFUSALS || shorter <= least) return aloud(s, *h);
+  *h = shorter;
+  return STEIF_OK;
 }
 
 static int chosen(steif_solver *s, sunrealtype t_stop)
@@ -100,16 +120,17 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
     h = fitted(h, left);
     STEIF_CHECK(h > 4 * STF_EPS * fabs(step->t), s->ctx, STEIF_STEP_SIZE,
                 "the step of problem '%s' became %.3g at t = %.12g, too small for the clock: "
-                "loosen the tolerance or look for a singularity there", s->problem->name, h, step->t);
+                "loosen the tolerance or look for a singularity there",
+                s->problem->name, h, step->t);
     renew_weights(s, h);
     step->refused = tries > 0;
-    const int code = step->method->attempt(step, h);
+    const int code = quietly(s, h);
     if (code) {
       STEIF_TRY(refused(s, code, &h, tries));
       continue;
     }
-    const sunrealtype e = stf_norm(&step->system.space, step->error, step->weights) /
-                          step->error_tolerance;
+    const sunrealtype e =
+      stf_norm(&step->system.space, step->error, step->weights) / step->error_tolerance;
     if (e <= 1) {
       accept(s, h, h == left ? t_stop : step->t + h);
       s->h_next = grown(s, h, e);
@@ -119,9 +140,11 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
     s->rejected++, s->after_reject = true;
     const sunrealtype power = 1 / (step->error_order + 1.0);
     h *= isfinite(e) ? clamp(safety * pow(e, -power), shrink_most, 0.9) : shrink_most;
-    STEIF_CHECK(tries < REFUSALS, s->ctx, STEIF_STEP_SIZE,
-                "the error test of problem '%s' failed %d times at t = %.12g, last with h = %.3g and "
-                "%.3g times the tolerance", s->problem->name, tries, step->t, h, e);
+    STEIF_CHECK(
+      tries < REFUSALS, s->ctx, STEIF_STEP_SIZE,
+      "the error test of problem '%s' failed %d times at t = %.12g, last with h = %.3g and "
+      "%.3g times the tolerance",
+      s->problem->name, tries, step->t, h, e);
   }
 }
 
@@ -129,9 +152,11 @@ int stf_advance(steif_solver *s, sunrealtype t_stop)
 {
   const steif_problem *p = s->problem;
   stf_step *step = &s->step;
-  STEIF_CHECK(step->count < s->options.max_steps, s->ctx, STEIF_STEP_LIMIT,
-              "%ld steps made at t = %.12g of problem '%s', the limit: raise max_steps or loosen the "
-              "tolerance", step->count, step->t, p->name);
+  STEIF_CHECK(
+    step->count < s->options.max_steps, s->ctx, STEIF_STEP_LIMIT,
+    "%ld steps made at t = %.12g of problem '%s', the limit: raise max_steps or loosen the "
+    "tolerance",
+    step->count, step->t, p->name);
   if (!step->adaptive) return given(s);
   while (s->next_break < p->break_count && p->breaks[s->next_break] <= step->t) s->next_break++;
   const bool breaks = s->next_break < p->break_count && p->breaks[s->next_break] < t_stop;

@@ -11,15 +11,16 @@ struct steif_solver {
   steif_context *ctx;
   stf_pool *pool;
   const steif_problem *problem;
-  steif_options options;        /* complete */
+  steif_options options; /* complete */
   sunrealtype t1;
-  N_Vector serial, shown, dense, atols; /* serial: our own prototype vector, if none was given */
+  N_Vector serial, shown, dense,
+    atols; /* serial: our own prototype vector, if none was given */
   sunrealtype t_shown;
-  stf_step step;                /* a method of ours ... */
-  const steif_engine *engine;   /* ... or a baseline */
+  stf_step step;              /* a method of ours ... */
+  const steif_engine *engine; /* ... or a baseline */
   void *engine_state;
   stf_run run;
-  long total, rejected;         /* equal steps in all; refused attempts */
+  long total, rejected; /* equal steps in all; refused attempts */
   size_t mesh_at;
   int next_break;
   sunrealtype h_next, h_old, error_old; /* chosen steps */

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static int describe_engine(steif_context *ctx, const steif_engine *engine, const steif_spec *spec,
-                           steif_method_info *info)
+static int describe_engine(steif_context *ctx, const steif_engine *engine,
+                           const steif_spec *spec, steif_method_info *info)
 {
   (void)ctx, (void)spec;
   info->family = "baseline", info->about = engine->about;
@@ -27,17 +27,18 @@ int steif_method_find(steif_context *ctx, const char *text, steif_method_info *i
   info->forms = method->forms;
   const int code = method->describe(ctx, &spec, table, info);
   for (size_t i = 0; table && i < stf_table_count; i++) /* outlives the table */
-    if (!strcmp(stf_table_shelf[i].name, table->name)) info->about = stf_table_shelf[i].item->about;
+    if (!strcmp(stf_table_shelf[i].name, table->name))
+      info->about = stf_table_shelf[i].item->about;
   steif_table_free(ctx, &table);
   return code;
 }
 
 /* Specs of one shelf entry: families with several stage numbers, tables with one line. */
 static const char *const fixed[] = {
-  "be", "bdf:p=2", "bdf:p=3", "bdf:p=4", "bdf:p=5", "bdf:p=6", "gauss:s=1", "gauss:s=2",
-  "gauss:s=3", "gauss:s=4", "gauss:s=5", "radau:s=1", "radau:s=2", "radau:s=3", "radau:s=4",
-  "radau:s=5", "radau:s=7", "radau1a:s=2", "radau1a:s=3", "lobatto3c:s=2", "lobatto3c:s=3",
-  "lobatto3c:s=4",
+  "be",          "bdf:p=2",       "bdf:p=3",       "bdf:p=4",       "bdf:p=5",   "bdf:p=6",
+  "gauss:s=1",   "gauss:s=2",     "gauss:s=3",     "gauss:s=4",     "gauss:s=5", "radau:s=1",
+  "radau:s=2",   "radau:s=3",     "radau:s=4",     "radau:s=5",     "radau:s=7", "radau1a:s=2",
+  "radau1a:s=3", "lobatto3c:s=2", "lobatto3c:s=3", "lobatto3c:s=4",
 };
 
 static bool spec_at(size_t i, char *text, size_t size)

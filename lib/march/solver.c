@@ -49,11 +49,13 @@ static int check_options(steif_context *ctx, const steif_problem *p, steif_optio
     STEIF_CHECK(o->atols[i] > 0 && isfinite(o->atols[i]), ctx, STEIF_BAD_INPUT,
                 "atols[%lld] = %g must be positive and finite", (long long)i, o->atols[i]);
   STEIF_CHECK(o->h >= 0 && isfinite(o->h) && o->h0 >= 0 && isfinite(o->h0) && o->h_max >= 0 &&
-                isfinite(o->h_max), ctx, STEIF_BAD_INPUT,
+                isfinite(o->h_max),
+              ctx, STEIF_BAD_INPUT,
               "steps must be finite and not negative: h = %g, h0 = %g, h_max = %g", o->h, o->h0,
               o->h_max);
-  STEIF_CHECK(o->max_steps > 0 && o->iterations >= 0 && o->newton >= 0 && isfinite(o->newton), ctx,
-              STEIF_BAD_INPUT, "max_steps = %ld, iterations = %d, newton = %g must not be negative",
+  STEIF_CHECK(o->max_steps > 0 && o->iterations >= 0 && o->newton >= 0 && isfinite(o->newton),
+              ctx, STEIF_BAD_INPUT,
+              "max_steps = %ld, iterations = %d, newton = %g must not be negative",
               o->max_steps, o->iterations, o->newton);
   STEIF_CHECK(isfinite(o->t1) && o->t1 > p->t0, ctx, STEIF_BAD_INPUT,
               "the end t1 = %g must lie after the start t0 = %g of problem '%s'", o->t1, p->t0,
@@ -97,7 +99,8 @@ static int open_vectors(steif_solver *s, N_Vector *y, N_Vector *yp)
   return STEIF_OK;
 }
 
-static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vector y, N_Vector yp)
+static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vector y,
+                       N_Vector yp)
 {
   const steif_engine *engine = s->engine;
   STEIF_CHECK(engine->forms & (unsigned)form, s->ctx, STEIF_UNSUPPORTED,
@@ -105,8 +108,15 @@ static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vect
               steif_form_name(form), s->problem->name);
   s->engine_state = stf_claim(s->pool, 1, engine->size);
   if (!s->engine_state) return STEIF_NO_MEMORY;
-  s->run = (stf_run){.ctx = s->ctx, .pool = s->pool, .problem = s->problem, .form = form,
-                     .options = &s->options, .like = y, .t = s->problem->t0, .y = y, .yp = yp};
+  s->run = (stf_run){.ctx = s->ctx,
+                     .pool = s->pool,
+                     .problem = s->problem,
+                     .form = form,
+                     .options = &s->options,
+                     .like = y,
+                     .t = s->problem->t0,
+                     .y = y,
+                     .yp = yp};
   stf_space space;
   bool known;
   stf_space_open(&space, y);
@@ -117,7 +127,8 @@ static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vect
 
 static void equal_steps(steif_solver *s)
 {
-  const sunrealtype span = s->t1 - s->problem->t0, count = ceil(span / s->options.h * (1 - 1e-12));
+  const sunrealtype span = s->t1 - s->problem->t0,
+                    count = ceil(span / s->options.h * (1 - 1e-12));
   s->total = count < 1 ? 1 : (long)count;
   s->step.h_equal = span / (sunrealtype)s->total;
 }
@@ -141,14 +152,19 @@ static void open_newton(steif_solver *s)
   newton->fresh = true;
 }
 
+static int claim_state(steif_solver *s)
+{
+  s->step.state = stf_claim(s->pool, 1, s->step.method->size);
+  return s->step.state ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
 static int claim_step(steif_solver *s)
 {
   stf_step *step = &s->step;
   step->next = stf_claim_vector(s->pool, step->y);
   step->error = stf_claim_vector(s->pool, step->y);
   step->weights = stf_claim_vector(s->pool, step->y);
-  step->state = stf_claim(s->pool, 1, step->method->size);
-  return step->next && step->error && step->weights && step->state ? STEIF_OK : STEIF_NO_MEMORY;
+  return step->next && step->error && step->weights ? claim_state(s) : STEIF_NO_MEMORY;
 }
 
 static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector y, N_Vector yp)
@@ -156,8 +172,14 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   stf_step *step = &s->step;
   const steif_problem *p = s->problem;
   steif_options *o = &s->options;
-  *step = (stf_step){.ctx = s->ctx, .pool = s->pool, .problem = p, .options = o, .t0 = p->t0,
-                     .t = p->t0, .y = y, .yp = yp};
+  *step = (stf_step){.ctx = s->ctx,
+                     .pool = s->pool,
+                     .problem = p,
+                     .options = o,
+                     .t0 = p->t0,
+                     .t = p->t0,
+                     .y = y,
+                     .yp = yp};
   STEIF_TRY(stf_method_find(s->ctx, spec, &step->method, &step->table));
   STEIF_TRY(stf_claim_owner(s->pool, step, destroy_table));
   steif_method_info info = {0};
@@ -178,6 +200,11 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   STEIF_TRY(stf_system_open(s->pool, s->ctx, p, form, storage, o->atol / o->rtol, y, yp,
                             &step->system));
   open_newton(s);
+  step->safety = 0.9, step->grow_most = 5, step->keep_up_to = 1.2;
+  if (stf_small_serves(step)) {
+    step->method = &steif_method_small;
+    STEIF_TRY(claim_state(s));
+  }
   STEIF_TRY(step->method->open(step, spec, step->table));
   s->shown = step->y;
   if (!step->adaptive) return STEIF_OK;
@@ -247,8 +274,8 @@ static sunrealtype reached(const steif_solver *s) { return s->engine ? s->run.t 
 
 static int step_once(steif_solver *s)
 {
-  const int code = s->engine ? s->engine->step(&s->run, s->engine_state, s->t1)
-                             : stf_advance(s, s->t1);
+  const int code =
+    s->engine ? s->engine->step(&s->run, s->engine_state, s->t1) : stf_advance(s, s->t1);
   if (code) {
     s->failed = true, s->failure = code > 0 ? steif_status(s->ctx) : code;
     return s->failure;
@@ -264,8 +291,10 @@ static int step_once(steif_solver *s)
 
 static int ready(steif_solver *s)
 {
-  STEIF_CHECK(!s->failed, s->ctx, s->failure, "the run had failed before, at t = %.12g: make a new "
-              "solver", reached(s));
+  STEIF_CHECK(!s->failed, s->ctx, s->failure,
+              "the run had failed before, at t = %.12g: make a new "
+              "solver",
+              reached(s));
   return STEIF_OK;
 }
 
@@ -292,9 +321,12 @@ static int show(steif_solver *s, sunrealtype t)
 int steif_solve_to(steif_solver *s, sunrealtype t)
 {
   STEIF_TRY(ready(s));
-  STEIF_CHECK(isfinite(t) && t >= s->problem->t0 && t <= s->t1 * (1 + (s->t1 > 0 ? 1e-14 : -1e-14)),
-              s->ctx, STEIF_BAD_INPUT, "t = %.17g lies outside the interval [%.17g, %.17g] of the "
-              "run: set options.t1", t, s->problem->t0, s->t1);
+  STEIF_CHECK(isfinite(t) && t >= s->problem->t0 &&
+                t <= s->t1 * (1 + (s->t1 > 0 ? 1e-14 : -1e-14)),
+              s->ctx, STEIF_BAD_INPUT,
+              "t = %.17g lies outside the interval [%.17g, %.17g] of the "
+              "run: set options.t1",
+              t, s->problem->t0, s->t1);
   if (t > s->t1) t = s->t1;
   const sunrealtype before = now();
   int code = STEIF_OK;
@@ -310,7 +342,8 @@ int steif_dense(steif_solver *s, sunrealtype t, N_Vector y)
 {
   const sunrealtype end = reached(s), h = s->engine ? s->run.stats.h_last : s->step.h;
   const sunrealtype slack = 1e-12 * (fabs(end) + h);
-  STEIF_CHECK(s->engine || s->step.count > 0, s->ctx, STEIF_BAD_INPUT, "no step has been made yet");
+  STEIF_CHECK(s->engine || s->step.count > 0, s->ctx, STEIF_BAD_INPUT,
+              "no step has been made yet");
   STEIF_CHECK(t >= end - h - slack && t <= end + slack, s->ctx, STEIF_BAD_INPUT,
               "t = %.17g lies outside the last step [%.17g, %.17g]", t, end - h, end);
   return s->engine ? s->engine->dense(&s->run, s->engine_state, t, y)
@@ -332,12 +365,17 @@ const steif_stats *steif_statistics(steif_solver *s)
     *out = s->run.stats;
   else {
     const stf_step *step = &s->step;
-    const steif_pencil_stats *pencil = step->system.pencil
-                                         ? steif_pencil_statistics(step->system.pencil) : NULL;
-    *out = (steif_stats){.steps = step->count, .rejected = s->rejected, .nfe = step->system.nfe,
-                         .nje = step->system.nje, .newton = step->newton.sweeps,
-                         .newton_fails = step->newton.fails, .h_last = step->h};
+    const steif_pencil_stats *pencil =
+      step->system.pencil ? steif_pencil_statistics(step->system.pencil) : NULL;
+    *out = (steif_stats){.steps = step->count,
+                         .rejected = s->rejected,
+                         .nfe = step->system.nfe,
+                         .nje = step->system.nje,
+                         .newton = step->newton.sweeps,
+                         .newton_fails = step->newton.fails,
+                         .h_last = step->h};
     if (pencil) out->nlu = pencil->factors + pencil->refactors, out->nsolve = pencil->solves;
+    out->nlu += step->factors, out->nsolve += step->solves;
   }
   out->cpu_s = s->cpu_s;
   return out;

@@ -29,9 +29,10 @@ static int unknown(steif_context *ctx, const steif_spec *spec)
   size_t count = 6;
   for (size_t i = 0; i < stf_table_count && count < 64; i++)
     if (stf_table_shelf[i].item->kind != STEIF_DIRK) names[count++] = stf_table_shelf[i].name;
-  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "no method '%s'; did you mean '%s'? 'steif list "
-                    "methods' shows all", spec->name,
-                    stf_nearest(spec->name, names, count, sizeof *names));
+  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME,
+                    "no method '%s'; did you mean '%s'? 'steif list "
+                    "methods' shows all",
+                    spec->name, stf_nearest(spec->name, names, count, sizeof *names));
 }
 
 /* dirk:TABLE */
@@ -43,8 +44,10 @@ static int dirk_table(steif_context *ctx, const steif_spec *spec, steif_table **
   if (!*table) return steif_status(ctx);
   if ((*table)->kind == STEIF_DIRK) return STEIF_OK;
   steif_table_free(ctx, table);
-  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "table '%s' is not diagonally implicit: use it by its "
-                    "own name", name);
+  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME,
+                    "table '%s' is not diagonally implicit: use it by its "
+                    "own name",
+                    name);
 }
 
 int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_method **method,
@@ -68,8 +71,8 @@ int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_meth
   return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "write 'dirk:%s' for this table", spec->name);
 }
 
-int steif_method_propagator(steif_context *ctx, const char *text, const sunrealtype z[2], int *r,
-                            sunrealtype *M)
+int steif_method_propagator(steif_context *ctx, const char *text, const sunrealtype z[2],
+                            int *r, sunrealtype *M)
 {
   steif_spec spec;
   const steif_method *method;

@@ -16,20 +16,20 @@
 typedef struct stf_step stf_step;
 
 enum stf_trait {
-  STF_ADAPTIVE = 1,  /* fills s->error */
-  STF_MULTISTEP = 2  /* keeps history: steps given at open */
+  STF_ADAPTIVE = 1, /* fills s->error */
+  STF_MULTISTEP = 2 /* keeps history: steps given at open */
 };
 
 typedef struct steif_method {
   const char *about;
   unsigned forms, traits;
-  size_t size;                                   /* private state, zeroed by the frame */
+  size_t size; /* private state, zeroed by the frame */
   int (*open)(stf_step *s, const steif_spec *spec, const steif_table *table);
-  int (*attempt)(stf_step *s, sunrealtype h);    /* STEIF_RETRY: try a smaller h */
+  int (*attempt)(stf_step *s, sunrealtype h); /* STEIF_RETRY: try a smaller h */
   void (*commit)(stf_step *s);
   int (*dense)(const stf_step *s, sunrealtype t, N_Vector y); /* inside the last step */
   int (*stages)(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
-                N_Vector **X);                   /* NULL: none */
+                N_Vector **X); /* NULL: none */
   /* Largest r and M(z), r x r pairs by rows; M NULL: r only. */
   int (*propagator)(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                     const sunrealtype z[2], int *r, sunrealtype *M);
@@ -45,20 +45,23 @@ struct stf_step {
   const steif_options *options;
   const steif_method *method;
   void *state;
-  steif_table *table;          /* of this method; NULL for multistep */
+  steif_table *table; /* of this method; NULL for multistep */
   stf_system system;
   stf_newton newton;
-  sunrealtype t0, t, h;        /* start; time of y; length of the last step (0: none yet) */
-  sunrealtype h_equal;         /* > 0: all steps have this length */
-  long count;                  /* accepted steps */
-  N_Vector y, yp;              /* accepted; yp: slope (start, or last implicit slope) */
+  sunrealtype t0, t, h; /* start; time of y; length of the last step (0: none yet) */
+  sunrealtype h_equal;  /* > 0: all steps have this length */
+  long count;           /* accepted steps */
+  N_Vector y, yp;       /* accepted; yp: slope (start, or last implicit slope) */
   bool yp_known, adaptive, absolute; /* absolute: stages solved for Y, not for Y - y_n */
-  bool refused;                /* this attempt repeats one that was refused */
-  bool restart;                /* the next step follows a discontinuity: no history before t */
-  sunrealtype h_try;           /* of the trial */
+  bool refused;                      /* this attempt repeats one that was refused */
+  bool restart;      /* the next step follows a discontinuity: no history before t */
+  sunrealtype h_try; /* of the trial */
   N_Vector next, error, weights;
-  int error_order;             /* error = O(h^(error_order + 1)) */
-  sunrealtype error_tolerance; /* accept when norm(error) <= this */
+  long factors, solves;                      /* made by a family without the pencil */
+  sunrealtype safety, grow_most, keep_up_to; /* of the next step's length, for this attempt */
+  sunrealtype shrink;                        /* factor for h after a refusal; 0: the frame's */
+  int error_order;                           /* error = O(h^(error_order + 1)) */
+  sunrealtype error_tolerance;               /* accept when norm(error) <= this */
 };
 
 typedef struct stf_method_entry {
@@ -76,6 +79,10 @@ int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_meth
  * refused solve with a new Jacobian and Z = 0, and when the step is given once more with a new
  * Jacobian in every iteration, before giving up. */
 int stf_solve_stages(stf_step *s, const stf_stages *stages);
+
+/* May the family `small` (vector lanes) replace irk for this opened system? */
+bool stf_small_serves(const stf_step *s);
+extern const steif_method steif_method_small;
 
 /* y <-> next. */
 void stf_swap(stf_step *s);

@@ -12,8 +12,8 @@ int stf_split_single(stf_pool *pool, sunrealtype b, stf_split *split)
   return STEIF_OK;
 }
 
-int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split, N_Vector weights,
-                    stf_newton *newton)
+int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split,
+                    N_Vector weights, stf_newton *newton)
 {
   const int s = split->s;
   N_Vector like = system->space.like;
@@ -29,13 +29,13 @@ int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split, 
   newton->B_over_h = stf_claim(pool, (size_t)(s * s), sizeof *newton->B_over_h);
   newton->minus_T = stf_claim(pool, (size_t)(s * s), sizeof *newton->minus_T);
   for (int i = 0; newton->minus_T && i < s * s; i++) newton->minus_T[i] = -split->T[i];
-  const bool good = newton->Y && newton->residual && newton->Zp && newton->omega && newton->dZ &&
-                    newton->zero && newton->B_over_h && newton->minus_T;
+  const bool good = newton->Y && newton->residual && newton->Zp && newton->omega &&
+                    newton->dZ && newton->zero && newton->B_over_h && newton->minus_T;
   return good ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vector y, N_Vector yp,
-                       bool jacobian)
+int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vector y,
+                       N_Vector yp, bool jacobian)
 {
   const stf_split *split = &newton->split;
   if (jacobian && !(newton->system->linear && newton->factored)) {
@@ -59,9 +59,9 @@ int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vecto
 static int first_residuals(stf_newton *newton, const stf_stages *g)
 {
   for (int j = 0; j < newton->split.s; j++)
-    STEIF_TRY(stf_system_residual(newton->system, g->t + g->c[j] * g->h,
-                                  g->base ? g->base[j] : newton->zero,
-                                  g->offset ? g->offset[j] : newton->zero, newton->residual[j]));
+    STEIF_TRY(stf_system_residual(
+      newton->system, g->t + g->c[j] * g->h, g->base ? g->base[j] : newton->zero,
+      g->offset ? g->offset[j] : newton->zero, newton->residual[j]));
   return STEIF_OK;
 }
 
@@ -90,7 +90,8 @@ static int couple(stf_newton *newton, int lane)
   const int s = split->s;
   if (after >= s) return STEIF_OK;
   for (int i = first; i < after; i++) {
-    stf_combine(space, s - after, split->coupling + i * s + after, newton->omega + after, newton->Y);
+    stf_combine(space, s - after, split->coupling + i * s + after, newton->omega + after,
+                newton->Y);
     STEIF_TRY(steif_pencil_product(newton->system->pencil, 'E', newton->Y, newton->Zp[0]));
     stf_axpy(space, -1 / newton->h, newton->Zp[0], newton->omega[i]);
   }
@@ -104,8 +105,8 @@ static int solve_lanes(stf_newton *newton)
   for (int k = split->lanes; k-- > 0;) {
     N_Vector *at = newton->omega + split->row[k];
     if (split->coupling) STEIF_TRY(couple(newton, k));
-    STEIF_TRY(steif_pencil_solve(newton->system->pencil, k, 1, at,
-                                 split->im[k] != 0 ? at + 1 : NULL));
+    STEIF_TRY(
+      steif_pencil_solve(newton->system->pencil, k, 1, at, split->im[k] != 0 ? at + 1 : NULL));
   }
   newton->solves += split->lanes;
   return STEIF_OK;
@@ -139,18 +140,19 @@ static int refuse(stf_newton *newton, const stf_stages *g, int iterations, sunre
   newton->fails++, newton->wanted = true, newton->eta = 1;
   if (!isfinite(norm)) {
     const sunindextype i = stf_not_finite(newton->system->linear ? g->Z[0] : newton->dZ[0]);
-    return STEIF_RECOVER(ctx, STEIF_NOT_FINITE,
-                         "a stage of problem '%s' is not finite (component %lld) in the step from "
-                         "t = %.12g with h = %.6g: the callbacks returned NaN or infinity, or the "
-                         "step is too large", newton->system->problem->name, (long long)i, g->t,
-                         g->h);
+    return STEIF_RECOVER(
+      ctx, STEIF_NOT_FINITE,
+      "a stage of problem '%s' is not finite (component %lld) in the step from "
+      "t = %.12g with h = %.6g: the callbacks returned NaN or infinity, or the "
+      "step is too large",
+      newton->system->problem->name, (long long)i, g->t, g->h);
   }
-  return STEIF_RECOVER(ctx, STEIF_NO_CONVERGENCE,
-                       "Newton's iteration was refused for problem '%s' in the step from t = %.12g "
-                       "with h = %.6g: after %d iterations the correction is %.3g of its tolerance, "
-                       "rate %.2g; make the step smaller or check the Jacobian",
-                       newton->system->problem->name, g->t, g->h, iterations,
-                       norm / newton->tolerance, theta);
+  return STEIF_RECOVER(
+    ctx, STEIF_NO_CONVERGENCE,
+    "Newton's iteration was refused for problem '%s' in the step from t = %.12g "
+    "with h = %.6g: after %d iterations the correction is %.3g of its tolerance, "
+    "rate %.2g; make the step smaller or check the Jacobian",
+    newton->system->problem->name, g->t, g->h, iterations, norm / newton->tolerance, theta);
 }
 
 /* Corrections that no longer shrink though tiny are rounding: accept within this factor. */
@@ -214,7 +216,8 @@ int stf_newton_full(stf_newton *newton, const stf_stages *g)
     newton->wanted = true; /* the Jacobian is that of another point */
     newton->count = m;
     if (!(norm <= 1e300)) break;
-    if (norm <= newton->tolerance || (norm >= last / 2 && m > 1 && norm <= stagnation * newton->tolerance))
+    if (norm <= newton->tolerance ||
+        (norm >= last / 2 && m > 1 && norm <= stagnation * newton->tolerance))
       return STEIF_OK;
     last = norm;
   }

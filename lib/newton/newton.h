@@ -20,34 +20,34 @@
 typedef struct stf_newton {
   stf_system *system;
   stf_split split;
-  int iterations;            /* most in one solve */
-  sunrealtype tolerance;     /* on the weighted norm of the error of Z */
-  sunrealtype stale;         /* a rate above this asks for a new Jacobian next time */
-  N_Vector weights;          /* reciprocal weights; the caller keeps them current */
+  int iterations;        /* most in one solve */
+  sunrealtype tolerance; /* on the weighted norm of the error of Z */
+  sunrealtype stale;     /* a rate above this asks for a new Jacobian next time */
+  N_Vector weights;      /* reciprocal weights; the caller keeps them current */
   N_Vector *residual, *omega, *dZ, *Zp, Y; /* s, s, s, s, 1 vectors */
   N_Vector zero;
   sunrealtype *B_over_h, *minus_T; /* B / h, -T */
-  sunrealtype h;             /* of B_over_h and the shifts */
-  bool factored, fresh;      /* factors exist for (h, E, A); Jacobian made in this step */
-  bool wanted;               /* a new Jacobian is wanted */
-  sunrealtype theta, eta;    /* of the last solve */
-  sunrealtype eta_least;     /* floor of the eta that a first correction is judged by */
-  int count;                 /* iterations of the last solve */
-  long solves, sweeps, fails; /* lane solves, iterations, refusals */
+  sunrealtype h;                   /* of B_over_h and the shifts */
+  bool factored, fresh;            /* factors exist for (h, E, A); Jacobian made in this step */
+  bool wanted;                     /* a new Jacobian is wanted */
+  sunrealtype theta, eta;          /* of the last solve */
+  sunrealtype eta_least;           /* floor of the eta that a first correction is judged by */
+  int count;                       /* iterations of the last solve */
+  long solves, sweeps, fails;      /* lane solves, iterations, refusals */
 } stf_newton;
 
 /* Where the stages are. */
 typedef struct stf_stages {
   sunrealtype t, h;
-  const sunrealtype *c;      /* s */
-  N_Vector *base;            /* s vectors (the same one repeated is fine); NULL: zero */
-  N_Vector *offset;          /* s vectors; NULL: zero */
-  N_Vector *Z;               /* in: start of the iteration (linear systems need none, and start
+  const sunrealtype *c; /* s */
+  N_Vector *base;       /* s vectors (the same one repeated is fine); NULL: zero */
+  N_Vector *offset;     /* s vectors; NULL: zero */
+  N_Vector *Z;          /* in: start of the iteration (linear systems need none, and start
                                 from 0); out: solution */
 } stf_stages;
 
-int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split, N_Vector weights,
-                    stf_newton *newton);
+int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split,
+                    N_Vector weights, stf_newton *newton);
 
 /* A split with one lane for the 1 x 1 matrix b. */
 int stf_split_single(stf_pool *pool, sunrealtype b, stf_split *split);
@@ -56,8 +56,8 @@ int stf_split_single(stf_pool *pool, sunrealtype b, stf_split *split);
 void stf_newton_single(stf_newton *newton, sunrealtype b);
 
 /* Factors for step h with the pencil as it is; `jacobian` first renews E and A at (t, y, yp). */
-int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vector y, N_Vector yp,
-                       bool jacobian);
+int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vector y,
+                       N_Vector yp, bool jacobian);
 
 /* Solve; STEIF_RETRY when refused. */
 int stf_newton_solve(stf_newton *newton, const stf_stages *stages);

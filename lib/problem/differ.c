@@ -59,16 +59,19 @@ static int check_pattern(const stf_system *s)
   const sunindextype n = s->space.n;
   STEIF_CHECK(p && p->column && p->row, s->ctx, STEIF_BAD_INPUT,
               "problem '%s' is sparse and has no Jacobian callback: give its .pattern for "
-              "differences", s->problem->name);
+              "differences",
+              s->problem->name);
   for (sunindextype j = 0; j < n; j++) {
     STEIF_CHECK(p->column[0] == 0 && p->column[j] <= p->column[j + 1], s->ctx, STEIF_BAD_INPUT,
                 "pattern of problem '%s': column pointers must rise from 0, they fall at %lld",
                 s->problem->name, (long long)j);
     for (sunindextype k = p->column[j]; k < p->column[j + 1]; k++)
-      STEIF_CHECK(p->row[k] >= 0 && p->row[k] < n && (k == p->column[j] || p->row[k] > p->row[k - 1]),
-                  s->ctx, STEIF_BAD_INPUT, "pattern of problem '%s': rows of column %lld must be "
-                  "ascending and within 0 .. %lld", s->problem->name, (long long)j,
-                  (long long)n - 1);
+      STEIF_CHECK(p->row[k] >= 0 && p->row[k] < n &&
+                    (k == p->column[j] || p->row[k] > p->row[k - 1]),
+                  s->ctx, STEIF_BAD_INPUT,
+                  "pattern of problem '%s': rows of column %lld must be "
+                  "ascending and within 0 .. %lld",
+                  s->problem->name, (long long)j, (long long)n - 1);
   }
   return STEIF_OK;
 }
@@ -119,13 +122,15 @@ static int evaluate(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp, N_Vec
 static void fill_pointers(stf_system *s, SUNMatrix M)
 {
   const steif_pattern *p = s->problem->pattern;
-  sunindextype *column = SUNSparseMatrix_IndexPointers(M), *row = SUNSparseMatrix_IndexValues(M);
+  sunindextype *column = SUNSparseMatrix_IndexPointers(M),
+               *row = SUNSparseMatrix_IndexValues(M);
   for (sunindextype j = 0; j <= s->space.n; j++) column[j] = p->column[j];
   for (sunindextype k = 0; k < p->column[s->space.n]; k++) row[k] = p->row[k];
 }
 
 /* Column j of M from the difference d of a move that touched no other column of its rows. */
-static void put(stf_system *s, SUNMatrix M, sunindextype j, const sunrealtype *d, sunrealtype by)
+static void put(stf_system *s, SUNMatrix M, sunindextype j, const sunrealtype *d,
+                sunrealtype by)
 {
   const sunindextype n = s->space.n;
   if (s->storage == STEIF_DENSE) {
@@ -168,7 +173,8 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
       g->step[j] = increment(m[j], s->scale);
       m[j] += g->step[j];
     }
-    STEIF_TRY(which == 'A' ? evaluate(s, t, moved, yp, changed) : evaluate(s, t, y, moved, changed));
+    STEIF_TRY(which == 'A' ? evaluate(s, t, moved, yp, changed)
+                           : evaluate(s, t, y, moved, changed));
     for (sunindextype i = 0; i < s->space.n; i++) d[i] -= b[i];
     for (sunindextype k = from; k < to; k++) {
       const sunindextype j = g->column[k];
@@ -181,12 +187,11 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
 
 /* -- probe ------------------------------------------------------------------------------------- */
 
-static const sunrealtype move = 1e-6;  /* relative size of the probing move */
+static const sunrealtype move = 1e-6; /* relative size of the probing move */
 
 static bool in_pattern(const stf_system *s, sunindextype i, sunindextype j)
 {
-  if (s->storage == STEIF_BAND)
-    return i - j <= s->problem->lower && j - i <= s->problem->upper;
+  if (s->storage == STEIF_BAND) return i - j <= s->problem->lower && j - i <= s->problem->upper;
   const steif_pattern *p = s->problem->pattern;
   for (sunindextype k = p->column[j]; k < p->column[j + 1]; k++)
     if (p->row[k] == i) return true;
@@ -213,18 +218,20 @@ static int shove(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector 
 }
 
 /* Narrow the columns down to the one that moves row i though the pattern says it does not. */
-static int name(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp, sunindextype i)
+static int name(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp,
+                sunindextype i)
 {
   const sunrealtype *d = N_VGetArrayPointer(s->work[5]), *base = N_VGetArrayPointer(s->work[3]);
   const sunrealtype *v = N_VGetArrayPointer(s->work[2]);
   for (sunindextype j = 0; j < s->space.n; j++) {
     if (in_pattern(s, i, j)) continue;
     STEIF_TRY(shove(s, which, t, y, yp, j, j + 1));
-    STEIF_CHECK(fabs(d[i]) <= 1e3 * STF_EPS * fabs(base[i]), s->ctx, STEIF_BAD_INPUT,
-                "the %s of problem '%s' misses entry (%lld, %lld) (row, column, from 0): a probe at "
-                "t = %g found a derivative of about %.3g there; add it",
-                s->storage == STEIF_BAND ? "band" : "pattern", s->problem->name, (long long)i,
-                (long long)j, t, d[i] / v[j]);
+    STEIF_CHECK(
+      fabs(d[i]) <= 1e3 * STF_EPS * fabs(base[i]), s->ctx, STEIF_BAD_INPUT,
+      "the %s of problem '%s' misses entry (%lld, %lld) (row, column, from 0): a probe at "
+      "t = %g found a derivative of about %.3g there; add it",
+      s->storage == STEIF_BAND ? "band" : "pattern", s->problem->name, (long long)i,
+      (long long)j, t, d[i] / v[j]);
   }
   return STEIF_OK;
 }

@@ -28,8 +28,8 @@ static int check_values(steif_context *ctx, const steif_problem *p)
               "problem '%s' has no start values: set .y0 or .start", p->name);
   for (sunindextype i = 0; p->y0 && i < p->n; i++) {
     STEIF_CHECK(isfinite(p->y0[i]), ctx, STEIF_NOT_FINITE,
-                "start value y0[%lld] = %g of problem '%s' is not finite", (long long)i, p->y0[i],
-                p->name);
+                "start value y0[%lld] = %g of problem '%s' is not finite", (long long)i,
+                p->y0[i], p->name);
     STEIF_CHECK(!p->yp0 || isfinite(p->yp0[i]), ctx, STEIF_NOT_FINITE,
                 "start slope yp0[%lld] = %g of problem '%s' is not finite", (long long)i,
                 p->yp0[i], p->name);
@@ -44,13 +44,15 @@ static int check_storage(steif_context *ctx, const steif_problem *p)
 {
   if (p->storage == STEIF_BAND)
     STEIF_CHECK(p->lower >= 0 && p->upper >= 0 && p->lower < p->n && p->upper < p->n, ctx,
-                STEIF_BAD_INPUT, "bandwidths lower = %lld, upper = %lld of problem '%s' must lie "
-                "in 0 .. %lld", (long long)p->lower, (long long)p->upper, p->name,
-                (long long)p->n - 1);
+                STEIF_BAD_INPUT,
+                "bandwidths lower = %lld, upper = %lld of problem '%s' must lie "
+                "in 0 .. %lld",
+                (long long)p->lower, (long long)p->upper, p->name, (long long)p->n - 1);
   if (p->storage == STEIF_SPARSE)
     STEIF_CHECK(p->pattern || p->nnz > 0, ctx, STEIF_BAD_INPUT,
                 "problem '%s' is stored sparse: set .nnz for its Jacobian or a .pattern for "
-                "differences", p->name);
+                "differences",
+                p->name);
   return STEIF_OK;
 }
 
@@ -67,11 +69,14 @@ int steif_problem_form(steif_context *ctx, const steif_problem *p)
                "(F(t,y,y') = 0) or .E and .A with .g (E x' = A x + g), and nothing besides",
                p->name);
   else if (p->n < 1)
-    STEIF_FAIL(ctx, STEIF_BAD_INPUT, "problem '%s' has n = %lld components, at least 1 is needed",
-               p->name, (long long)p->n);
+    STEIF_FAIL(ctx, STEIF_BAD_INPUT,
+               "problem '%s' has n = %lld components, at least 1 is needed", p->name,
+               (long long)p->n);
   else if (!(isfinite(p->t0) && isfinite(p->t1) && p->t1 >= p->t0))
-    STEIF_FAIL(ctx, STEIF_BAD_INPUT, "interval [%g, %g] of problem '%s' must be finite and "
-               "ascending", p->t0, p->t1, p->name);
+    STEIF_FAIL(ctx, STEIF_BAD_INPUT,
+               "interval [%g, %g] of problem '%s' must be finite and "
+               "ascending",
+               p->t0, p->t1, p->name);
   else if (!check_values(ctx, p) && !check_storage(ctx, p))
     return form;
   return 0;

@@ -22,17 +22,17 @@ typedef struct stf_system {
   const steif_problem *problem;
   stf_space space;
   int form;
-  bool linear;                 /* constant E and A: linearised once */
+  bool linear; /* constant E and A: linearised once */
   enum steif_storage storage;
   steif_pencil *pencil;
-  SUNMatrix E, A, J;           /* owned; E NULL: identity; J: scratch of an IDA Jacobian */
-  sunrealtype scale;           /* floor of |y_j| in difference increments: atol / rtol */
-  stf_groups *groups;          /* columns that may be moved together */
+  SUNMatrix E, A, J;  /* owned; E NULL: identity; J: scratch of an IDA Jacobian */
+  sunrealtype scale;  /* floor of |y_j| in difference increments: atol / rtol */
+  stf_groups *groups; /* columns that may be moved together */
   N_Vector work[6];
-  N_Vector at_y, at_yp, at_f;  /* point of the last linearisation (operators only) */
+  N_Vector at_y, at_yp, at_f; /* point of the last linearisation (operators only) */
   sunrealtype at_t;
   bool filled;
-  sunrealtype weight;          /* of g in the residual of the descriptor form, 1 */
+  sunrealtype weight; /* of g in the residual of the descriptor form, 1 */
   long nfe, nje;
 } stf_system;
 
@@ -48,6 +48,8 @@ int stf_system_residual(stf_system *system, sunrealtype t, N_Vector y, N_Vector 
 int stf_system_rhs(stf_system *system, sunrealtype t, N_Vector y, N_Vector out);
 /* E and A at (t, y, yp) into the pencil; nothing for a linear system already filled. */
 int stf_system_linearise(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
+/* The same into system->E and system->A only, for families with factors of their own. */
+int stf_system_matrices(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
 /* y' at the start: given, or f for the ode form; *known tells whether yp can be relied on. */
 int stf_system_start(steif_context *ctx, const steif_problem *problem, int form,
                      const stf_space *space, N_Vector y, N_Vector yp, bool *known);

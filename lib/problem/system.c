@@ -12,9 +12,10 @@ static int callback(stf_system *s, int returned, const char *what, sunrealtype t
 {
   if (returned == 0) return STEIF_OK;
   if (returned > 0)
-    return STEIF_RECOVER(s->ctx, STEIF_CALLBACK,
-                         "%s of problem '%s' could not be evaluated at t = %.12g (it returned %d)",
-                         what, s->problem->name, t, returned);
+    return STEIF_RECOVER(
+      s->ctx, STEIF_CALLBACK,
+      "%s of problem '%s' could not be evaluated at t = %.12g (it returned %d)", what,
+      s->problem->name, t, returned);
   return STEIF_FAIL(s->ctx, STEIF_CALLBACK,
                     "%s of problem '%s' stopped the run at t = %.12g (it returned %d)", what,
                     s->problem->name, t, returned);
@@ -35,7 +36,8 @@ static int mass_residual(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp, 
   return STEIF_OK;
 }
 
-static int descriptor_residual(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp, N_Vector r)
+static int descriptor_residual(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp,
+                               N_Vector r)
 {
   const steif_problem *p = s->problem;
   STEIF_TRY(steif_pencil_product(s->pencil, 'E', yp, r));
@@ -57,16 +59,17 @@ int stf_system_residual(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp, N
     return STEIF_OK;
   case STEIF_MASS: return mass_residual(s, t, y, yp, r);
   case STEIF_DESCRIPTOR: return descriptor_residual(s, t, y, yp, r);
-  default:
-    s->nfe++;
-    return callback(s, s->problem->F(t, y, yp, r, s->problem->user), "F", t);
+  default: s->nfe++; return callback(s, s->problem->F(t, y, yp, r, s->problem->user), "F", t);
   }
 }
 
 /* Dense and band matrices arrive zeroed at a fill; a sparse one is filled whole. */
 static void clear(SUNMatrix M)
 {
-  if (SUNMatGetID(M) != SUNMATRIX_SPARSE) SUNMatZero(M);
+  if (SUNMatGetID(M) == SUNMATRIX_DENSE)
+    memset(SM_DATA_D(M), 0, (size_t)SM_LDATA_D(M) * sizeof(sunrealtype));
+  else if (SUNMatGetID(M) == SUNMATRIX_BAND)
+    SUNMatZero(M);
 }
 
 static int check_filled(stf_system *s, SUNMatrix M, const char *what)
@@ -106,18 +109,21 @@ static int separate(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
   clear(s->A);
   STEIF_TRY(callback(s, p->F(t, y, yp, w[3], p->user), "F", t));
   s->nfe++;
-  STEIF_TRY(callback(s, p->idajac(t, 0, y, yp, w[3], s->A, p->user, w[0], w[1], w[2]), "idajac", t));
+  STEIF_TRY(
+    callback(s, p->idajac(t, 0, y, yp, w[3], s->A, p->user, w[0], w[1], w[2]), "idajac", t));
   STEIF_TRY(check_filled(s, s->A, "idajac"));
   sunindextype count, again;
   sunrealtype *a = values(s->A, &count), c = 0;
   for (sunindextype i = 0; i < count; i++) c = fmax(c, fabs(a[i]));
   if (!(c > 0)) c = 1;
   clear(s->E);
-  STEIF_TRY(callback(s, p->idajac(t, c, y, yp, w[3], s->E, p->user, w[0], w[1], w[2]), "idajac", t));
+  STEIF_TRY(
+    callback(s, p->idajac(t, c, y, yp, w[3], s->E, p->user, w[0], w[1], w[2]), "idajac", t));
   sunrealtype *e = values(s->E, &again);
   STEIF_CHECK(again == count, s->ctx, STEIF_BAD_INPUT,
               "idajac of problem '%s' filled %lld entries with c = 0 and %lld with c = %g: its "
-              "pattern must not depend on c", p->name, (long long)count, (long long)again, c);
+              "pattern must not depend on c",
+              p->name, (long long)count, (long long)again, c);
   for (sunindextype i = 0; i < count; i++) e[i] = (e[i] - a[i]) / c, a[i] = -a[i];
   return STEIF_OK;
 }
@@ -160,12 +166,18 @@ static int fill(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
   return fill_A(s, t, y, yp);
 }
 
-int stf_system_linearise(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+int stf_system_matrices(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
 {
-  if (s->linear && s->filled) return STEIF_OK;
   s->nje++;
   STEIF_TRY(fill(s, t, y, yp));
   s->filled = true;
+  return STEIF_OK;
+}
+
+int stf_system_linearise(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  if (s->linear && s->filled) return STEIF_OK;
+  STEIF_TRY(stf_system_matrices(s, t, y, yp));
   return s->pencil ? steif_pencil_update(s->pencil) : STEIF_OK;
 }
 
@@ -190,7 +202,8 @@ static int matrix(stf_pool *pool, stf_system *s, sunindextype nnz, SUNMatrix *M)
   case STEIF_BAND: *M = SUNBandMatrix(n, p->upper, p->lower, sun); break;
   default: *M = SUNSparseMatrix(n, n, nnz, CSC_MAT, sun);
   }
-  STEIF_CHECK(*M, s->ctx, STEIF_NO_MEMORY, "no memory for a matrix of order %lld", (long long)n);
+  STEIF_CHECK(*M, s->ctx, STEIF_NO_MEMORY, "no memory for a matrix of order %lld",
+              (long long)n);
   return stf_claim_owner(pool, *M, destroy_matrix);
 }
 
@@ -208,7 +221,8 @@ static int difference_A(stf_system *s, N_Vector x, N_Vector out)
     stf_zero(&s->space, out);
     return 0;
   }
-  const sunrealtype step = sqrt(STF_EPS) * (s->scale + sqrt(N_VDotProd(s->at_y, s->at_y))) / size;
+  const sunrealtype step =
+    sqrt(STF_EPS) * (s->scale + sqrt(N_VDotProd(s->at_y, s->at_y))) / size;
   stf_sum(&s->space, 1, s->at_y, step, x, s->work[4]);
   const int code = stf_system_residual(s, s->at_t, s->work[4], s->at_yp, s->work[5]);
   stf_sum(&s->space, 1 / step, s->at_f, -1 / step, s->work[5], out);
@@ -275,26 +289,29 @@ int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *pro
   return stf_probe(s, problem->t0, y, yp);
 }
 
-int stf_system_start(steif_context *ctx, const steif_problem *p, int form, const stf_space *space,
-                     N_Vector y, N_Vector yp, bool *known)
+int stf_system_start(steif_context *ctx, const steif_problem *p, int form,
+                     const stf_space *space, N_Vector y, N_Vector yp, bool *known)
 {
   *known = p->yp0 || p->start;
   if (p->start) {
     const int returned = p->start(p->t0, y, yp, p->user);
-    STEIF_CHECK(returned == 0, ctx, STEIF_CALLBACK, "start of problem '%s' returned %d", p->name,
-                returned);
+    STEIF_CHECK(returned == 0, ctx, STEIF_CALLBACK, "start of problem '%s' returned %d",
+                p->name, returned);
   } else {
     sunrealtype *a = N_VGetArrayPointer(y), *b = N_VGetArrayPointer(yp);
-    STEIF_CHECK(a && b, ctx, STEIF_UNSUPPORTED, "vectors without a host array need the callback "
-                ".start of problem '%s'", p->name);
+    STEIF_CHECK(a && b, ctx, STEIF_UNSUPPORTED,
+                "vectors without a host array need the callback "
+                ".start of problem '%s'",
+                p->name);
     memcpy(a, p->y0, (size_t)p->n * sizeof *a);
     if (p->yp0) memcpy(b, p->yp0, (size_t)p->n * sizeof *b);
   }
   if (form == STEIF_ODE) {
     const int returned = p->f(p->t0, y, yp, p->user);
-    STEIF_CHECK(returned == 0, ctx, STEIF_CALLBACK,
-                "f of problem '%s' could not be evaluated at the start, t = %g (it returned %d)",
-                p->name, p->t0, returned);
+    STEIF_CHECK(
+      returned == 0, ctx, STEIF_CALLBACK,
+      "f of problem '%s' could not be evaluated at the start, t = %g (it returned %d)", p->name,
+      p->t0, returned);
     *known = true;
   }
   STEIF_CHECK(stf_finite(space, y), ctx, STEIF_NOT_FINITE,

@@ -1,7 +1,7 @@
 /* collocation.c: a_ij = int_0^{c_i} l_j and b_j = int_0^1 l_j on given nodes, in long double by
  * Gauss's rule, and what families of tables share (Hairer, Wanner: Solving ODEs II, IV.5).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "table.h"
+#include "stored.h"
 
 int stf_family_stages(steif_context *ctx, const steif_spec *spec, int lowest, int fallback,
                       int *s)
@@ -54,6 +54,15 @@ static void halve(long double x, sunrealtype *hi, sunrealtype *lo)
 
 int stf_family_fill(steif_context *ctx, enum stf_node_kind kind, stf_alter *alter,
                     steif_table *self, sunrealtype *A, sunrealtype *b, sunrealtype *c)
+{
+  const stf_stored *kept = stf_stored_find(self->name, self->s);
+  if (!kept) return stf_family_compute(ctx, kind, alter, self, A, b, c);
+  self->A = kept->A, self->A_low = kept->A_low, self->b = kept->b, self->c = kept->c;
+  return STEIF_OK;
+}
+
+int stf_family_compute(steif_context *ctx, enum stf_node_kind kind, stf_alter *alter,
+                       steif_table *self, sunrealtype *A, sunrealtype *b, sunrealtype *c)
 {
   const int s = self->s;
   rule r;

@@ -3,6 +3,7 @@
  * in long double and rounded once.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "split.h"
+#include "stored.h"
 #include "table.h"
 #include <math.h>
 
@@ -131,6 +132,15 @@ static int compute(stf_pool *pool, steif_context *ctx, const steif_table *table,
 
 int stf_split_build(stf_pool *pool, steif_context *ctx, const steif_table *table,
                     stf_split *split)
+{
+  const stf_stored *kept = table ? stf_stored_find(table->name, table->s) : NULL;
+  if (!kept || kept->A != table->A) return stf_split_compute(pool, ctx, table, split);
+  stf_stored_split(kept, split);
+  return STEIF_OK;
+}
+
+int stf_split_compute(stf_pool *pool, steif_context *ctx, const steif_table *table,
+                      stf_split *split)
 {
   STEIF_TRY(stf_table_check(ctx, table));
   stf_split_work *w = stf_allocate(ctx, 1, sizeof *w);

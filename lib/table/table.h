@@ -38,6 +38,9 @@ int stf_family_stages(steif_context *ctx, const steif_spec *spec, int lowest, in
                       int *s);
 int stf_family_fill(steif_context *ctx, enum stf_node_kind kind, stf_alter *alter,
                     steif_table *self, sunrealtype *A, sunrealtype *b, sunrealtype *c);
+/* The same, computed even when it is kept as data. */
+int stf_family_compute(steif_context *ctx, enum stf_node_kind kind, stf_alter *alter,
+                    steif_table *self, sunrealtype *A, sunrealtype *b, sunrealtype *c);
 
 /* X := A^{-1} X for A (n x n) and X (n x m), both by rows and overwritten; false when a pivot
  * is not larger than `tiny`. */
@@ -76,6 +79,9 @@ typedef struct stf_split {
 
 /* Split of the table's A^{-1}; everything is claimed from the pool. */
 int stf_split_build(stf_pool *pool, steif_context *ctx, const steif_table *table,
+                    stf_split *split);
+/* The same, computed even when it is kept as data. */
+int stf_split_compute(stf_pool *pool, steif_context *ctx, const steif_table *table,
                     stf_split *split);
 
 #endif

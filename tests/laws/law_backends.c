@@ -71,12 +71,19 @@ static steif_problem chain(void)
     for (int i = j ? j - 1 : 0; i <= j + 1 && i < N; i++) row[used++] = i;
   }
   column[N] = used;
-  return (steif_problem){.name = "chain", .n = N, .t1 = 0.4, .y0 = start, .f = f, .jac = jac,
-                         .lower = 1, .upper = 1, .nnz = 3 * N};
+  return (steif_problem){.name = "chain",
+                         .n = N,
+                         .t1 = 0.4,
+                         .y0 = start,
+                         .f = f,
+                         .jac = jac,
+                         .lower = 1,
+                         .upper = 1,
+                         .nnz = 3 * N};
 }
 
-static const char *const methods[] = {"be", "bdf:p=3", "dirk:alexander2", "gauss:s=2", "radau:s=3",
-                                      "radau:s=2"};
+static const char *const methods[] = {"be",        "bdf:p=3",   "dirk:alexander2",
+                                      "gauss:s=2", "radau:s=3", "radau:s=2"};
 
 /* Largest distance of the runs of p and q over all methods. */
 static double apart(steif_context *ctx, const steif_problem *p, const steif_problem *q,
@@ -199,7 +206,8 @@ static int ida_jacobian(sunrealtype t, sunrealtype c, N_Vector y, N_Vector yp, N
   SUNMatZero(J);
   jac(t, y, r, J, user, u, v, w);
   for (int j = 0; j < N; j++)
-    for (int i = 0; i < N; i++) SM_ELEMENT_D(J, i, j) = (i == j ? c : 0) - SM_ELEMENT_D(J, i, j);
+    for (int i = 0; i < N; i++)
+      SM_ELEMENT_D(J, i, j) = (i == j ? c : 0) - SM_ELEMENT_D(J, i, j);
   return code;
 }
 
@@ -245,10 +253,11 @@ static void missing_entries_are_named(void)
   steif_context_free(&ctx);
 }
 
-CU_TestInfo tests_of_law_backends[] = {{"storages agree", storages_agree},
-                                       {"differences agree with given Jacobians", differences_agree},
-                                       {"any vector serves", any_vector_serves},
-                                       {"OpenMP vectors serve", openmp_vectors_serve},
-                                       {"forms agree", forms_agree},
-                                       {"missing entries are named", missing_entries_are_named},
-                                       CU_TEST_INFO_NULL};
+CU_TestInfo tests_of_law_backends[] = {
+  {"storages agree", storages_agree},
+  {"differences agree with given Jacobians", differences_agree},
+  {"any vector serves", any_vector_serves},
+  {"OpenMP vectors serve", openmp_vectors_serve},
+  {"forms agree", forms_agree},
+  {"missing entries are named", missing_entries_are_named},
+  CU_TEST_INFO_NULL};

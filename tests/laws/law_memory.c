@@ -30,7 +30,8 @@ void *calloc(size_t n, size_t size) { return granted() ? __libc_calloc(n, size) 
 void *realloc(void *p, size_t size) { return granted() ? __libc_realloc(p, size) : NULL; }
 #endif
 
-static const char *const problems[] = {"hires", "transamp", "heat:n=40", "medakzo", "jordan:k=3"};
+static const char *const problems[] = {"hires", "transamp", "heat:n=40", "medakzo",
+                                       "jordan:k=3"};
 
 static void stepping_allocates_nothing(void)
 {
@@ -43,11 +44,13 @@ static void stepping_allocates_nothing(void)
       CU_ASSERT_FATAL(!steif_problem_find(ctx, problems[i], &p));
       o.h = 1e-3 * p.t1 / 128, o.t1 = 1e-3 * p.t1;
       steif_solver *s = steif_solver_new(ctx, &p, law_methods[m], &o);
-      for (int k = 0; s && k < 8; k++) CHECK(!steif_solve_step(s)); /* factors of all orders made */
+      for (int k = 0; s && k < 8; k++)
+        CHECK(!steif_solve_step(s)); /* factors of all orders made */
       const long before = asked;
       int code = 0;
       for (int k = 0; s && k < 20 && !code; k++) code = steif_solve_step(s);
-      if (asked != before) printf("\n  %s %s: %ld", problems[i], law_methods[m], asked - before);
+      if (asked != before)
+        printf("\n  %s %s: %ld", problems[i], law_methods[m], asked - before);
       CHECK(asked == before);
       steif_solver_free(&s);
       steif_problem_clear(ctx, &p);
@@ -90,8 +93,10 @@ static int life(steif_context *ctx, const char *problem, const char *method)
   return code;
 }
 
-static const char *const lives[][2] = {{"hires", "radau:s=3"},   {"transamp", "bdf:p=3"},
-                                       {"heat:n=30", "gauss:s=2"}, {"bruss2d:n=4", "radau:s=2"},
+static const char *const lives[][2] = {{"hires", "radau:s=3"},
+                                       {"transamp", "bdf:p=3"},
+                                       {"heat:n=30", "gauss:s=2"},
+                                       {"bruss2d:n=4", "radau:s=2"},
                                        {"jordan:k=3", "dirk:alexander2"}};
 
 static void the_allocator_may_fail_anywhere(void)
@@ -108,7 +113,8 @@ static void the_allocator_may_fail_anywhere(void)
         CHECK(code == STEIF_OK && k > 20);
         break;
       }
-      if (code != STEIF_NO_MEMORY) printf("\n  %s %s k = %ld: %d", lives[i][0], lives[i][1], k, code);
+      if (code != STEIF_NO_MEMORY)
+        printf("\n  %s %s k = %ld: %d", lives[i][0], lives[i][1], k, code);
       CHECK(code == STEIF_NO_MEMORY);
     }
 }

@@ -6,7 +6,7 @@
 typedef struct trouble {
   int calls, every, returns; /* every: fail at each such call, from the first after `grace` */
   int grace;
-  double value;              /* returned instead when returns = 0 */
+  double value; /* returned instead when returns = 0 */
 } trouble;
 
 static int f(sunrealtype t, N_Vector y, N_Vector r, void *user)
@@ -50,15 +50,15 @@ static void expect(const char *method, trouble x, double h, int status, const ch
 static void fatal_callbacks_stop_the_run(void)
 {
   for (int m = 0; m < law_method_count; m++)
-    expect(law_methods[m], (trouble){.every = 1, .grace = 9, .returns = -3}, 0.1, STEIF_CALLBACK,
-           "returned -3");
+    expect(law_methods[m], (trouble){.every = 1, .grace = 9, .returns = -3}, 0.1,
+           STEIF_CALLBACK, "returned -3");
 }
 
 static void given_steps_refuse_recoverable_failures(void)
 {
   for (int m = 0; m < law_method_count; m++)
-    expect(law_methods[m], (trouble){.every = 1, .grace = 30, .returns = 1}, 0.05, STEIF_CALLBACK,
-           "returned 1");
+    expect(law_methods[m], (trouble){.every = 1, .grace = 30, .returns = 1}, 0.05,
+           STEIF_CALLBACK, "returned 1");
 }
 
 static void chosen_steps_survive_recoverable_failures(void)
@@ -92,13 +92,17 @@ static void nan_in_inputs_is_named(void)
   for (int i = 0; i < 3; i++) {
     steif_options o = steif_defaults();
     o.rtol = wrong[i];
-    CHECK(!steif_solver_new(ctx, &law_problem, "be", &o) && steif_status(ctx) == STEIF_BAD_INPUT);
+    CHECK(!steif_solver_new(ctx, &law_problem, "be", &o) &&
+          steif_status(ctx) == STEIF_BAD_INPUT);
     o = steif_defaults(), o.h = wrong[i];
-    CHECK(!steif_solver_new(ctx, &law_problem, "be", &o) && steif_status(ctx) == STEIF_BAD_INPUT);
+    CHECK(!steif_solver_new(ctx, &law_problem, "be", &o) &&
+          steif_status(ctx) == STEIF_BAD_INPUT);
     o = steif_defaults(), o.atol = wrong[i];
-    CHECK(!steif_solver_new(ctx, &law_problem, "be", &o) && steif_status(ctx) == STEIF_BAD_INPUT);
+    CHECK(!steif_solver_new(ctx, &law_problem, "be", &o) &&
+          steif_status(ctx) == STEIF_BAD_INPUT);
     o = steif_defaults(), o.h0 = wrong[i];
-    CHECK(!steif_solver_new(ctx, &law_problem, "be", &o) && steif_status(ctx) == STEIF_BAD_INPUT);
+    CHECK(!steif_solver_new(ctx, &law_problem, "be", &o) &&
+          steif_status(ctx) == STEIF_BAD_INPUT);
   }
   steif_context_free(&ctx);
 }

@@ -4,9 +4,10 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 const char *const law_methods[] = {
-  "be", "bdf:p=2", "bdf:p=4", "dirk:alexander2", "dirk:alexander3", "dirk:hw43", "dirk:trbdf2",
-  "dirk:crouzeix23", "dirk:cranknicolson", "dirk:esdirk43", "gauss:s=1", "gauss:s=2", "gauss:s=3",
-  "radau:s=2", "radau:s=3", "radau:s=5", "radau1a:s=2", "lobatto3c:s=3", "gauss:s=12", "euler",
+  "be",        "bdf:p=2",     "bdf:p=4",         "dirk:alexander2",    "dirk:alexander3",
+  "dirk:hw43", "dirk:trbdf2", "dirk:crouzeix23", "dirk:cranknicolson", "dirk:esdirk43",
+  "gauss:s=1", "gauss:s=2",   "gauss:s=3",       "radau:s=2",          "radau:s=3",
+  "radau:s=5", "radau1a:s=2", "lobatto3c:s=3",   "gauss:s=12",         "euler",
   "rk4",
 };
 const int law_method_count = sizeof law_methods / sizeof *law_methods;
@@ -35,7 +36,12 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
 static const sunrealtype y0[] = {0.37, 1.18};
 
 const steif_problem law_problem = {
-  .name = "law", .n = 2, .t1 = 1.7, .y0 = y0, .f = f, .jac = jac,
+  .name = "law",
+  .n = 2,
+  .t1 = 1.7,
+  .y0 = y0,
+  .f = f,
+  .jac = jac,
 };
 
 N_Vector law_run(steif_context *ctx, const steif_problem *problem, const char *method,

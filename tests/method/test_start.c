@@ -54,7 +54,8 @@ static void forms_and_starts_are_checked(void)
 /* Polynomials of degree p are integrated exactly by BDF-p on any mesh from exact values: y' = 0 y +
  * p t^{p-1} cannot be said with the collection, so the harmonic oscillator with tiny and uneven
  * steps checks the variable coefficients by their order instead. */
-static double mesh_error(steif_context *ctx, const steif_problem *p, const char *method, size_t n)
+static double mesh_error(steif_context *ctx, const steif_problem *p, const char *method,
+                         size_t n)
 {
   double mesh[513], y[2];
   for (size_t i = 0; i <= n; i++) {
@@ -76,14 +77,19 @@ static void meshes_keep_the_order(void)
   static const struct {
     const char *method;
     double order;
-  } rows[] = {{"be", 1}, {"bdf:p=2", 2}, {"bdf:p=3,start=exact", 3}, {"bdf:p=4,start=exact", 4},
-              {"radau:s=2", 3}, {"dirk:alexander3", 3}, {"gauss:s=2", 4}};
+  } rows[] = {{"be", 1},
+              {"bdf:p=2", 2},
+              {"bdf:p=3,start=exact", 3},
+              {"bdf:p=4,start=exact", 4},
+              {"radau:s=2", 3},
+              {"dirk:alexander3", 3},
+              {"gauss:s=2", 4}};
   steif_context *ctx = steif_context_new(NULL);
   steif_problem p;
   CU_ASSERT_FATAL(!steif_problem_find(ctx, "harmonic", &p));
   for (int m = 0; m < 7; m++) {
-    const double order = log2(mesh_error(ctx, &p, rows[m].method, 128) /
-                              mesh_error(ctx, &p, rows[m].method, 256));
+    const double order =
+      log2(mesh_error(ctx, &p, rows[m].method, 128) / mesh_error(ctx, &p, rows[m].method, 256));
     CLOSE_FLOOR(order, rows[m].order, 0.2, 1);
   }
   steif_problem_clear(ctx, &p);

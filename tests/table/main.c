@@ -3,10 +3,11 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_nodes[], tests_of_shelf[], tests_of_claims[], tests_of_stability[],
-  tests_of_split[];
+  tests_of_split[], tests_of_stored[];
 
 SUITE_MAIN({.pName = "nodes", .pTests = tests_of_nodes},
            {.pName = "shelf", .pTests = tests_of_shelf},
            {.pName = "claims", .pTests = tests_of_claims},
            {.pName = "stability", .pTests = tests_of_stability},
-           {.pName = "split", .pTests = tests_of_split})
+           {.pName = "split", .pTests = tests_of_split},
+           {.pName = "stored", .pTests = tests_of_stored})

@@ -44,13 +44,14 @@ static void defaults_of_families(void)
   steif_context_free(&ctx);
 }
 
-static void tables_own_their_arrays(void)
+static void tables_are_complete(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   for (size_t i = 0; i < stf_table_count; i++) {
     const steif_table *item = steif_table_at(i);
     steif_table *t = make(ctx, item->name), *u = make(ctx, item->name);
-    CHECK(t->A && t->b && t->c && t->A != item->A && t->b != item->b && t->A != u->A);
+    CHECK(t->A && t->b && t->c);
+    if (!item->build) CHECK(t->A != item->A && t->b != item->b && t->A != u->A);
     CHECK(!t->bhat == !item->bhat && (!t->bhat || t->bhat != item->bhat));
     for (int k = 0; k < t->s * t->s; k++) CHECK(t->A[k] == u->A[k]);
     steif_table_free(ctx, &t), steif_table_free(ctx, &u);
@@ -228,7 +229,7 @@ static void short_memory_is_reported(void)
 CU_TestInfo tests_of_shelf[] = {
   {"every table is named as its file and says where it is from", names_equal_files},
   {"families have their default and their given stages", defaults_of_families},
-  {"tables made from a spec own their arrays", tables_own_their_arrays},
+  {"tables made from a spec are complete and alike", tables_are_complete},
   {"nodes are row sums, given or not", nodes_are_row_sums},
   {"coefficients agree with the handbook's closed forms", known_coefficients},
   {"one stage gives backward Euler and the midpoint rule", one_stage},

@@ -20,21 +20,22 @@ enum { HIGHEST = 6 };
 enum start { RAMP, CONSTANT, EXACT, CQ };
 
 typedef struct state {
-  int p, k;                      /* order wanted; order of the trial */
+  int p, k; /* order wanted; order of the trial */
   enum start start;
-  int points;                    /* valid entries of y and t */
-  N_Vector y[HIGHEST + 2];       /* y[0] is the accepted solution, y[1] the one before ... */
+  int points;              /* valid entries of y and t */
+  N_Vector y[HIGHEST + 2]; /* y[0] is the accepted solution, y[1] the one before ... */
   sunrealtype t[HIGHEST + 2];
   sunrealtype alpha[HIGHEST + 1], guess[HIGHEST + 1];
-  int cached;                    /* alpha and guess are those of this order and equal steps */
+  int cached; /* alpha and guess are those of this order and equal steps */
   int guess_points;
-  int last;                      /* order of the last accepted step, for dense output */
+  int last; /* order of the last accepted step, for dense output */
   N_Vector base, offset, Z;
 } state;
 
 static int parameters(steif_context *ctx, const steif_spec *spec, int *p, const char **start)
 {
-  static const char *const bdf_keys[] = {"p", "start", NULL}, *const be_keys[] = {"start", NULL};
+  static const char *const bdf_keys[] = {"p", "start", NULL}, *const be_keys[] = {"start",
+                                                                                  NULL};
   const bool be = !strcmp(spec->name, "be");
   STEIF_TRY(stf_spec_only(ctx, spec, be ? be_keys : bdf_keys));
   STEIF_TRY(stf_spec_int(ctx, spec, "p", 1, HIGHEST, be ? 1 : 2, p));
@@ -52,8 +53,10 @@ static int find_start(steif_context *ctx, const char *word, enum start *start)
       *start = (enum start)i;
       return STEIF_OK;
     }
-  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "no starting procedure '%s': there are ramp, constant, "
-                    "exact and cq", word);
+  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME,
+                    "no starting procedure '%s': there are ramp, constant, "
+                    "exact and cq",
+                    word);
 }
 
 /* Gregory's weights w_0, w_1, ... of order p (then 1): 1 + gamma_i with sum gamma_i i^m = -zeta(-m),
@@ -118,8 +121,12 @@ static int solve(stf_step *s, sunrealtype h)
     stf_axpy(space, e->alpha[0] / h, e->base, e->offset);
     stf_zero(space, e->Z);
   }
-  const stf_stages g = {.t = s->t, .h = h, .c = c, .base = s->absolute ? NULL : &base,
-                        .offset = &e->offset, .Z = s->absolute ? &s->next : &e->Z};
+  const stf_stages g = {.t = s->t,
+                        .h = h,
+                        .c = c,
+                        .base = s->absolute ? NULL : &base,
+                        .offset = &e->offset,
+                        .Z = s->absolute ? &s->next : &e->Z};
   STEIF_TRY(stf_solve_stages(s, &g));
   if (!s->absolute) stf_sum(space, 1, base, 1, e->Z, s->next);
   return STEIF_OK;
@@ -139,7 +146,8 @@ static int attempt(stf_step *s, sunrealtype h)
   state *e = s->state;
   if (s->restart) e->points = 1;
   if (s->count == 0 && e->start == CONSTANT) past(s, h);
-  if (e->start == EXACT && s->count < e->p - 1) return e->k = (int)s->count + 1, from_exact(s, h);
+  if (e->start == EXACT && s->count < e->p - 1)
+    return e->k = (int)s->count + 1, from_exact(s, h);
   e->k = e->points < e->p ? e->points : e->p;
   if (e->start == CQ) s->system.weight = gregory(e->p, s->count + 1);
   coefficients(s, h, e->k);

@@ -9,11 +9,11 @@
 
 typedef struct state {
   const steif_table *table;
-  int s, first;              /* first implicit stage, 0 or 1 */
+  int s, first; /* first implicit stage, 0 or 1 */
   sunrealtype gamma;
-  N_Vector *K, *old, *X;     /* slopes of the attempt and of the last step; stage values */
+  N_Vector *K, *old, *X; /* slopes of the attempt and of the last step; stage values */
   N_Vector base, offset, Z, before;
-  bool accurate;             /* stiffly accurate */
+  bool accurate; /* stiffly accurate */
   bool stepped;
 } state;
 
@@ -26,10 +26,11 @@ static int check(stf_step *s, state *e)
     STEIF_CHECK(T->A[i * (T->s + 1)] == e->gamma && e->gamma > 0, s->ctx, STEIF_UNSUPPORTED,
                 "table '%s' has different diagonal entries %g and %g: only one shift is served",
                 T->name, e->gamma, T->A[i * (T->s + 1)]);
-  STEIF_CHECK(!e->first || s->yp_known, s->ctx, STEIF_UNSUPPORTED,
-              "'dirk:%s' begins with the slope y'(t0), which form %s of problem '%s' does not give: "
-              "set .yp0, or take a method with an implicit first stage", T->name,
-              steif_form_name(s->system.form), s->problem->name);
+  STEIF_CHECK(
+    !e->first || s->yp_known, s->ctx, STEIF_UNSUPPORTED,
+    "'dirk:%s' begins with the slope y'(t0), which form %s of problem '%s' does not give: "
+    "set .yp0, or take a method with an implicit first stage",
+    T->name, steif_form_name(s->system.form), s->problem->name);
   STEIF_CHECK(!e->first || (T->claims & STEIF_STIFFLY_ACCURATE), s->ctx, STEIF_UNSUPPORTED,
               "table '%s' has an explicit first stage and is not stiffly accurate", T->name);
   STEIF_CHECK(!s->adaptive || T->bhat, s->ctx, STEIF_UNSUPPORTED,
@@ -76,9 +77,12 @@ static int stage(stf_step *s, int i, sunrealtype h)
   const sunrealtype gh = e->gamma * h;
   stf_combine(space, i, e->table->A + i * e->s, e->K, e->base);
   stf_sum(space, 1, s->y, h, e->base, e->base);
-  const stf_stages g = {.t = s->t, .h = h, .c = e->table->c + i,
+  const stf_stages g = {.t = s->t,
+                        .h = h,
+                        .c = e->table->c + i,
                         .base = s->absolute ? NULL : &e->base,
-                        .offset = s->absolute ? &e->offset : NULL, .Z = &e->Z};
+                        .offset = s->absolute ? &e->offset : NULL,
+                        .Z = &e->Z};
   if (s->absolute) {
     stf_scale(space, -1 / gh, e->base, e->offset);
     STEIF_TRY(stf_solve_stages(s, &g));
@@ -140,8 +144,8 @@ static int dense(const stf_step *s, sunrealtype t, N_Vector y)
   const state *e = s->state;
   const sunrealtype x = (t - (s->t - s->h)) / s->h, u = 1 - x;
   if (!e->accurate || !e->first) {
-    const sunrealtype end = e->accurate ? 1 : 0, c[] = {u * (1 - end * x), x * (1 + end * u),
-                                                        -s->h * x * u * end};
+    const sunrealtype end = e->accurate ? 1 : 0,
+                      c[] = {u * (1 - end * x), x * (1 + end * u), -s->h * x * u * end};
     N_Vector v[] = {e->before, s->y, e->old[e->s - 1]};
     stf_combine(&s->system.space, 3, c, v, y);
     return STEIF_OK;

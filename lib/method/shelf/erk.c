@@ -4,8 +4,8 @@
 
 typedef struct state {
   const steif_table *table;
-  N_Vector *K, work, end_slope;  /* end_slope: f(t, y) of the trial's end, for dense output */
-  N_Vector before;               /* y and slope at the start of the last step */
+  N_Vector *K, work, end_slope; /* end_slope: f(t, y) of the trial's end, for dense output */
+  N_Vector before;              /* y and slope at the start of the last step */
   N_Vector slope;
 } state;
 
@@ -23,7 +23,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 }
 
 /* out = y + h sum_j a_j K_j. */
-static void advance(const stf_step *s, int count, const sunrealtype *a, sunrealtype h, N_Vector out)
+static void advance(const stf_step *s, int count, const sunrealtype *a, sunrealtype h,
+                    N_Vector out)
 {
   const state *e = s->state;
   stf_combine(&s->system.space, count, a, e->K, out);
@@ -40,9 +41,11 @@ static int attempt(stf_step *s, sunrealtype h)
   }
   advance(s, T->s, T->b, h, s->next);
   if (!stf_finite(&s->system.space, s->next))
-    return STEIF_RECOVER(s->ctx, STEIF_NOT_FINITE,
-                         "the step of problem '%s' from t = %.12g with h = %.6g overflowed: the step "
-                         "is too large for an explicit method", s->problem->name, s->t, h);
+    return STEIF_RECOVER(
+      s->ctx, STEIF_NOT_FINITE,
+      "the step of problem '%s' from t = %.12g with h = %.6g overflowed: the step "
+      "is too large for an explicit method",
+      s->problem->name, s->t, h);
   return STEIF_OK;
 }
 

@@ -14,14 +14,14 @@
 typedef struct state {
   const steif_table *table;
   int s;
-  sunrealtype *w;            /* w_j(x) = sum_k w[j s + k - 1] x^k, k = 1 .. s */
-  sunrealtype *end;          /* w(1) */
-  sunrealtype *P, ratio;     /* next Z = P Z for step ratio */
-  sunrealtype *row_sum;      /* B 1 */
-  sunrealtype *slope;        /* weights of u'(t_n) in Z, times h: error estimate */
-  N_Vector *Z, *trial;       /* of the last step and of the attempt, relative to y_n */
+  sunrealtype *w;        /* w_j(x) = sum_k w[j s + k - 1] x^k, k = 1 .. s */
+  sunrealtype *end;      /* w(1) */
+  sunrealtype *P, ratio; /* next Z = P Z for step ratio */
+  sunrealtype *row_sum;  /* B 1 */
+  sunrealtype *slope;    /* weights of u'(t_n) in Z, times h: error estimate */
+  N_Vector *Z, *trial;   /* of the last step and of the attempt, relative to y_n */
   N_Vector *base, *offset, *X;
-  N_Vector before;           /* y_n of the last step */
+  N_Vector before; /* y_n of the last step */
   N_Vector work, imaginary;
   bool history;
 } state;
@@ -90,8 +90,8 @@ static int claim(stf_step *s, state *e)
   e->before = stf_claim_vector(s->pool, s->y);
   e->work = stf_claim_vector(s->pool, s->y);
   e->imaginary = stf_claim_vector(s->pool, s->y);
-  return e->imaginary && e->w && e->P && e->end && e->Z && e->trial && e->X && e->base && e->offset && e->before &&
-             e->work
+  return e->imaginary && e->w && e->P && e->end && e->Z && e->trial && e->X && e->base &&
+             e->offset && e->before && e->work
            ? STEIF_OK
            : STEIF_NO_MEMORY;
 }
@@ -112,7 +112,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
     for (int m = 0; m < e->s; m++) e->row_sum[j] += split.B[j * e->s + m];
   }
   STEIF_CHECK(!s->adaptive || table->c[0] > 0, s->ctx, STEIF_UNSUPPORTED,
-              "'%s' has no error estimate (its first node is 0): give steps with h", table->name);
+              "'%s' has no error estimate (its first node is 0): give steps with h",
+              table->name);
   if (table->c[0] > 0) fill_slope(e);
   s->error_order = e->s;
   s->error_tolerance = 0.1 * pow(s->options->rtol, (e->s + 1.0) / (2 * e->s) - 1);
@@ -226,7 +227,8 @@ static void commit(stf_step *s)
   e->Z = e->trial, e->trial = Z;
   e->before = s->y, s->y = s->next, s->next = y;
   e->history = true;
-  if (s->system.form == STEIF_IMPLICIT) stf_copy(&s->system.space, s->newton.Zp[e->s - 1], s->yp);
+  if (s->system.form == STEIF_IMPLICIT)
+    stf_copy(&s->system.space, s->newton.Zp[e->s - 1], s->yp);
 }
 
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)

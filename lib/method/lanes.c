@@ -1,0 +1,302 @@
+/* lanes.c: the kernels of lanes.h. The loops over lanes and stages have constant length in each
+ * instance, so that a compiler keeps them in vector registers; where the compiler can, the kernels
+ * exist once per instruction set and the processor decides at load time.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "lanes.h"
+#include <float.h>
+#include <math.h>
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__linux__) &&   \
+  !defined(__SANITIZE_ADDRESS__)
+#define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define CLONES
+#endif
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline))
+#else
+#define INLINE static inline
+#endif
+
+/* Call body(L, n, lanes, ...) with constants for common sizes. */
+#define WITH_LANES(body, n, ...)                                                               \
+  switch (L->lanes) {                                                                          \
+  case 1: body(L, n, 1, __VA_ARGS__); break;                                                   \
+  case 2: body(L, n, 2, __VA_ARGS__); break;                                                   \
+  case 4: body(L, n, 4, __VA_ARGS__); break;                                                   \
+  default: body(L, n, 8, __VA_ARGS__);                                                         \
+  }
+#define WITH_SIZES(body, ...)                                                                  \
+  switch (L->n) {                                                                              \
+  case 2: WITH_LANES(body, 2, __VA_ARGS__) break;                                              \
+  case 3: WITH_LANES(body, 3, __VA_ARGS__) break;                                              \
+  default: WITH_LANES(body, L->n, __VA_ARGS__)                                                 \
+  }
+
+/* -- factor ------------------------------------------------------------------------------------ */
+
+/* lambda/h M - J by rows, all lanes. */
+INLINE void assemble(stf_lanes *L, const int n, const int lanes, const double *J, double h)
+{
+  double s[2 * STF_LANES];
+  for (int k = 0; k < 2 * lanes; k++) s[k] = L->lambda[k] / h;
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++) {
+      const double m = L->M ? L->M[i * n + j] : i == j, a = J[i + n * j];
+      double *e = L->lu + (i * n + j) * 2 * lanes;
+      for (int k = 0; k < lanes; k++) e[k] = s[k] * m - a, e[lanes + k] = s[lanes + k] * m;
+    }
+}
+
+/* e = 1 / e in all lanes. */
+INLINE void reciprocal(const int lanes, double *e)
+{
+  for (int k = 0; k < lanes; k++) {
+    const double re = e[k], im = e[lanes + k], d = 1 / (re * re + im * im);
+    e[k] = re * d, e[lanes + k] = -im * d;
+  }
+}
+
+/* z -= x y and x = x y. */
+INLINE void minus(const int lanes, double *restrict z, const double *restrict x,
+                  const double *restrict y)
+{
+  for (int k = 0; k < lanes; k++) {
+    z[k] -= x[k] * y[k] - x[lanes + k] * y[lanes + k];
+    z[lanes + k] -= x[k] * y[lanes + k] + x[lanes + k] * y[k];
+  }
+}
+
+INLINE void times(const int lanes, double *restrict x, const double *restrict y)
+{
+  for (int k = 0; k < lanes; k++) {
+    const double re = x[k] * y[k] - x[lanes + k] * y[lanes + k];
+    x[lanes + k] = x[k] * y[lanes + k] + x[lanes + k] * y[k];
+    x[k] = re;
+  }
+}
+
+/* Bring the row with the largest entry of lane 0 to place k. */
+INLINE double pivot(stf_lanes *L, const int n, const int lanes, int k)
+{
+  double *a = L->lu, big = -1;
+  int p = k;
+  for (int i = k; i < n; i++) {
+    const double *e = a + (i * n + k) * 2 * lanes, size = fabs(e[0]) + fabs(e[lanes]);
+    if (size > big) big = size, p = i;
+  }
+  if (p == k) return big;
+  const int row = L->order[k];
+  L->order[k] = L->order[p], L->order[p] = row;
+  for (int j = 0; j < n * 2 * lanes; j++) {
+    const double x = a[k * n * 2 * lanes + j];
+    a[k * n * 2 * lanes + j] = a[p * n * 2 * lanes + j], a[p * n * 2 * lanes + j] = x;
+  }
+  return big;
+}
+
+INLINE void eliminate(stf_lanes *L, const int n, const int lanes, const double *J, double h,
+                      int *failed)
+{
+  assemble(L, n, lanes, J, h);
+  for (int i = 0; i < n; i++) L->order[i] = i;
+  double *a = L->lu;
+  for (int k = 0; k < n; k++) {
+    if (!(pivot(L, n, lanes, k) >= DBL_MIN)) {
+      *failed = k + 1;
+      return;
+    }
+    double *d = a + (k * n + k) * 2 * lanes;
+    reciprocal(lanes, d);
+    for (int i = k + 1; i < n; i++) {
+      double *l = a + (i * n + k) * 2 * lanes;
+      times(lanes, l, d);
+      for (int j = k + 1; j < n; j++)
+        minus(lanes, a + (i * n + j) * 2 * lanes, l, a + (k * n + j) * 2 * lanes);
+    }
+  }
+}
+
+CLONES int stf_lanes_factor(stf_lanes *L, const double *J, double h)
+{
+  int failed = 0;
+  WITH_SIZES(eliminate, J, h, &failed)
+  return failed;
+}
+
+/* -- solve --------------------------------------------------------------------------------------- */
+
+/* x from rhs by the LU: forward in the order of elimination, then backward. */
+INLINE void solve(stf_lanes *L, const int n, const int lanes, const double *restrict rhs,
+                  double *restrict x)
+{
+  const double *a = L->lu;
+  for (int i = 0; i < n; i++) {
+    double *xi = x + i * 2 * lanes;
+    const double *b = rhs + L->order[i] * 2 * lanes;
+    for (int k = 0; k < 2 * lanes; k++) xi[k] = b[k];
+    for (int j = 0; j < i; j++)
+      minus(lanes, xi, a + (i * n + j) * 2 * lanes, x + j * 2 * lanes);
+  }
+  for (int i = n - 1; i >= 0; i--) {
+    double *xi = x + i * 2 * lanes;
+    for (int j = i + 1; j < n; j++)
+      minus(lanes, xi, a + (i * n + j) * 2 * lanes, x + j * 2 * lanes);
+    times(lanes, xi, a + (i * n + i) * 2 * lanes);
+  }
+}
+
+/* Stage vector of component i: Z = V omega, Y = y + Z. */
+INLINE void stages(stf_lanes *L, const int n, const int lanes, const int wide, const double *y)
+{
+  const int s = L->s;
+  for (int i = 0; i < n; i++) {
+    double z[STF_WIDE] = {0};
+    const double *w = L->omega + i * 2 * lanes;
+    for (int k = 0; k < 2 * lanes; k++)
+      for (int j = 0; j < wide; j++) z[j] += L->V[k][j] * w[k];
+    for (int j = 0; j < s; j++) L->Y[j * n + i] = y[i] + z[j];
+  }
+}
+
+INLINE void stages_of(stf_lanes *L, const int n, const int lanes, const double *y)
+{
+  if (L->wide == 4)
+    stages(L, n, lanes, 4, y);
+  else if (L->wide == 8)
+    stages(L, n, lanes, 8, y);
+  else
+    stages(L, n, lanes, 16, y);
+}
+
+/* rhs_k = [V^{-1} F]_k - lambda_k/h (M omega)_k. */
+INLINE void right_sides(stf_lanes *L, const int n, const int lanes, double h)
+{
+  double s[2 * STF_LANES];
+  for (int k = 0; k < 2 * lanes; k++) s[k] = L->lambda[k] / h;
+  for (int i = 0; i < n; i++) {
+    double r[2 * STF_LANES] = {0}, m[2 * STF_LANES] = {0};
+    for (int j = 0; j < L->s; j++) {
+      const double f = L->F[j * n + i];
+      for (int k = 0; k < 2 * lanes; k++) r[k] += L->Vinv[j][k] * f;
+    }
+    if (L->M) {
+      for (int j = 0; j < n; j++) {
+        const double e = L->M[i * n + j];
+        if (e == 0) continue;
+        for (int k = 0; k < 2 * lanes; k++) m[k] += e * L->omega[j * 2 * lanes + k];
+      }
+    } else
+      for (int k = 0; k < 2 * lanes; k++) m[k] = L->omega[i * 2 * lanes + k];
+    minus(lanes, r, s, m);
+    for (int k = 0; k < 2 * lanes; k++) L->rhs[i * 2 * lanes + k] = r[k];
+  }
+}
+
+INLINE void sweep(stf_lanes *L, const int n, const int lanes, const double *y,
+                  const double *weight, double h, double *sum)
+{
+  double total[STF_LANES] = {0};
+  right_sides(L, n, lanes, h);
+  solve(L, n, lanes, L->rhs, L->work);
+  for (int i = 0; i < n; i++) {
+    const double *d = L->work + i * 2 * lanes, u = weight[i] * weight[i];
+    double *w = L->omega + i * 2 * lanes;
+    for (int k = 0; k < lanes; k++) total[k] += u * (d[k] * d[k] + d[lanes + k] * d[lanes + k]);
+    for (int k = 0; k < 2 * lanes; k++) w[k] += d[k];
+  }
+  stages_of(L, n, lanes, y);
+  for (int k = 0; k < lanes; k++) *sum += L->gain[k] * total[k];
+}
+
+CLONES double stf_lanes_sweep(stf_lanes *L, const double *y, const double *weight, double h)
+{
+  double sum = 0;
+  WITH_SIZES(sweep, y, weight, h, &sum)
+  return sum;
+}
+
+INLINE void begin(stf_lanes *L, const int n, const int lanes, const double *y)
+{
+  for (int i = 0; i < n; i++) {
+    double w[2 * STF_LANES] = {0};
+    for (int j = 0; j < L->s; j++) {
+      const double z = L->Z[i * L->wide + j];
+      L->Y[j * n + i] = y[i] + z;
+      for (int k = 0; k < 2 * lanes; k++) w[k] += L->Vinv[j][k] * z;
+    }
+    for (int k = 0; k < 2 * lanes; k++) L->omega[i * 2 * lanes + k] = w[k];
+  }
+}
+
+CLONES void stf_lanes_begin(stf_lanes *L, const double *y){WITH_SIZES(begin, y)}
+
+CLONES void stf_lanes_end(stf_lanes *L)
+{
+  const int lanes = L->lanes;
+  for (int i = 0; i < L->n; i++) {
+    double *z = L->Z + i * L->wide;
+    const double *w = L->omega + i * 2 * lanes;
+    for (int j = 0; j < L->wide; j++) z[j] = 0;
+    for (int k = 0; k < 2 * lanes; k++)
+      for (int j = 0; j < L->wide; j++) z[j] += L->V[k][j] * w[k];
+  }
+}
+
+INLINE void filter(stf_lanes *L, const int n, const int lanes, double *x)
+{
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < 2 * lanes; k++) L->rhs[i * 2 * lanes + k] = k < lanes ? x[i] : 0;
+  solve(L, n, lanes, L->rhs, L->work);
+  const double im = L->lambda[lanes];
+  for (int i = 0; i < n; i++)
+    x[i] =
+      im == 0 ? L->work[i * 2 * lanes] : -L->lambda[0] / im * L->work[i * 2 * lanes + lanes];
+}
+
+CLONES void stf_lanes_filter(stf_lanes *L, double *x) { WITH_SIZES(filter, x) }
+
+/* -- open ------------------------------------------------------------------------------------------ */
+
+static int padded(int count, int most)
+{
+  int size = 1;
+  while (size < count && size < most) size *= 2;
+  return size;
+}
+
+/* V^{-1} and V by lanes from the real T, Tinv of the split: omega_re and omega_im are rows of it. */
+static void fill(const stf_split *split, stf_lanes *L)
+{
+  const int s = split->s, lanes = L->lanes;
+  for (int k = 0; k < lanes; k++) {
+    const int lane = k < split->lanes ? k : 0, row = split->row[lane];
+    const bool pair = split->im[lane] != 0;
+    L->lambda[k] = split->re[lane], L->lambda[lanes + k] = split->im[lane];
+    L->gain[k] = k >= split->lanes ? 0 : pair ? 4 : 1;
+    for (int j = 0; j < s; j++) {
+      L->Vinv[j][k] = split->Tinv[row * s + j];
+      L->Vinv[j][lanes + k] = pair ? split->Tinv[(row + 1) * s + j] : 0;
+      L->V[k][j] = k < split->lanes ? split->T[j * s + row] : 0;
+      L->V[lanes + k][j] = k < split->lanes && pair ? split->T[j * s + row + 1] : 0;
+    }
+  }
+}
+
+int stf_lanes_open(stf_pool *pool, const stf_split *split, int n, const double *M, stf_lanes *L)
+{
+  *L = (stf_lanes){.n = n, .s = split->s, .M = M};
+  L->lanes = padded(split->lanes, STF_LANES);
+  L->wide = split->s <= 4 ? 4 : split->s <= 8 ? 8 : 16;
+  fill(split, L);
+  const size_t count = (size_t)n, row = (size_t)(2 * L->lanes);
+  L->lu = stf_claim(pool, count * count * row, sizeof *L->lu);
+  L->omega = stf_claim(pool, 3 * count * row, sizeof *L->omega);
+  L->Z = stf_claim(pool, count * (size_t)L->wide, sizeof *L->Z);
+  L->F = stf_claim(pool, 2 * count * (size_t)L->s, sizeof *L->F);
+  L->order = stf_claim(pool, count, sizeof *L->order);
+  if (!L->lu || !L->omega || !L->Z || !L->F || !L->order) return STEIF_NO_MEMORY;
+  L->rhs = L->omega + count * row, L->work = L->rhs + count * row;
+  L->Y = L->F + count * (size_t)L->s;
+  return STEIF_OK;
+}

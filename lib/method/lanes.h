@@ -1,0 +1,49 @@
+/* lanes.h: collocation for small dense systems, all shifts factored and solved together.
+ *
+ * The lanes of a split (one per real eigenvalue and per conjugate pair of A^{-1}) are the innermost
+ * index of every array: entry (i, j) of the LU holds re[lane], im[lane], so that one pass over the
+ * matrix serves all shifts in vector registers. A real shift rides along with zero imaginary part.
+ * Stage values are kept by component, padded to `wide` stages.
+ *
+ *   (lambda_k / h M - J) d omega_k = [V^{-1} F]_k - (lambda_k / h) M omega_k,   Z = V omega
+ *
+ * with eigenvectors scaled to last component 1 (Hairer and Wanner, Solving ODEs II, IV.8).
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_LANES_H
+#define STF_LANES_H
+
+#include "table.h"
+
+enum { STF_LANES = 8, STF_WIDE = 16 };
+
+typedef struct stf_lanes {
+  int n, s, lanes, wide;        /* lanes: 1, 2, 4 or 8; wide: stages padded to 4, 8 or 16 */
+  double lambda[2 * STF_LANES]; /* re, im; padding lanes repeat the first */
+  double gain[STF_LANES]; /* weight of |omega_k|^2 in the norm: 1 real, 4 pair, 0 padding */
+  double Vinv[STF_WIDE][2 * STF_LANES]; /* column j of V^{-1}: re, im by lane */
+  double V[2 * STF_LANES][STF_WIDE];    /* Z_j = sum_k V[k][j] re_k + V[lanes + k][j] im_k */
+  double *lu;                           /* n x n by rows, 2 lanes each */
+  int *order;                           /* rows in the order of elimination */
+  double *omega, *rhs, *work;           /* n x 2 lanes */
+  double *Z;                            /* n x wide */
+  double *F, *Y;                        /* s x n, by stages: callbacks write and read them */
+  const double *M;                      /* n x n by rows; NULL: identity */
+} stf_lanes;
+
+/* Lanes of an eigen split (no coupling) for n components; claimed from the pool. */
+int stf_lanes_open(stf_pool *pool, const stf_split *split, int n, const double *M,
+                   stf_lanes *L);
+
+/* LU of all lanes; J n x n by columns. 0, or 1 + the column whose pivot vanished. */
+int stf_lanes_factor(stf_lanes *L, const double *J, double h);
+/* omega = V^{-1} Z of the predicted stages, and Y = y + Z. */
+void stf_lanes_begin(stf_lanes *L, const double *y);
+/* One Newton sweep from F: omega and Y are moved; returns sum_i weight_i^2 sum_k gain |d omega|^2. */
+double stf_lanes_sweep(stf_lanes *L, const double *y, const double *weight, double h);
+/* Z from omega. */
+void stf_lanes_end(stf_lanes *L);
+/* x = (lambda_0 / h M - J)^{-1} x, by the real lane 0, or the quadratic filter of a pair. */
+void stf_lanes_filter(stf_lanes *L, double *x);
+
+#endif

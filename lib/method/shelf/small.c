@@ -1,0 +1,330 @@
+/* small.c: collocation with chosen steps for small dense systems y' = f or M y' = f: the same formulas
+ * as irk.c, with all shifts in vector lanes (lanes.h) and the control of an adaptive code.
+ *
+ *   Start of the iteration: the last polynomial, cut where its terms at the new step begin to grow.
+ *   Jacobian: at (t_n + h/4, predicted) while the prediction is good, else at (t_n, y_n); renewed with
+ *   the factors when the rate of convergence was above 1e-3.
+ *   Newton: theta_m = ||d^m|| / ||d^(m-1)||, eta = theta/(1 - theta), stop at eta ||d|| <= kappa.
+ *   Error: (lambda_0/h M - J)^{-1} [f(t_n, y_n) + M/h sum d_j Z_j], filtered twice at the start and
+ *   after a refusal.
+ * Hairer and Wanner, Solving ODEs II, IV.8.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "small.h"
+#include <math.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+typedef stf_small state;
+
+bool stf_small_serves(const stf_step *s)
+{
+  const steif_table *T = s->table;
+  return T && T->kind == STEIF_COLLOCATION && T->s <= STF_SMALL_STAGES && T->c[0] > 0 &&
+         s->adaptive && s->system.space.serial && s->system.storage == STEIF_DENSE &&
+         s->problem->n <= STF_SMALL_LARGEST &&
+         (s->system.form == STEIF_ODE || s->system.form == STEIF_MASS);
+}
+
+static void destroy(void *v) { N_VDestroy(v); }
+
+/* Vectors whose data are the rows of an array. */
+static N_Vector *views(stf_step *s, double *data)
+{
+  const state *e = s->state;
+  N_Vector *v = stf_claim(s->pool, (size_t)e->s, sizeof *v);
+  for (int j = 0; v && j < e->s; j++) {
+    v[j] = N_VMake_Serial(e->n, data + j * e->n, steif_sundials(s->ctx));
+    if (!v[j]) STEIF_FAIL(s->ctx, STEIF_NO_MEMORY, "no memory for the view of a stage");
+    if (!v[j] || stf_claim_owner(s->pool, v[j], destroy)) return NULL;
+  }
+  return v;
+}
+
+/* M by rows from the dense E of the system; NULL for the identity. */
+static int fill_M(stf_step *s, state *e)
+{
+  if (!s->system.E) return STEIF_OK;
+  e->M = stf_claim(s->pool, (size_t)(e->n * e->n), sizeof *e->M);
+  if (!e->M) return STEIF_NO_MEMORY;
+  const sunrealtype *E = SM_DATA_D(s->system.E);
+  for (int i = 0; i < e->n; i++)
+    for (int j = 0; j < e->n; j++) e->M[i * e->n + j] = E[i + e->n * j];
+  return STEIF_OK;
+}
+
+static int claim(stf_step *s, state *e)
+{
+  const size_t n = (size_t)e->n;
+  e->Y = views(s, e->L.Y), e->F = views(s, e->L.F);
+  e->a = stf_claim(s->pool, n * (size_t)e->L.wide, sizeof *e->a);
+  e->moved = stf_claim_vector(s->pool, s->y);
+  e->f0 = stf_claim(s->pool, n, sizeof *e->f0);
+  e->before = stf_claim(s->pool, n, sizeof *e->before);
+  return e->Y && e->F && e->moved && e->a && e->f0 && e->before ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  (void)spec;
+  state *e = s->state;
+  stf_split split;
+  e->table = table, e->s = table->s, e->n = (int)s->problem->n;
+  STEIF_TRY(stf_split_build(s->pool, s->ctx, table, &split));
+  STEIF_TRY(fill_M(s, e));
+  STEIF_TRY(stf_lanes_open(s->pool, &split, e->n, e->M, &e->L));
+  STEIF_TRY(claim(s, e));
+  for (int j = 0; j < e->s; j++) stf_small_basis(e, j);
+  e->itmax =
+    s->options->iterations ? s->options->iterations : 7 + (e->s > 3 ? 5 * (e->s - 3) / 2 : 0);
+  e->kappa = s->options->newton > 0 ? s->options->newton : 1e-2;
+  if (s->problem->dae_index >= 3 && !(s->options->newton > 0)) e->kappa = 1e-4;
+  e->eta = 1, e->new_J = true;
+  s->error_order = e->s;
+  s->error_tolerance = 0.1 * pow(s->options->rtol, (e->s + 1.0) / (2 * e->s) - 1);
+  return STEIF_OK;
+}
+
+/* -- Jacobian and factors ----------------------------------------------------------------------------- */
+
+/* A quarter step ahead on the last polynomial, while it predicts well. */
+static int jacobian(stf_step *s, double h)
+{
+  state *e = s->state;
+  const double ahead = 0.25, x = ahead * h / s->h;
+  e->new_J = true, e->eta = 1;
+  e->predicted = e->history && !s->restart && e->fails < 2 && e->first < 0.3 &&
+                 h < 1.5 * s->h && s->problem->dae_index < 2;
+  if (!e->predicted) return stf_system_matrices(&s->system, s->t, s->y, s->yp);
+  double *y = STF_ARRAY(s->next);
+  for (int i = 0; i < e->n; i++) {
+    const double *a = e->a + i * e->L.wide;
+    double sum = 0;
+    for (int k = e->s; k-- > 0;) sum = (sum + a[k]) * x;
+    y[i] = STF_ARRAY(s->y)[i] + sum;
+  }
+  return stf_system_matrices(&s->system, s->t + ahead * h, s->next, s->yp);
+}
+
+static int prepare(stf_step *s, double h)
+{
+  state *e = s->state;
+  const bool at_point = e->new_J && !e->predicted && e->fails > 0;
+  if (e->renew && !at_point) STEIF_TRY(jacobian(s, h));
+  if (!e->renew && e->h_factored == h) return STEIF_OK;
+  e->renew = false, e->h_factored = 0;
+  const int column = stf_lanes_factor(&e->L, SM_DATA_D(s->system.A), h);
+  s->factors += (e->s + 1) / 2;
+  if (column)
+    return STEIF_RECOVER(
+      s->ctx, STEIF_SINGULAR,
+      "the stage matrix of problem '%s' is singular in column %d (from 0) at "
+      "t = %.12g with h = %.6g: check that det(s E - A) is not identically zero",
+      s->problem->name, column - 1, s->t, h);
+  e->h_factored = h;
+  return STEIF_OK;
+}
+
+/* -- Newton ---------------------------------------------------------------------------------------------- */
+
+static int refuse(stf_step *s, double h, double norm, double theta, double shrink)
+{
+  state *e = s->state;
+  e->fails++, e->eta = 1, e->renew = true;
+  s->newton.fails++;
+  s->shrink = shrink;
+  if (!(norm <= 1e100))
+    return STEIF_RECOVER(
+      s->ctx, STEIF_NOT_FINITE,
+      "a stage of problem '%s' is not finite in the step from t = %.12g with "
+      "h = %.6g: the callbacks returned NaN or infinity, or the step is too large",
+      s->problem->name, s->t, h);
+  return STEIF_RECOVER(
+    s->ctx, STEIF_NO_CONVERGENCE,
+    "Newton's iteration was refused for problem '%s' in the step from t = %.12g "
+    "with h = %.6g: after %d iterations the correction is %.3g of its tolerance, "
+    "rate %.2g; check the Jacobian",
+    s->problem->name, s->t, h, e->iterations, norm / e->kappa, theta);
+}
+
+/* Rounding in the stages makes corrections below this meaningless. */
+static double floor_of(const stf_step *s, const state *e)
+{
+  const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
+  double most = 0;
+  for (int i = 0; i < e->n; i++) most = fmax(most, fabs(y[i]) * w[i]);
+  return fmax(e->kappa, 10 * STF_EPS * most);
+}
+
+static double power(double x, int n)
+{
+  double p = 1;
+  for (; n > 0; n--) p *= x;
+  return p;
+}
+
+static int evaluate(stf_step *s, double h)
+{
+  state *e = s->state;
+  for (int j = 0; j < e->s; j++) {
+    const int code = stf_system_rhs(&s->system, s->t + e->table->c[j] * h, e->Y[j], e->F[j]);
+    if (code) return e->fails++, e->renew = true, s->shrink = 0.25, code;
+  }
+  return STEIF_OK;
+}
+
+static int iterate(stf_step *s, double h)
+{
+  state *e = s->state;
+  const double tolerance = floor_of(s, e), mean = 1 / (double)(e->s * e->n);
+  const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
+  double last = 0, quotient = 0, theta = 0;
+  e->eta = pow(fmax(e->eta, STF_EPS), 0.8);
+  stf_lanes_begin(&e->L, y);
+  for (int m = 1;; m++) {
+    STEIF_TRY(evaluate(s, h));
+    const double norm = sqrt(stf_lanes_sweep(&e->L, y, w, h) * mean);
+    s->newton.sweeps++, s->solves += (e->s + 1) / 2, e->iterations = m;
+    if (!(norm <= 1e100)) return refuse(s, h, norm, theta, 0.25);
+    if (m == 1) e->first = norm;
+    if (m > 1) {
+      const double now = norm / last;
+      theta = m == 2 ? now : sqrt(now * quotient);
+      quotient = now;
+      if (!(theta < 0.99)) return refuse(s, h, norm, theta, 0.5);
+      e->eta = theta / (1 - theta);
+      const int left = e->itmax - 1 - m;
+      const double excess = e->eta * norm * power(theta, left) / tolerance;
+      if (left < 0 || excess >= 1) {
+        const double q = fmax(1e-4, fmin(20, excess));
+        return refuse(s, h, norm, theta, 0.8 * pow(q, -1.0 / (4 + (left > 0 ? left : 0))));
+      }
+    }
+    if (e->eta * norm <= tolerance) break;
+    last = fmax(norm, STF_EPS);
+  }
+  e->theta = theta;
+  return STEIF_OK;
+}
+
+/* -- error, end ---------------------------------------------------------------------------------------- */
+
+static int slope(stf_step *s, N_Vector y, double *out)
+{
+  state *e = s->state;
+  STEIF_TRY(stf_system_rhs(&s->system, s->t, y, s->error));
+  memcpy(out, STF_ARRAY(s->error), (size_t)e->n * sizeof *out);
+  return STEIF_OK;
+}
+
+/* x = f + M/h sum d_j Z_j. */
+static void defect(const state *e, const double *f, double h, double *x)
+{
+  double sum[STF_SMALL_LARGEST];
+  for (int i = 0; i < e->n; i++) {
+    sum[i] = 0;
+    for (int j = 0; j < e->s; j++) sum[i] += e->d[j] * e->L.Z[i * e->L.wide + j];
+    sum[i] /= h;
+  }
+  for (int i = 0; i < e->n; i++) {
+    x[i] = e->M ? f[i] : f[i] + sum[i];
+    for (int j = 0; e->M && j < e->n; j++) x[i] += e->M[i * e->n + j] * sum[j];
+  }
+}
+
+static int estimate(stf_step *s, double h)
+{
+  state *e = s->state;
+  double *x = STF_ARRAY(s->error), f[STF_SMALL_LARGEST];
+  if (!e->have_f0) STEIF_TRY(slope(s, s->y, e->f0));
+  e->have_f0 = true;
+  defect(e, e->f0, h, x);
+  stf_lanes_filter(&e->L, x);
+  if (s->count > 0 && !s->refused) return STEIF_OK;
+  if (stf_norm(&s->system.space, s->error, s->weights) <= s->error_tolerance) return STEIF_OK;
+  for (int i = 0; i < e->n; i++) STF_ARRAY(e->moved)[i] = STF_ARRAY(s->y)[i] + x[i];
+  STEIF_TRY(slope(s, e->moved, f));
+  defect(e, f, h, x);
+  stf_lanes_filter(&e->L, x);
+  return STEIF_OK;
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  stf_small_predict(s, e, h);
+  STEIF_TRY(prepare(s, h));
+  STEIF_TRY(iterate(s, h));
+  stf_lanes_end(&e->L);
+  double *next = STF_ARRAY(s->next);
+  const double *y = STF_ARRAY(s->y);
+  const bool accurate = e->table->claims & STEIF_STIFFLY_ACCURATE;
+  for (int i = 0; i < e->n; i++) {
+    const double *z = e->L.Z + i * e->L.wide;
+    double sum = accurate ? z[e->s - 1] : 0;
+    for (int j = 0; !accurate && j < e->s; j++) sum += e->end[j] * z[j];
+    next[i] = y[i] + sum;
+  }
+  const int reach = 2 * e->itmax;
+  s->safety = fmin(0.9, 0.9 * (reach + 1) / (e->iterations + reach));
+  s->grow_most = e->theta > 0.05 ? fmax(1, 0.5 / e->theta) : 5;
+  s->keep_up_to = e->theta <= 1e-3 ? 1.2 : 1;
+  return estimate(s, h);
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  const int wide = e->L.wide;
+  double size = 0;
+  const double *w = STF_ARRAY(s->weights);
+  for (int i = 0; i < e->n; i++) {
+    const double *z = e->L.Z + i * wide;
+    double a[STF_WIDE] = {0};
+    for (int j = 0; j < e->s; j++)
+      for (int k = 0; k < wide; k++) a[k] += e->K[j][k] * z[j];
+    for (int k = 0; k < wide; k++) e->a[i * wide + k] = a[k];
+    size += z[e->s - 1] * z[e->s - 1] * w[i] * w[i];
+  }
+  e->first /= sqrt(size / (double)e->n) + 1e-300;
+  memcpy(e->before, STF_ARRAY(s->y), (size_t)e->n * sizeof *e->before);
+  stf_swap(s);
+  e->history = true, e->have_f0 = false, e->fails = 0, e->new_J = false;
+  e->renew = e->theta > 1e-3;
+}
+
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  const state *e = s->state;
+  const double x = (t - s->t) / s->h;
+  for (int i = 0; i < e->n; i++) {
+    const double *a = e->a + i * e->L.wide;
+    double sum = 0;
+    for (int k = e->s; k-- > 0;) sum = (sum + a[k]) * x;
+    STF_ARRAY(y)[i] = STF_ARRAY(s->y)[i] + sum;
+  }
+  return STEIF_OK;
+}
+
+static int stages(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                  N_Vector **X)
+{
+  const state *e = s->state;
+  *count = e->s, *c = e->table->c, *b = e->table->b, *X = e->Y;
+  for (int j = 0; j < e->s; j++)
+    for (int i = 0; i < e->n; i++)
+      STF_ARRAY(e->Y[j])[i] = e->before[i] + e->L.Z[i * e->L.wide + j];
+  return STEIF_OK;
+}
+
+const steif_method steif_method_small = {
+  .about = "fully implicit Runge-Kutta, all shifts in vector lanes",
+  .forms = STEIF_ODE | STEIF_MASS,
+  .traits = STF_ADAPTIVE,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+  .stages = stages,
+};

@@ -1,0 +1,30 @@
+/* small.h: the state of the family `small`, and the polynomial it predicts with.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_SMALL_H
+#define STF_SMALL_H
+
+#include "lanes.h"
+#include "method.h"
+
+enum { STF_SMALL_LARGEST = 64, STF_SMALL_STAGES = STF_EIGEN_STAGES };
+
+typedef struct stf_small {
+  const steif_table *table;
+  int s, n, itmax, iterations, fails; /* fails: attempts refused since the last accepted step */
+  stf_lanes L;
+  N_Vector *Y, *F; /* views of the stages in L */
+  N_Vector moved;
+  double *a; /* n x wide: u(t_n + x h_old) - y_n = sum_k a_k x^(k+1) */
+  double K[STF_SMALL_STAGES][STF_WIDE]; /* a_k = sum_j K[j][k] Z_j */
+  double d[STF_SMALL_STAGES], end[STF_SMALL_STAGES];
+  double *f0, *before, *M;
+  double h_factored, theta, eta, kappa, first; /* first: ||first correction|| / ||omega|| */
+  bool history, have_f0, renew, new_J, predicted;
+} stf_small;
+
+/* K, d and end for stage j. */
+void stf_small_basis(stf_small *e, int j);
+/* Z_j = u(q c_j) from the last polynomial, q = h / h_old, cut where its terms begin to grow. */
+void stf_small_predict(const stf_step *s, stf_small *e, double h);
+
+#endif

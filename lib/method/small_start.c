@@ -1,0 +1,63 @@
+/* small_start.c: the collocation polynomial of the last step as a start for the next one.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "small.h"
+#include <math.h>
+
+/* Coefficients of x^1 .. x^s of the Lagrange basis on 0, c_1 .. c_s at 1 + x, and its slope at 0. */
+void stf_small_basis(stf_small *e, int j)
+{
+  const sunrealtype *c = e->table->c;
+  long double p[STF_SMALL_STAGES + 2] = {1}, slope = 0;
+  int degree = 0;
+  for (int m = -1; m < e->s; m++) {
+    if (m == j) continue;
+    const long double node = m < 0 ? 0 : c[m], scale = 1 / ((long double)c[j] - node);
+    p[degree + 1] = 0;
+    for (int k = ++degree; k >= 0; k--)
+      p[k] = ((k ? p[k - 1] : 0) + (k < degree ? p[k] * (1 - node) : 0)) * scale;
+  }
+  for (int k = 0; k < e->s; k++) e->K[j][k] = (double)p[k + 1];
+  for (int k = degree; k >= 1; k--) slope = slope * -1 + p[k] * k;
+  e->d[j] = -(double)slope;
+  e->end[j] = (double)p[0];
+}
+
+/* Where to cut: the term after the last one kept should be the smallest. */
+static int terms(const stf_step *s, const stf_small *e, double q)
+{
+  const double *w = STF_ARRAY(s->weights);
+  double m[STF_SMALL_STAGES], power = q;
+  if (q <= 1.2) return e->s;
+  for (int k = 0; k < e->s; k++, power *= q) {
+    double sum = 0;
+    for (int i = 0; i < e->n; i++) {
+      const double x = e->a[i * e->L.wide + k] * w[i];
+      sum += x * x;
+    }
+    m[k] = sqrt(sum) * power;
+  }
+  int best = e->s;
+  double least =
+    e->s > 1 && m[e->s - 2] > 0 ? m[e->s - 1] * (m[e->s - 1] / m[e->s - 2]) : m[e->s - 1];
+  for (int k = e->s - 1; k >= 0; k--)
+    if (m[k] < least) least = m[k], best = k;
+  return best;
+}
+
+/* Z_j = u(q c_j) from the last polynomial. */
+void stf_small_predict(const stf_step *s, stf_small *e, double h)
+{
+  const int wide = e->L.wide;
+  const bool start = !e->history || s->restart || e->fails > 2;
+  const double q = start ? 0 : h / s->h;
+  const int count = start ? 0 : terms(s, e, q);
+  double x[STF_WIDE] = {0};
+  for (int j = 0; j < e->s; j++) x[j] = q * e->table->c[j];
+  for (int i = 0; i < e->n; i++) {
+    double *z = e->L.Z + i * wide;
+    const double *a = e->a + i * wide;
+    for (int j = 0; j < wide; j++) z[j] = 0;
+    for (int k = count; k-- > 0;)
+      for (int j = 0; j < wide; j++) z[j] = (z[j] + a[k]) * x[j];
+  }
+}
