@@ -1,0 +1,101 @@
+/* steif/impulse.h: structure of a descriptor system and its start from any x(0-).
+ *
+ * E x' + F x = f(t) with a regular pencil (det(s E + F) not identically zero) has for every x(0-) one
+ * solution in the sense of distributions,
+ *   x = x_smooth + sum_{i=0}^{k-2} c_i delta^(i),   k the index.
+ * With the Laurent expansion (s E + F)^{-1} = sum_{i <= k-1} Phi_i s^i at infinity
+ *   x(0+) = Phi_{-1} E x(0-) + sum_{j=0}^{k-1} Phi_j f^(j)(0+)
+ *   c_i   = Phi_i E x(0-) + sum_{j=0}^{k-2-i} Phi_{i+j+1} f^(j)(0+),   i = 0 .. k-2.
+ * Only E x(0-) enters. Checks: E c_{k-2} = 0, F c_i + E c_{i-1} = 0, F c_0 + E (x(0+) - x(0-)) = 0.
+ *
+ * Dense pencils: singular-value staircase at infinity with tolerances that grow with what was
+ * divided by, checked by a generalised Schur form with exactly as many infinite eigenvalues split
+ * off. Sparse pencils: Cauchy integrals over a circle of radius R beyond the finite eigenvalues,
+ * complex KLU with one symbolic analysis, equilibrated and refined; certified when the number of
+ * finite eigenvalues counted inside the circle (Jensen's formula) equals the structural degree.
+ * What double precision does not decide is reported as undecided with a lower bound, never guessed.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_IMPULSE_H
+#define STEIF_IMPULSE_H
+
+#include <steif/problem.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum steif_algorithm {
+  STEIF_AUTOMATIC,  /* staircase up to n = 400 when dense or small, else contour */
+  STEIF_STAIRCASE,  /* dense, checked by STEIF_QZ */
+  STEIF_QZ,         /* dense, generalised Schur form reordered */
+  STEIF_CONTOUR,    /* sparse */
+  STEIF_DRAZIN      /* sparse, one real factorisation and a Krylov space */
+};
+
+typedef struct steif_analysis {
+  enum steif_algorithm algorithm;
+  sunrealtype radius;       /* of the circle; 0: raised until the count equals the degree */
+  int points;               /* of the quadrature; 0: 16 */
+  int refinements;          /* of each solve; 0: 2; -1: none */
+  int index_most;           /* largest index looked for; 0: 8 */
+  unsigned seed;            /* of the random directions; 0: 1 */
+} steif_analysis;
+
+/* What was found. Lists are owned by the structure. */
+typedef struct steif_structure {
+  sunindextype n, rank_E;
+  int regular;              /* 1, 0 */
+  int index;                /* -1: undecided, then index_least is a lower bound */
+  int index_least;
+  sunindextype finite, infinite; /* eigenvalues; -1: undecided */
+  sunindextype degree;      /* structural: maximum-weight perfect matching; -1: no perfect matching */
+  sunrealtype count;        /* finite eigenvalues by Jensen's formula; NaN: not computed */
+  int weyr_count;           /* Weyr characteristic at infinity, dense algorithms; 0: not computed */
+  sunindextype *weyr;
+  sunrealtype gap;          /* ratio of the singular values or moments that decide the index */
+  sunrealtype rcond;        /* best reciprocal condition of equilibrated s E + F tried */
+  sunrealtype radius;       /* estimate of the largest finite |eigenvalue|, or the radius used */
+  int certified;
+  const char *method;       /* "staircase", "qz", "contour", "drazin" */
+  sunindextype equations_count, unknowns_count; /* offenders, 0-based, when singular or index > 1 */
+  sunindextype *equations, *unknowns;
+  char message[512];
+} steif_structure;
+
+/* E and F: dense or sparse (CSC), square, of one size; a dense one and a sparse one may be mixed.
+ * Returns STEIF_OK when the analysis could be made, whatever it found: also for singular pencils. */
+STEIF_EXPORT int steif_structure_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                                      const steif_analysis *analysis, steif_structure *structure);
+STEIF_EXPORT void steif_structure_clear(steif_context *ctx, steif_structure *structure);
+
+typedef struct steif_impulse {
+  sunindextype n;
+  int index, count;         /* count = max(index - 1, 0) impulse coefficients */
+  sunrealtype *x_plus;      /* n */
+  sunrealtype *c;           /* count x n, by rows: c_0, c_1, ... */
+  sunrealtype last, chain, first; /* residuals ||E c_{k-2}||, max ||F c_i + E c_{i-1}||, ||F c_0 +
+                               E (x+ - x-)||, each relative to the norms of its terms */
+  sunrealtype estimate;     /* of the relative error of x_plus: two radii, or two algorithms */
+  int certified;
+  const char *method;
+  char message[512];
+} steif_impulse;
+
+/* x0: n values x(0-). f: forcing at time t with derivatives up to index - 1 (NULL: f = 0); a missing
+ * derivative is STEIF_BAD_INPUT. structure: of steif_structure_find, or NULL to find it here.
+ * STEIF_SINGULAR for a singular pencil; STEIF_NOT_CERTIFIED never: see certified. */
+STEIF_EXPORT int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                                    const sunrealtype *x0, sunrealtype t, steif_forcing f,
+                                    void *user, const steif_analysis *analysis,
+                                    const steif_structure *structure, steif_impulse *impulse);
+STEIF_EXPORT void steif_impulse_clear(steif_context *ctx, steif_impulse *impulse);
+
+/* Pi_s = Phi_{-1} E (slow) into P, n x n by columns: dense pencils only. */
+STEIF_EXPORT int steif_projector_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                                      const steif_analysis *analysis, sunrealtype *P);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

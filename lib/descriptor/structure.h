@@ -1,0 +1,49 @@
+/* structure.h: what the analyses of descriptor systems share inside the room.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_STRUCTURE_H
+#define STF_STRUCTURE_H
+
+#include "base.h"
+#include <steif/impulse.h>
+
+/* Right-hand sides of the Laurent formulas: columns E x0, f, f', ..., f^(derivatives). */
+typedef struct stf_sources {
+  sunindextype n;
+  int derivatives;         /* highest order of f that is there */
+  const sunrealtype *Ex0;  /* n */
+  const sunrealtype *f;    /* (derivatives + 1) x n by rows; NULL: f = 0 */
+} stf_sources;
+
+/* Dense algorithms (staircase.c, qz.c): E and F column-major n x n. Each fills what it knows of
+ * *structure (zeroed by the caller), and of *impulse when sources are given (index known). */
+int stf_staircase(steif_context *ctx, sunindextype n, const sunrealtype *E, const sunrealtype *F,
+                  const steif_analysis *analysis, const sunrealtype *x0, const stf_sources *sources,
+                  steif_structure *structure, steif_impulse *impulse, sunrealtype *slow_projector);
+int stf_qz(steif_context *ctx, sunindextype n, const sunrealtype *E, const sunrealtype *F,
+           const steif_analysis *analysis, sunindextype infinite, const sunrealtype *x0,
+           const stf_sources *sources, steif_structure *structure, steif_impulse *impulse);
+
+/* Sparse algorithms (contour.c, drazin.c): E and F sparse CSC. */
+int stf_contour(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
+                steif_structure *structure);
+int stf_contour_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
+                        const sunrealtype *x0, const stf_sources *sources,
+                        steif_structure *structure, steif_impulse *impulse);
+int stf_drazin_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
+                       const sunrealtype *x0, const stf_sources *sources,
+                       steif_structure *structure, steif_impulse *impulse);
+
+/* Combinatorics of the pattern (matching.c): structural rank, degree (maximum-weight perfect
+ * matching, weight 1 on entries of E), and by the Dulmage-Mendelsohn decomposition the equations
+ * and unknowns of the over- and under-determined parts when there is no perfect matching. */
+int stf_matching(steif_context *ctx, SUNMatrix E, SUNMatrix F, sunindextype *rank,
+                 steif_structure *structure);
+
+/* Claims lists in a structure and an impulse; NULL members stay. */
+int stf_structure_list(steif_context *ctx, sunindextype count, sunindextype **list);
+int stf_impulse_claim(steif_context *ctx, sunindextype n, int index, steif_impulse *impulse);
+/* The three residuals of steif_impulse from its x_plus and c. */
+void stf_impulse_residuals(SUNMatrix E, SUNMatrix F, const sunrealtype *x0, const sunrealtype *f,
+                           steif_impulse *impulse);
+
+#endif
