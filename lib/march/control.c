@@ -133,7 +133,7 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
       stf_norm(&step->system.space, step->error, step->weights) / step->error_tolerance;
     if (e <= 1) {
       accept(s, h, h == left ? t_stop : step->t + h);
-      s->h_next = grown(s, h, e);
+      s->h_next = step->factor > 0 ? h * step->factor : grown(s, h, e);
       s->h_old = h, s->error_old = e, s->after_reject = false;
       return STEIF_OK;
     }

@@ -167,6 +167,19 @@ static int claim_step(steif_solver *s)
   return step->next && step->error && step->weights ? claim_state(s) : STEIF_NO_MEMORY;
 }
 
+/* Chosen steps have families of their own. */
+static int specialise(steif_solver *s)
+{
+  stf_step *step = &s->step;
+  if (stf_small_serves(step))
+    step->method = &steif_method_small;
+  else if (step->adaptive && !step->table)
+    step->method = &steif_method_vbdf;
+  else
+    return STEIF_OK;
+  return claim_state(s);
+}
+
 static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector y, N_Vector yp)
 {
   stf_step *step = &s->step;
@@ -201,10 +214,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
                             &step->system));
   open_newton(s);
   step->safety = 0.9, step->grow_most = 5, step->keep_up_to = 1.2;
-  if (stf_small_serves(step)) {
-    step->method = &steif_method_small;
-    STEIF_TRY(claim_state(s));
-  }
+  STEIF_TRY(specialise(s));
   STEIF_TRY(step->method->open(step, spec, step->table));
   s->shown = step->y;
   if (!step->adaptive) return STEIF_OK;

@@ -59,9 +59,10 @@ struct stf_step {
   N_Vector next, error, weights;
   long factors, solves;                      /* made by a family without the pencil */
   sunrealtype safety, grow_most, keep_up_to; /* of the next step's length, for this attempt */
-  sunrealtype shrink;                        /* factor for h after a refusal; 0: the frame's */
-  int error_order;                           /* error = O(h^(error_order + 1)) */
-  sunrealtype error_tolerance;               /* accept when norm(error) <= this */
+  sunrealtype factor; /* of the next step's length, chosen by the family; 0: by the frame */
+  sunrealtype shrink; /* factor for h after a refusal; 0: the frame's */
+  int error_order;    /* error = O(h^(error_order + 1)) */
+  sunrealtype error_tolerance; /* accept when norm(error) <= this */
 };
 
 typedef struct stf_method_entry {
@@ -83,6 +84,8 @@ int stf_solve_stages(stf_step *s, const stf_stages *stages);
 /* May the family `small` (vector lanes) replace irk for this opened system? */
 bool stf_small_serves(const stf_step *s);
 extern const steif_method steif_method_small;
+/* The family for bdf with chosen steps. */
+extern const steif_method steif_method_vbdf;
 
 /* y <-> next. */
 void stf_swap(stf_step *s);

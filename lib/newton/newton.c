@@ -18,7 +18,7 @@ int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split,
   const int s = split->s;
   N_Vector like = system->space.like;
   newton->system = system, newton->split = *split, newton->weights = weights;
-  newton->stale = 0.1;
+  newton->stale = 0.1, newton->relax = 1;
   newton->eta = 1;
   newton->Y = stf_claim_vector(pool, like);
   newton->residual = stf_claim_vectors(pool, s, like);
@@ -34,25 +34,48 @@ int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split,
   return good ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
+/* May the factors in use serve another shift? Then corrections are scaled by 2 / (1 + ratio), which
+ * centres the rate of convergence over the spectrum (Petzold, DASSL). */
+static bool serves(stf_newton *newton, sunrealtype shift)
+{
+  const sunrealtype ratio = shift / newton->shift, window = newton->window;
+  if (!(window > 1) || newton->wanted || newton->system->linear) return false;
+  if (!(ratio < window && ratio > 1 / window)) return false;
+  newton->relax = 2 / (1 + ratio);
+  return true;
+}
+
+static int factor(stf_newton *newton, sunrealtype h)
+{
+  const stf_split *split = &newton->split;
+  steif_shift shift[STEIF_STAGES];
+  for (int k = 0; k < split->lanes; k++)
+    shift[k] = (steif_shift){split->re[k] / h, split->im[k] / h};
+  newton->factored = false;
+  STEIF_TRY(steif_pencil_factor(newton->system->pencil, split->lanes, shift));
+  newton->shift = shift[0].re, newton->factored = true;
+  newton->relax = 1, newton->eta = 1;
+  return STEIF_OK;
+}
+
 int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vector y,
                        N_Vector yp, bool jacobian)
 {
   const stf_split *split = &newton->split;
+  const sunrealtype shift = split->re[0] / h;
+  const bool same = newton->factored && shift == newton->shift;
+  if (!same || newton->h != h)
+    for (int i = 0; i < split->s * split->s; i++) newton->B_over_h[i] = split->B[i] / h;
+  newton->h = h;
+  if (!jacobian && same) return STEIF_OK;
+  if (!jacobian && newton->factored && serves(newton, shift)) return STEIF_OK;
+  if (!jacobian) jacobian = newton->join && !newton->fresh;
   if (jacobian && !(newton->system->linear && newton->factored)) {
     STEIF_TRY(stf_system_linearise(newton->system, t, y, yp));
     newton->factored = false, newton->wanted = false;
   }
   if (jacobian) newton->fresh = true;
-  if (newton->factored && newton->h == h) return STEIF_OK;
-  steif_shift shift[STEIF_STAGES];
-  for (int k = 0; k < split->lanes; k++)
-    shift[k] = (steif_shift){split->re[k] / h, split->im[k] / h};
-  for (int i = 0; i < split->s * split->s; i++) newton->B_over_h[i] = split->B[i] / h;
-  newton->factored = false;
-  STEIF_TRY(steif_pencil_factor(newton->system->pencil, split->lanes, shift));
-  newton->h = h, newton->factored = true;
-  newton->eta = 1;
-  return STEIF_OK;
+  return newton->factored && shift == newton->shift ? STEIF_OK : factor(newton, h);
 }
 
 /* The first residual of a solve from Z = 0: slopes are the offsets, arguments the bases. */
@@ -127,7 +150,7 @@ static int sweep(stf_newton *newton, const stf_stages *g, sunrealtype *norm)
   for (int j = 0; j < s; j++) {
     const sunrealtype part = stf_norm(space, newton->dZ[j], newton->weights);
     sum += part * part;
-    stf_axpy(space, -1, newton->dZ[j], g->Z[j]);
+    stf_axpy(space, -newton->relax, newton->dZ[j], g->Z[j]);
   }
   *norm = sqrt(sum / s);
   return STEIF_OK;
@@ -227,9 +250,8 @@ int stf_newton_full(stf_newton *newton, const stf_stages *g)
 void stf_newton_single(stf_newton *newton, sunrealtype b)
 {
   if (newton->split.re[0] == b) return;
-  newton->split.re[0] = b;
+  newton->split.re[0] = b, newton->h = 0;
   *(sunrealtype *)newton->split.B = b;
-  newton->factored = false;
 }
 
 bool stf_newton_stale(const stf_newton *newton) { return newton->wanted; }

@@ -27,13 +27,16 @@ typedef struct stf_newton {
   N_Vector *residual, *omega, *dZ, *Zp, Y; /* s, s, s, s, 1 vectors */
   N_Vector zero;
   sunrealtype *B_over_h, *minus_T; /* B / h, -T */
-  sunrealtype h;                   /* of B_over_h and the shifts */
-  bool factored, fresh;            /* factors exist for (h, E, A); Jacobian made in this step */
-  bool wanted;                     /* a new Jacobian is wanted */
-  sunrealtype theta, eta;          /* of the last solve */
-  sunrealtype eta_least;           /* floor of the eta that a first correction is judged by */
-  int count;                       /* iterations of the last solve */
-  long solves, sweeps, fails;      /* lane solves, iterations, refusals */
+  sunrealtype window;         /* > 1: factors serve shifts within this ratio (one real lane) */
+  bool join;                  /* a new factorisation takes a new Jacobian along */
+  sunrealtype shift, relax;   /* of lane 0 in the factors; factor of the corrections */
+  sunrealtype h;              /* of B_over_h */
+  bool factored, fresh;       /* factors exist for (h, E, A); Jacobian made in this step */
+  bool wanted;                /* a new Jacobian is wanted */
+  sunrealtype theta, eta;     /* of the last solve */
+  sunrealtype eta_least;      /* floor of the eta that a first correction is judged by */
+  int count;                  /* iterations of the last solve */
+  long solves, sweeps, fails; /* lane solves, iterations, refusals */
 } stf_newton;
 
 /* Where the stages are. */

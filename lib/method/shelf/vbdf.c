@@ -1,0 +1,184 @@
+/* vbdf.c: BDF with chosen steps and orders 1 to 5 (or up to the p of the spec), variable coefficients
+ * on the true mesh.
+ *
+ *   y'(t_{n+1}) = (1/h) sum_j alpha_j y_{n+1-j};  error_k = h/(t_{n+1} - t_{n-k}) (y_{n+1} - pred_k),
+ * pred_k the extrapolation through k + 1 past points. Factors are kept while alpha_0/h stays within
+ * a ratio of 1.67; steps grow only by factors above 1.5, and every k + 1 steps the neighbouring
+ * orders are compared (biases 6, 6, 10 as in VODE: Brown, Byrne, Hindmarsh, SISC 10, 1989).
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "method.h"
+#include <math.h>
+#include <string.h>
+
+enum { HIGHEST = 5, POINTS = HIGHEST + 2 };
+
+typedef struct state {
+  int p, k, last;   /* highest order; order of the trial; of the last step */
+  int points, wait; /* valid past points; steps until the order is looked at */
+  int refusals;
+  N_Vector y[POINTS + 1];
+  sunrealtype t[POINTS + 1];
+  sunrealtype alpha[HIGHEST + 1];
+  N_Vector base, offset, Z, other;
+} state;
+
+/* Weights of the extrapolation to time t through the first `count` past points. */
+static void extrapolate(const state *e, int count, sunrealtype t, sunrealtype *weight)
+{
+  sunrealtype node[POINTS];
+  for (int j = 0; j < count; j++) node[j] = e->t[j] - t;
+  stf_interpolate(count - 1, node, 0, weight);
+}
+
+static void predict(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const int count = e->points < e->k + 1 ? e->points : e->k + 1;
+  sunrealtype weight[POINTS];
+  extrapolate(e, count, s->t + h, weight);
+  stf_combine(space, count, weight, e->y, e->base);
+  if (e->points == 1 && s->yp_known && !s->restart) stf_axpy(space, h, s->yp, e->base);
+}
+
+static int solve(stf_step *s, sunrealtype h)
+{
+  static const sunrealtype c[] = {1};
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  sunrealtype a[HIGHEST + 1], node[HIGHEST + 1] = {0};
+  for (int j = 1; j <= e->k; j++) node[j] = (e->t[j - 1] - (s->t + h)) / h;
+  stf_differentiate(e->k, node, e->alpha);
+  stf_newton_single(&s->newton, e->alpha[0]);
+  for (int j = 1; j <= e->k; j++) a[j - 1] = e->alpha[j] / h;
+  stf_combine(space, e->k, a, e->y, e->offset);
+  if (!s->absolute) stf_axpy(space, e->alpha[0] / h, e->base, e->offset);
+  stf_zero(space, e->Z);
+  const stf_stages g = {.t = s->t,
+                        .h = h,
+                        .c = c,
+                        .base = s->absolute ? NULL : &e->base,
+                        .offset = &e->offset,
+                        .Z = s->absolute ? &s->next : &e->Z};
+  STEIF_TRY(stf_solve_stages(s, &g));
+  if (!s->absolute) stf_sum(space, 1, e->base, 1, e->Z, s->next);
+  return STEIF_OK;
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  if (s->restart) e->points = 1, e->k = 1, e->wait = 2;
+  if (!s->refused) e->refusals = 0;
+  if (++e->refusals > 4) e->k = 1; /* the history is not to be trusted */
+  if (e->k > e->points) e->k = e->points;
+  predict(s, h);
+  STEIF_TRY(solve(s, h));
+  const sunrealtype span = e->points > e->k ? s->t + h - e->t[e->k] : 2 * h;
+  stf_sum(&s->system.space, h / span, s->next, -h / span, e->base, s->error);
+  s->error_order = e->k;
+  return STEIF_OK;
+}
+
+/* Norm of the error of order k, in units of the tolerance, for the step just solved. */
+static sunrealtype error_at(stf_step *s, int k)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  sunrealtype weight[POINTS];
+  const sunrealtype t = s->t + s->h_try, scale = s->h_try / (t - e->t[k]);
+  extrapolate(e, k + 1, t, weight);
+  stf_combine(space, k + 1, weight, e->y, e->other);
+  stf_sum(space, scale, s->next, -scale, e->other, e->other);
+  return stf_norm(space, e->other, s->weights);
+}
+
+static sunrealtype growth(sunrealtype bias, sunrealtype error, int k)
+{
+  return 1 / (pow(bias * error, 1 / (k + 1.0)) + 1e-6);
+}
+
+/* Order and length of the next step. */
+static void choose(stf_step *s)
+{
+  state *e = s->state;
+  const int k = e->k;
+  sunrealtype best = growth(6, stf_norm(&s->system.space, s->error, s->weights), k);
+  int order = k;
+  if (--e->wait <= 0) {
+    const sunrealtype lower = k > 1 ? growth(6, error_at(s, k - 1), k - 1) : 0;
+    const bool room = k < e->p && e->points >= k + 2;
+    const sunrealtype higher = room ? growth(10, error_at(s, k + 1), k + 1) : 0;
+    if (lower > best) best = lower, order = k - 1;
+    if (higher > best) best = higher, order = k + 1;
+    e->wait = 2;
+  }
+  const sunrealtype most = s->count < 2 ? 1e4 : 10;
+  s->factor = best < 1.5 ? 1 : best < most ? best : most;
+  if (s->factor == 1) return;
+  if (order != k) e->k = order;
+  e->wait = e->k + 1;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  e->last = e->k;
+  choose(s);
+  N_Vector oldest = e->y[POINTS];
+  for (int j = POINTS; j > 0; j--) e->y[j] = e->y[j - 1], e->t[j] = e->t[j - 1];
+  e->y[0] = s->y = s->next;
+  e->t[0] = s->t + s->h_try;
+  s->next = oldest;
+  if (e->points < POINTS) e->points++;
+  if (s->system.form == STEIF_IMPLICIT) stf_copy(&s->system.space, s->newton.Zp[0], s->yp);
+}
+
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  const state *e = s->state;
+  sunrealtype weight[POINTS];
+  extrapolate(e, e->last + 1, t, weight);
+  stf_combine(&s->system.space, e->last + 1, weight, (N_Vector *)e->y, y);
+  return STEIF_OK;
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  (void)table;
+  state *e = s->state;
+  stf_split split;
+  const bool be = !strcmp(spec->name, "be");
+  const char *start = s->options->start ? s->options->start : stf_spec_word(spec, "start");
+  STEIF_CHECK(!start || !strcmp(start, "ramp"), s->ctx, STEIF_UNSUPPORTED,
+              "start=%s is for given steps: set h", start);
+  STEIF_TRY(stf_spec_int(s->ctx, spec, "p", 1, 6, be ? 1 : HIGHEST, &e->p));
+  if (e->p > HIGHEST) e->p = HIGHEST;
+  STEIF_TRY(stf_split_single(s->pool, 1, &split));
+  STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
+  s->newton.window = 1.67, s->newton.join = true, s->newton.stale = 0.7;
+  if (!(s->options->newton > 0)) s->newton.tolerance = 0.05;
+  e->base = stf_claim_vector(s->pool, s->y);
+  e->offset = stf_claim_vector(s->pool, s->y);
+  e->Z = stf_claim_vector(s->pool, s->y);
+  e->other = stf_claim_vector(s->pool, s->y);
+  if (!e->base || !e->offset || !e->Z || !e->other) return STEIF_NO_MEMORY;
+  e->y[0] = s->y, e->t[0] = s->t;
+  e->points = 1, e->k = 1, e->wait = 2;
+  for (int j = 1; j <= POINTS; j++)
+    if (!(e->y[j] = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
+  s->error_tolerance = 1;
+  return STEIF_OK;
+}
+
+const steif_method steif_method_vbdf = {
+  .about = "backward differentiation formulas of variable step and order",
+  .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
+  .traits = STF_ADAPTIVE | STF_MULTISTEP,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+};
