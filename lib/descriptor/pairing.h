@@ -1,0 +1,17 @@
+/* pairing.h: the staircase and the generalised Schur form side by side on one dense pencil.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_PAIRING_H
+#define STF_PAIRING_H
+
+#include "structure.h"
+
+/* E and F: dense or CSC, checked already. `both`: the second algorithm too, and a verdict. */
+int stf_dense_structure(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                        const steif_analysis *analysis, bool both, steif_structure *structure);
+int stf_dense_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                      const steif_analysis *analysis, const sunrealtype *x0,
+                      const stf_sources *sources, steif_impulse *impulse);
+int stf_dense_projector(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                        const steif_analysis *analysis, sunrealtype *P);
+
+#endif

@@ -1,0 +1,284 @@
+/* staircase.c: the infinite part of a pencil s E + F by singular values: ker E is compressed,
+ * the range of F ker E split off by a QR factorisation, and the rest treated again. The number
+ * of deflations is the index, their sizes are the Weyr characteristic at infinity. P. Van
+ * Dooren, The computation of Kronecker's canonical form of a singular pencil, Linear Algebra
+ * Appl. 27 (1979); J. Demmel, B. Kagstrom, GUPTRI, ACM TOMS 19 (1993).
+ *
+ * Dividing by sigma_min(F ker E) makes rounding grow by up to ||F|| / sigma_min: so does the
+ * tolerance above which singular values are kept. E_inf is strictly block upper triangular in
+ * exact zeros, hence N is nilpotent, and
+ *   R <- F_inf^{-1} ((E_inf R + E_12) E_f^{-1} F_f - F_12)
+ * ends after as many sweeps as there are deflations.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "dense.h"
+#include "lapack.h"
+#include <math.h>
+#include <string.h>
+
+enum { BLOCK = 65 * 64 }; /* what dormqr keeps for its triangular factors */
+
+typedef struct stairs {
+  stf_split split; /* m rows and columns are deflated so far */
+  stf_pool *pool;
+  stf_svd svd;
+  sunrealtype *W, *move, *tau, *work;
+  int lwork, rank, levels, least; /* least: deflations before the first doubtful decision */
+  sunindextype *weyr;
+  sunrealtype norm_E, norm_F, tolerance, first, rcond, gap;
+  bool singular, doubtful;
+} stairs;
+
+static const sunrealtype decided = 1e3; /* smallest gap of a rank that is decided */
+
+static int open(steif_context *ctx, stf_pool *pool, int n, const sunrealtype *E,
+                const sunrealtype *F, stairs *s)
+{
+  const size_t size = (size_t)n * (size_t)n * sizeof *E;
+  *s = (stairs){.pool = pool, .gap = INFINITY, .lwork = 64 * n + BLOCK};
+  STEIF_TRY(stf_split_open(ctx, pool, n, &s->split));
+  STEIF_TRY(stf_svd_open(ctx, pool, n, &s->svd));
+  s->W = stf_claim_square(pool, n);
+  s->move = stf_claim_square(pool, n);
+  s->tau = stf_claim(pool, 3 * (size_t)n, sizeof *s->tau);
+  s->work = stf_claim(pool, (size_t)s->lwork, sizeof *s->work);
+  s->weyr = stf_claim(pool, (size_t)n, sizeof *s->weyr);
+  if (!s->W || !s->move || !s->tau || !s->work || !s->weyr) return STEIF_NO_MEMORY;
+  memcpy(s->split.E, E, size);
+  memcpy(s->split.F, F, size);
+  memset(s->split.P, 0, size);
+  memset(s->split.Q, 0, size);
+  for (int i = 0; i < n; i++) {
+    const size_t at = (size_t)i * (size_t)n + (size_t)i;
+    s->split.P[at] = s->split.Q[at] = 1;
+  }
+  STEIF_TRY(stf_svd_find(&s->svd, n, n, F, n, false));
+  s->norm_F = s->svd.sigma[0];
+  return STEIF_OK;
+}
+
+static sunrealtype *trailing(const stairs *s, sunrealtype *A, int row, int column)
+{
+  return A + (size_t)column * (size_t)s->split.n + row;
+}
+
+/* A gap that is too small makes this decision and all later ones doubtful. */
+static void note(stairs *s, sunrealtype gap)
+{
+  s->gap = fmin(s->gap, gap);
+  if (!s->doubtful && s->gap < decided) s->doubtful = true, s->least = s->levels;
+}
+
+/* Smallest value kept over the largest dropped when `rank` of r values are kept; rounding of E
+ * stands for dropped values below it. */
+static sunrealtype step(const stairs *s, int r, int rank)
+{
+  const sunrealtype *sigma = s->svd.sigma;
+  const sunrealtype kept = rank ? sigma[rank - 1] : s->norm_E;
+  return kept / fmax(rank < r ? sigma[rank] : 0, s->first);
+}
+
+/* Values above the grown tolerance are kept, values below the first one dropped, and between
+ * them the largest step decides; it is worth as much as it exceeds the second largest. */
+static int choose(stairs *s, int r)
+{
+  const sunrealtype *sigma = s->svd.sigma;
+  int least = 0, most, rank;
+  while (least < r && sigma[least] > s->tolerance) least++;
+  for (most = least; most < r && sigma[most] > s->first;) most++;
+  rank = least;
+  for (int j = least + 1; j <= most; j++)
+    if (step(s, r, j) > step(s, r, rank)) rank = j;
+  sunrealtype second = 1;
+  for (int j = least; j <= most; j++)
+    if (j != rank) second = fmax(second, step(s, r, j));
+  const sunrealtype kept = rank ? sigma[rank - 1] : s->norm_E;
+  const sunrealtype dropped = rank < r ? sigma[rank] : s->first;
+  if (dropped > 0) note(s, kept / dropped / second);
+  return rank;
+}
+
+/* dim ker of the trailing block of E; its singular vectors stay in svd. */
+static int kernel(stairs *s, int *k)
+{
+  const int r = s->split.n - s->split.m, m = s->split.m;
+  STEIF_TRY(stf_svd_find(&s->svd, r, r, trailing(s, s->split.E, m, m), s->split.n, true));
+  if (s->levels == 0) {
+    s->norm_E = s->svd.sigma[0];
+    s->first = s->tolerance = 4 * s->split.n * STF_EPS * s->norm_E;
+  }
+  const int rank = choose(s, r);
+  if (s->levels == 0) s->rank = rank;
+  *k = r - rank;
+  return STEIF_OK;
+}
+
+/* A[:, m:] := A[:, m:] W. */
+static void turn(stairs *s, sunrealtype *A)
+{
+  const int n = s->split.n, r = n - s->split.m;
+  sunrealtype *right = trailing(s, A, 0, s->split.m);
+  stf_gemm('N', 'N', n, r, r, 1, right, n, s->W, r, 0, s->move, n);
+  memcpy(right, s->move, (size_t)n * (size_t)r * sizeof *A);
+}
+
+/* Columns [ker E, rest] of the right singular vectors. */
+static void compress(stairs *s, int k)
+{
+  const int n = s->split.n, m = s->split.m, r = n - m;
+  for (int j = 0; j < r; j++) {
+    const int from = j < k ? r - k + j : j - k;
+    for (int i = 0; i < r; i++)
+      s->W[(size_t)j * (size_t)r + (size_t)i] = s->svd.VT[(size_t)i * (size_t)n + (size_t)from];
+  }
+  turn(s, s->split.E), turn(s, s->split.F), turn(s, s->split.Q);
+  for (int j = 0; j < k; j++)
+    memset(trailing(s, s->split.E, m, m + j), 0, (size_t)r * sizeof *s->W);
+}
+
+/* A := H^T A or A H with the reflectors of F ker E, stored packed in `move`. */
+static void reflect(stairs *s, char side, int rows, int columns, int k, sunrealtype *A)
+{
+  const int n = s->split.n, r = n - s->split.m;
+  const char op = side == 'L' ? 'T' : 'N';
+  int info;
+  if (rows > 0 && columns > 0)
+    dormqr_(&side, &op, &rows, &columns, &k, s->move, &r, s->tau, A, &n, s->work, &s->lwork,
+            &info, 1, 1);
+}
+
+/* F ker E = H [T; 0]: T stands in F, H goes to the rows below the stairs. */
+static void deflate(stairs *s, int k)
+{
+  const int n = s->split.n, m = s->split.m, r = n - m;
+  int info;
+  stf_split_block(&s->split, s->split.F, m, m, r, k, s->move);
+  dgeqrf_(&r, &k, s->move, &r, s->tau, s->work, &s->lwork, &info);
+  for (int j = 0; j < k; j++)
+    for (int i = 0; i < r; i++)
+      *trailing(s, s->split.F, m + i, m + j) =
+        i <= j ? s->move[(size_t)j * (size_t)r + (size_t)i] : 0;
+  reflect(s, 'L', r, r - k, k, trailing(s, s->split.E, m, m + k));
+  reflect(s, 'L', r, r - k, k, trailing(s, s->split.F, m, m + k));
+  reflect(s, 'R', n, r, k, trailing(s, s->split.P, 0, m));
+}
+
+/* Columns of F ker E that depend on each other make det(s E + F) vanish for all s; the
+ * resolvent must say so too. */
+static void judge(stairs *s, sunrealtype low)
+{
+  const sunrealtype noise = 4 * s->split.n * STF_EPS * s->norm_F;
+  const sunrealtype grown = s->first > 0 ? s->tolerance / s->first : 1;
+  const bool refused = s->rcond < s->split.n * STF_EPS;
+  if (low <= noise * grown) {
+    s->singular = refused || !(low > 0);
+    if (!s->doubtful) s->doubtful = true, s->least = s->levels;
+  }
+}
+
+static int climb(stairs *s)
+{
+  const int n = s->split.n;
+  while (s->split.m < n) {
+    int k;
+    STEIF_TRY(kernel(s, &k));
+    if (!k) break;
+    compress(s, k);
+    const int m = s->split.m;
+    STEIF_TRY(stf_svd_find(&s->svd, n - m, k, trailing(s, s->split.F, m, m), n, false));
+    const sunrealtype low = s->svd.sigma[k - 1];
+    judge(s, low);
+    if (s->singular) break;
+    deflate(s, k);
+    s->tolerance = fmax(s->tolerance, n * STF_EPS * s->norm_E * s->norm_F / low);
+    s->weyr[s->levels++] = k;
+    s->split.m += k;
+  }
+  return STEIF_OK;
+}
+
+/* L = -(E_inf R + E_12) E_f^{-1}, through its transpose; T holds the bracket. */
+static void left(const stairs *s, const sunrealtype *T)
+{
+  const size_t m = (size_t)s->split.m, f = (size_t)s->split.n - m;
+  for (size_t i = 0; i < m; i++)
+    for (size_t j = 0; j < f; j++) s->move[i * f + j] = T[j * m + i];
+  stf_split_finite(&s->split, 'T', (int)m, s->move);
+  for (size_t i = 0; i < m; i++)
+    for (size_t j = 0; j < f; j++) s->split.L[j * m + i] = -s->move[i * f + j];
+}
+
+static int decouple(stairs *s)
+{
+  stf_split *p = &s->split;
+  const int m = p->m, n = p->n, f = n - m;
+  sunrealtype *T = s->svd.U, *G = s->svd.VT;
+  const int code = stf_split_factor(s->pool, p);
+  if (code == STEIF_RETRY) s->singular = true;
+  if (code != STEIF_OK || !m || !f) return code == STEIF_RETRY ? STEIF_OK : code;
+  stf_split_block(p, p->F, m, m, f, f, G);
+  stf_split_finite(p, 'N', f, G);
+  for (int sweep = 0; sweep <= s->levels + 1; sweep++) {
+    stf_split_block(p, p->E, 0, m, m, f, T);
+    stf_gemm('N', 'N', m, f, m, 1, p->E, n, p->R, m, 1, T, m);
+    if (sweep > s->levels) break;
+    stf_split_block(p, p->F, 0, m, m, f, p->R);
+    stf_gemm('N', 'N', m, f, f, 1, T, m, G, f, -1, p->R, m);
+    stf_split_infinite(p, f, p->R);
+  }
+  left(s, T);
+  return STEIF_OK;
+}
+
+static int tell(const stairs *s, steif_structure *structure)
+{
+  const stf_split *p = &s->split;
+  structure->n = p->n;
+  structure->method = "staircase";
+  structure->rank_E = s->rank;
+  structure->regular = !s->singular;
+  structure->rcond = s->rcond;
+  structure->gap = s->gap;
+  const bool sure = !s->singular && !s->doubtful;
+  structure->index = sure ? s->levels : -1;
+  structure->index_least = sure ? s->levels : s->singular ? 0 : s->least;
+  structure->finite = sure ? p->n - p->m : -1;
+  structure->infinite = sure ? p->m : -1;
+  STEIF_TRY(stf_structure_list(p->ctx, s->levels, &structure->weyr));
+  structure->weyr_count = s->levels;
+  for (int i = 0; i < s->levels; i++) structure->weyr[i] = s->weyr[i];
+  return STEIF_OK;
+}
+
+static int run(stairs *s, const sunrealtype *E, const sunrealtype *F,
+               const steif_analysis *analysis, const stf_sources *sources,
+               steif_structure *structure, steif_impulse *impulse, sunrealtype *slow)
+{
+  stf_split *p = &s->split;
+  const unsigned seed = analysis->seed ? analysis->seed : 1;
+  STEIF_TRY(stf_best_rcond(s->pool, p->n, E, F, seed, &s->rcond));
+  STEIF_TRY(climb(s));
+  if (!s->singular) STEIF_TRY(decouple(s));
+  STEIF_TRY(tell(s, structure));
+  if (s->singular)
+    return stf_null_offenders(p->ctx, &s->svd, p->n, E, F, seed, s->tau, structure);
+  if (s->levels > 1) STEIF_TRY(stf_split_offenders(s->pool, p, s->levels, structure));
+  if (slow) STEIF_TRY(stf_split_projector(s->pool, p, slow));
+  return sources ? stf_split_impulse(p, s->levels, sources, impulse) : STEIF_OK;
+}
+
+int stf_staircase(steif_context *ctx, sunindextype n, const sunrealtype *E,
+                  const sunrealtype *F, const steif_analysis *analysis, const sunrealtype *x0,
+                  const stf_sources *sources, steif_structure *structure,
+                  steif_impulse *impulse, sunrealtype *slow_projector)
+{
+  stairs s;
+  stf_pool *pool = stf_pool_new(ctx);
+  if (!pool) return STEIF_NO_MEMORY;
+  (void)x0;
+  int code = open(ctx, pool, (int)n, E, F, &s);
+  if (code == STEIF_OK)
+    code = run(&s, E, F, analysis, sources, structure, impulse, slow_projector);
+  stf_pool_free(&pool);
+  return code;
+}
