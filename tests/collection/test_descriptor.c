@@ -7,12 +7,11 @@
  * by the trapezoidal rule on a circle beyond the finite eigenvalues.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "base/failing.h"
 #include "exact.h"
 #include "fixture.h"
 #include "lapack.h"
-#include "linear.h"
 #include <complex.h>
+#include <stdlib.h>
 
 void dggev_(const char *left, const char *right, const int *n, double *a, const int *lda,
             double *b, const int *ldb, double *re, double *im, double *beta, double *vl,

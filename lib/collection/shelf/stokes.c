@@ -136,7 +136,7 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   stf_random r;
   static const char *const keys[] = {"m", "seed", "case", "storage", NULL};
   STEIF_TRY(stf_spec_only(ctx, spec, keys));
-  STEIF_TRY(stf_spec_int(ctx, spec, "m", 2, 4000, 16, &m));
+  STEIF_TRY(stf_spec_int(ctx, spec, "m", 2, 2000, 16, &m));
   STEIF_TRY(stf_random_seed(ctx, spec, &r));
   const sunindextype faces = 2 * (sunindextype)m * (m - 1), n = faces + (sunindextype)m * m - 1;
   stf_linear *l = stf_linear_open(ctx, self, n, faces, 9 * faces, n);
