@@ -314,8 +314,33 @@ static void starts_are_those_of_the_definition(void)
   }
 }
 
+/* Inside the hidden eigenvalue the mode passes for algebraic: u(0+) of the size 1/lambda, and an
+ * impulse that is wrong by some per cent; outside, nothing is wrong. */
+static void a_small_circle_misses_the_hidden_mode(void)
+{
+  start q;
+  if (start_open(&q, "hidden:n=20,c=4,lambda=1e4")) return;
+  const int n = 45;
+  double *out = calloc((size_t)(3 * n), sizeof *out), worst = 0, size = 0;
+  CU_ASSERT_EQUAL(q.s.p.n, n);
+  laurent(&q, 3, 30, out);
+  CHECK(fabs(out[n - 1]) < 1e-2);
+  for (int i = 0; i < n; i++) {
+    size = fmax(size, fabs(q.x.c[i]));
+    worst = fmax(worst, fabs(out[n + i] - q.x.c[i]));
+  }
+  CHECK(worst > 0.01 * size && worst < size);
+  for (int i = 0; i < 3 * n; i++) out[i] = 0;
+  laurent(&q, 3, 3e4, out);
+  CLOSE(out[n - 1], 0.7, 1e-4);
+  same(&q, q.x.c, out + n, "c_0", 1e-6);
+  free(out);
+  start_close(&q);
+}
+
 CU_TestInfo tests_of_descriptor[] = {
   {"generated systems have the sizes they announce", sizes_are_those_announced},
   {"impulses satisfy the equations", impulses_satisfy_the_equations},
   {"starts are those of the definition", starts_are_those_of_the_definition},
+  {"a small circle misses the hidden mode", a_small_circle_misses_the_hidden_mode},
   CU_TEST_INFO_NULL};
