@@ -1,4 +1,4 @@
-/* linear.c: dense tools of the analyses: products, singular values, scaling by powers of 2,
+/* algebra.c: dense tools of the analyses: products, singular values, scaling by powers of 2,
  * and the resolvent of a pencil at random points. LAPACK Users' Guide, 3rd ed. (1999).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
