@@ -1,12 +1,14 @@
 /* solve.c: one integration.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "run.h"
+#include <string.h>
 
 static void fill(steif_report *r, const char *const *word, const outcome *o, steif_solver *s,
                  size_t n)
 {
   steif_report_text(r, "problem", word[0]);
   steif_report_text(r, "method", word[1]);
+  if (s && strcmp(word[1], steif_method_used(s))) steif_report_text(r, "used", steif_method_used(s));
   report_status(r, "", o);
   steif_report_real(r, "t", o->t);
   steif_report_list(r, "y", s ? n : 0, s ? N_VGetArrayPointer(steif_solution(s)) : NULL);

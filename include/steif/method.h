@@ -1,7 +1,8 @@
 /* steif/method.h: the methods there are; how they are named and what they claim.
  *
  * A method is a family with parameters: be, bdf:p=1..6, dirk:TABLE, gauss:s=, radau:s=, radau1a:s=,
- * lobatto3c:s=, euler, rk4; and the baselines cvode, ida, arkode.
+ * lobatto3c:s=, euler, rk4; the baselines cvode, ida, arkode; and auto, which chooses by size, storage,
+ * index and tolerance (steif_method_used tells what and why).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_METHOD_H

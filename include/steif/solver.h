@@ -72,6 +72,9 @@ STEIF_EXPORT int steif_solve_to(steif_solver *s, sunrealtype t);
 /* Advance by one accepted step. */
 STEIF_EXPORT int steif_solve_step(steif_solver *s);
 
+/* The spec in use; for "auto" what it chose and why, in one sentence. */
+STEIF_EXPORT const char *steif_method_used(const steif_solver *s);
+
 STEIF_EXPORT N_Vector steif_solution(steif_solver *s);   /* at the time last asked for */
 STEIF_EXPORT sunrealtype steif_time(const steif_solver *s);
 STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);

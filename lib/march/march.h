@@ -28,6 +28,7 @@ struct steif_solver {
   int failure;
   sunrealtype cpu_s;
   steif_stats stats;
+  char method[160];             /* spec in use; for auto with the reason */
 };
 
 /* One accepted step of a method of ours, not beyond t_stop when steps are chosen. */
@@ -35,6 +36,10 @@ int stf_advance(steif_solver *s, sunrealtype t_stop);
 
 /* First length of a chosen step. */
 sunrealtype stf_first_step(const steif_solver *s);
+
+/* The spec that `auto` stands for, and a sentence why. */
+const char *stf_choose(const steif_problem *p, const steif_options *o, int form, char *why,
+                       size_t room);
 
 const steif_engine *stf_engine_find(const char *name);
 

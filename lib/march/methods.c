@@ -19,6 +19,11 @@ int steif_method_find(steif_context *ctx, const char *text, steif_method_info *i
   STEIF_TRY(steif_spec_parse(ctx, text, &spec));
   memset(info, 0, sizeof *info);
   snprintf(info->name, sizeof info->name, "%s", text);
+  if (!strcmp(text, "auto")) {
+    info->family = "auto", info->about = "chooses by size, storage, index and tolerance";
+    info->forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR, info->adaptive = 1;
+    return STEIF_OK;
+  }
   const steif_engine *engine = stf_engine_find(spec.name);
   if (engine) return describe_engine(ctx, engine, &spec, info);
   const steif_method *method;
@@ -51,6 +56,7 @@ static bool spec_at(size_t i, char *text, size_t size)
     if (stf_table_shelf[k].item->kind == STEIF_COLLOCATION || i--) continue;
     return snprintf(text, size, "%s%s", dirk ? "dirk:" : "", stf_table_shelf[k].name) > 0;
   }
+  if (i-- == 0) return snprintf(text, size, "auto") > 0;
   return i < stf_engine_count && snprintf(text, size, "%s", stf_engine_shelf[i].name) > 0;
 }
 

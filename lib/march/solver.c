@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "march.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -229,11 +230,14 @@ static int open(steif_solver *s, const char *method)
   N_Vector y = NULL, yp = NULL;
   const int form = steif_problem_form(s->ctx, s->problem);
   if (!form) return steif_status(s->ctx);
-  STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
   STEIF_TRY(check_options(s->ctx, s->problem, &s->options));
   STEIF_TRY(check_vector(s->ctx, s->problem, &s->options));
   s->t1 = s->options.t1, s->t_shown = s->problem->t0;
   STEIF_TRY(open_vectors(s, &y, &yp));
+  snprintf(s->method, sizeof s->method, "%s", method);
+  if (!strcmp(method, "auto"))
+    method = stf_choose(s->problem, &s->options, form, s->method, sizeof s->method);
+  STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
   s->engine = stf_engine_find(spec.name);
   return s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp);
 }
@@ -276,6 +280,8 @@ static sunrealtype now(void)
 }
 
 sunrealtype steif_time(const steif_solver *s) { return s->t_shown; }
+
+const char *steif_method_used(const steif_solver *s) { return s->method; }
 
 N_Vector steif_solution(steif_solver *s) { return s->shown; }
 

@@ -1,0 +1,42 @@
+/* auto.c: which method for which problem, and why.
+ *
+ *   given steps                                   radau:s=3
+ *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-4 or index above 1, else s=7
+ *   large systems, index above 1                  radau:s=3
+ *   large systems                                 bdf down to rtol 1e-7, radau:s=5 below
+ * Factorisations dominate large systems: BDF factors one real matrix now and then, Radau pays for
+ * itself when many digits are wanted.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "march.h"
+#include <stdio.h>
+
+enum { SMALL = 64 };
+
+static bool small(const steif_problem *p, const steif_options *o, int form)
+{
+  const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
+  return p->n <= SMALL && storage == STEIF_DENSE && (form == STEIF_ODE || form == STEIF_MASS);
+}
+
+const char *stf_choose(const steif_problem *p, const steif_options *o, int form, char *why,
+                       size_t room)
+{
+  const bool given = o->h > 0 || o->mesh, high = p->dae_index > 1;
+  const char *method, *reason;
+  if (given)
+    method = "radau:s=3", reason = "steps are given: order 5, stiffly accurate";
+  else if (small(p, o, form) && (high || o->rtol >= 1e-4))
+    method = "radau:s=5", reason = "small and dense: all shifts in vector registers";
+  else if (small(p, o, form))
+    method = "radau:s=7", reason = "small and dense, many digits wanted";
+  else if (high)
+    method = "radau:s=3", reason = "index above 1: collocation keeps the constraints";
+  else if (o->rtol >= 1e-7)
+    method = "bdf", reason = "factorisations dominate: one real matrix, kept for many steps";
+  else
+    method = "radau:s=5", reason = "large, many digits wanted: order 9 needs few steps";
+  snprintf(why, room, "%s (n = %lld, rtol %.1e, form %s): %s", method, (long long)p->n, o->rtol,
+           steif_form_name(form), reason);
+  return method;
+}
