@@ -208,12 +208,29 @@ static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im
 
 void stf_sparse_direct(steif_pencil *p, int slot, double *b) { columns(p, slot, 1, b, p->n); }
 
-/* sum += x with the error of the sum carried along (A. Neumaier, ZAMM 54, 1974). */
-static void add(double x, double *sum, double *error)
+/* sum += log x for many x: their product is carried on, and its logarithm taken when it has grown
+ * or shrunk much. The error of the sum is carried along (A. Neumaier, ZAMM 54, 1974). */
+typedef struct logs {
+  double product, sum, error;
+} logs;
+
+static void flush(logs *l, double x)
 {
-  const double t = *sum + x;
-  *error += fabs(*sum) >= fabs(x) ? (*sum - t) + x : (x - t) + *sum;
-  *sum = t;
+  const double y = log(x), t = l->sum + y;
+  l->error += fabs(l->sum) >= fabs(y) ? (l->sum - t) + y : (y - t) + l->sum;
+  l->sum = t;
+}
+
+static inline void multiply(logs *l, double x)
+{
+  const double product = l->product * x;
+  if (product > 1e-100 && product < 1e100) {
+    l->product = product;
+    return;
+  }
+  flush(l, l->product);
+  flush(l, x);
+  l->product = 1;
 }
 
 int stf_pencil_logdet(steif_pencil *p, int slot, sunrealtype *log_abs_det)
@@ -225,12 +242,13 @@ int stf_pencil_logdet(steif_pencil *p, int slot, sunrealtype *log_abs_det)
               "slot %d of %d has no factors: call steif_pencil_factor first", slot, p->slots);
   const factors *f = ((sparse *)p->state)->slot[slot];
   const double *u = f->numeric->Udiag, *row = f->numeric->Rs;
-  double sum = 0, error = 0;
+  logs l = {.product = 1};
   for (sunindextype k = 0; k < p->n; k++) {
-    add(log(f->complex ? hypot(u[2 * k], u[2 * k + 1]) : fabs(u[k])), &sum, &error);
-    if (row) add(log(row[k]), &sum, &error);
+    multiply(&l, f->complex ? hypot(u[2 * k], u[2 * k + 1]) : fabs(u[k]));
+    if (row) multiply(&l, row[k]);
   }
-  *log_abs_det = sum + error;
+  flush(&l, l.product);
+  *log_abs_det = l.sum + l.error;
   return STEIF_OK;
 }
 
