@@ -4,7 +4,7 @@
 
 extern CU_TestInfo tests_of_exact[], tests_of_pair[], tests_of_moments[], tests_of_euler[],
   tests_of_bdf[], tests_of_ut5[], tests_of_rk[], tests_of_duality[], tests_of_mesh[],
-  tests_of_layer[], tests_of_weak[];
+  tests_of_layer[], tests_of_weak[], tests_of_matching[], tests_of_contour[];
 
 SUITE_MAIN(
   {.pName = "exact", .pTests = tests_of_exact}, {.pName = "pair", .pTests = tests_of_pair},
@@ -12,4 +12,6 @@ SUITE_MAIN(
   {.pName = "euler", .pTests = tests_of_euler}, {.pName = "bdf", .pTests = tests_of_bdf},
   {.pName = "ut5", .pTests = tests_of_ut5}, {.pName = "rk", .pTests = tests_of_rk},
   {.pName = "duality", .pTests = tests_of_duality}, {.pName = "mesh", .pTests = tests_of_mesh},
-  {.pName = "layer", .pTests = tests_of_layer}, {.pName = "weak", .pTests = tests_of_weak})
+  {.pName = "layer", .pTests = tests_of_layer}, {.pName = "weak", .pTests = tests_of_weak},
+  {.pName = "matching", .pTests = tests_of_matching},
+  {.pName = "contour", .pTests = tests_of_contour})

@@ -1,0 +1,304 @@
+/* contour.c: structure of a sparse pencil from circles |s| = R. The Laurent coefficients of
+ * (s E + F)^{-1} v, v random, end with the index; Jensen's formula counts the finite eigenvalues
+ * inside,
+ *   n_f = (mean log |det(s E + F)| over |s| = bR - the same over |s| = aR) / log(b / a)
+ * where none lies between. The circle grows until the count is the structural degree: then no
+ * finite eigenvalue is outside, which no other check can tell from an algebraic equation.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "circle.h"
+#include "linear.h"
+#include "matching.h"
+#include <math.h>
+#include <stdio.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+/* A count this near to a whole number is one. Moments this far apart decide an index; this far
+ * when the count is not certified to be complete; growth of the radius from circle to circle. */
+#define WHOLE 0.05
+#define GAP 1e3
+#define WIDE 1e12
+#define CLEAR 1e6
+#define GROW 4.0
+/* The circle is given up this far beyond the estimate of the largest eigenvalue. */
+#define BEYOND 64.0
+enum { CIRCLES = 24, MOMENTS = 65 };
+
+/* What one circle showed. */
+typedef struct sample {
+  sunrealtype radius, log_det, gap, rcond, count; /* count: with the circle before; NaN */
+  int index, last; /* by the largest gap, by the last that is wide enough */
+  bool singular;
+} sample;
+
+typedef struct search {
+  steif_context *ctx;
+  steif_analysis analysis;
+  steif_structure *structure;
+  stf_circle circle;
+  sunrealtype *v;
+  sunindextype pattern; /* structural index */
+  sunrealtype start, end;
+  int circles;
+  sample of[CIRCLES];
+} search;
+
+static void random_source(const stf_scaled *scaled, steif_shift s, void *user, sunrealtype *re,
+                          sunrealtype *im)
+{
+  const sunrealtype *v = user;
+  (void)s;
+  for (sunindextype i = 0; i < scaled->n; i++) re[i] = v[i], im[i] = 0;
+}
+
+/* m_i = ||R^i Phi_i v||, i = -1 .. most; the index is one more than the last i with m_i > 0. */
+static void judge(search *w, sample *now)
+{
+  sunrealtype m[MOMENTS + 1], largest = 0, tail = 0;
+  const int count = w->circle.count;
+  for (int k = 0; k < count; k++) {
+    const sunrealtype *x = NV_DATA_S(w->circle.sum[k]);
+    sunrealtype sum = 0;
+    for (sunindextype i = 0; i < w->circle.scaled.n; i++) sum += x[i] * x[i];
+    m[k] = sqrt(sum);
+    largest = fmax(largest, m[k]);
+  }
+  now->gap = 0;
+  now->index = now->last = -1;
+  for (int k = count - 1; k > 0; k--) {
+    tail = fmax(tail, m[k]);
+    const sunrealtype gap = m[k - 1] / fmax(tail, STF_EPS * largest);
+    if (gap >= GAP && now->last < 0) now->last = k - 1;
+    if (gap > now->gap) now->gap = gap, now->index = k - 1;
+  }
+}
+
+/* One circle, with moments or for its determinant; a singular matrix at one of its points is
+ * noted and no failure. */
+static int draw(search *w, sunrealtype radius, bool moments)
+{
+  sample *now = &w->of[w->circles++];
+  *now = (sample){.radius = radius, .count = NAN};
+  const int code = stf_circle_run(&w->circle, radius, moments ? random_source : NULL, w->v);
+  now->singular = code == STEIF_SINGULAR;
+  if (now->singular) steif_forget(w->ctx);
+  if (code) return now->singular ? STEIF_OK : code;
+  const sunrealtype n = (sunrealtype)w->circle.scaled.n;
+  now->log_det = w->circle.log_det;
+  if (w->circles > 1 && !now[-1].singular)
+    now->count = (now->log_det - now[-1].log_det) / log(radius / now[-1].radius);
+  if (!moments) return STEIF_OK;
+  now->rcond = 1 / (w->circle.scaled.norm * sqrt(n) * w->circle.amplified);
+  judge(w, now);
+  return STEIF_OK;
+}
+
+/* More eigenvalues than the pattern allows are rounding. */
+static bool whole(const search *w, const sample *s)
+{
+  const sunrealtype nearest = round(s->count);
+  return fabs(s->count - nearest) <= WHOLE && nearest >= 0 &&
+         nearest <= (sunrealtype)w->structure->degree;
+}
+
+static bool complete(const search *w, const sample *s)
+{
+  return whole(w, s) && round(s->count) == (sunrealtype)w->structure->degree;
+}
+
+/* The largest |F| / |E| of a column or row: a bound of the eigenvalues that is rough, and right
+ * in size where equations are scaled badly. */
+static sunrealtype bound(search *w)
+{
+  const stf_scaled *s = &w->circle.scaled;
+  const sunindextype n = s->n;
+  sunrealtype *e = s->most, *f = s->row, most = w->start;
+  for (int across = 0; across < 2; across++) {
+    for (sunindextype i = 0; i < n; i++) e[i] = f[i] = 0;
+    for (int which = 0; which < 2; which++) {
+      SUNMatrix M = which ? s->givenF : s->givenE;
+      sunrealtype *to = which ? f : e;
+      for (sunindextype j = 0; j < n; j++)
+        for (sunindextype k = SM_INDEXPTRS_S(M)[j]; k < SM_INDEXPTRS_S(M)[j + 1]; k++) {
+          const sunindextype i = across ? SM_INDEXVALS_S(M)[k] : j;
+          to[i] = fmax(to[i], fabs(SM_DATA_S(M)[k]));
+        }
+    }
+    for (sunindextype i = 0; i < n; i++)
+      if (e[i] > 0) most = fmax(most, f[i] / e[i]);
+  }
+  return most;
+}
+
+/* Enough is known: all finite eigenvalues are inside, and the moments decide, or do not part any
+ * further. */
+static bool enough(const search *w)
+{
+  const sample *now = &w->of[w->circles - 1];
+  if (w->circles < 2 || !complete(w, now) || now->gap < GAP) return false;
+  if (now->gap >= WIDE || (now->gap >= CLEAR && now->last == w->pattern)) return true;
+  return now->gap < GROW * now[-1].gap;
+}
+
+static int grow(search *w)
+{
+  sunrealtype radius = w->start;
+  if (w->analysis.radius > 0) {
+    STEIF_TRY(draw(w, w->analysis.radius, true));
+    return draw(w, 2 * w->analysis.radius, false);
+  }
+  for (; w->circles < CIRCLES && radius <= w->end * BEYOND; radius *= GROW) {
+    STEIF_TRY(draw(w, radius, true));
+    if (enough(w)) break;
+  }
+  return STEIF_OK;
+}
+
+/* The circle to believe: one with all eigenvalues inside, else one with a whole count, else any;
+ * among equals the one with the widest gap. A given radius leaves no choice. */
+static sample choose(const search *w)
+{
+  int best = -1, best_class = -1;
+  for (int k = 0; k < w->circles; k++) {
+    const sample *s = &w->of[k];
+    if (s->singular) continue;
+    const int class = complete(w, s) ? 2 : whole(w, s) ? 1 : 0;
+    if (class > best_class || (class == best_class && s->gap > w->of[best].gap))
+      best = k, best_class = class;
+  }
+  sample chosen = best < 0 ? (sample){.singular = true, .count = NAN} : w->of[best];
+  if (w->analysis.radius > 0 && !w->of[0].singular) {
+    chosen = w->of[0];
+    chosen.count = w->of[1].count;
+  }
+  return chosen;
+}
+
+/* The radius at which aliasing, (rho / R)^points, is at rounding level. From Jensen's mean an
+ * eigenvalue at rho is missed by (rho / R)^points / points: the distance of the count from a whole
+ * number tells rho on the smaller circle of the pair. */
+static sunrealtype settle(const search *w, const sample *chosen)
+{
+  if (w->analysis.radius > 0 || !complete(w, chosen)) return chosen->radius;
+  const sunrealtype m = w->analysis.points, before = chosen->radius / GROW;
+  const sunrealtype off = fmax(fabs(chosen->count - round(chosen->count)), 1e-12);
+  return before * pow(off * m * log(GROW) / STF_EPS, 1 / m);
+}
+
+static void say(const search *w, const sample *chosen)
+{
+  steif_structure *s = w->structure;
+  char *text = s->message;
+  const size_t room = sizeof s->message;
+  const char *index = s->index < 0 ? "index undecided, at least" : "index";
+  const long long degree = s->degree, finite = s->finite;
+  if (!s->regular)
+    snprintf(text, room,
+             "singular pencil: s E + F is singular to rounding at every s tried (reciprocal "
+             "condition %.1e) although its pattern is not; look for an equation that follows "
+             "from others",
+             s->rcond);
+  else if (s->certified)
+    snprintf(text, room,
+             "index %d, %lld finite eigenvalues, all in |s| <= %.3g: the count %.6f equals the "
+             "structural degree",
+             s->index, finite, chosen->radius, s->count);
+  else if (finite < 0)
+    snprintf(text, room,
+             "%s %d, not certified: the count %.4f of finite eigenvalues in |s| <= %.3g is no "
+             "whole number up to %lld; %s",
+             index, s->index_least, s->count, s->radius, degree,
+             w->analysis.radius > 0 ? "take another radius" : "use a dense algorithm");
+  else if (finite == degree)
+    snprintf(
+      text, room,
+      "%s %d: the moments part by %.1e only, the count %.6f equals the structural degree",
+      index, s->index_least, s->gap, s->count);
+  else
+    snprintf(
+      text, room,
+      "%s %d, not certified: %lld finite eigenvalues in |s| <= R = %.3g where the pattern "
+      "allows %lld; valid for time scales >= 1/R = %.3g; up to %lld faster modes relaxed, "
+      "unless "
+      "values cancel what the pattern allows",
+      index, s->index_least, finite, s->radius, degree, 1 / s->radius, degree - finite);
+}
+
+/* What one circle decides: with all eigenvalues inside, the last gap ends the moments; else a mode
+ * outside lets them fall evenly, and only gaps that agree count. */
+static void decide(search *w, const sample *chosen)
+{
+  steif_structure *s = w->structure;
+  const bool all = complete(w, chosen), counted = whole(w, chosen);
+  const int least = chosen->index < chosen->last ? chosen->index : chosen->last;
+  const bool agreed = all || (counted && chosen->index == chosen->last);
+  s->index_least = chosen->last < 0 ? 0 : all ? chosen->last : least;
+  if (agreed && chosen->last >= 0) s->index = s->index_least;
+  if (counted) s->finite = (sunindextype)llround(chosen->count);
+  if (counted) s->infinite = s->n - s->finite;
+  s->certified = all && s->index >= 0;
+  s->radius = settle(w, chosen);
+  if (s->index == 0 || s->index == 1) s->equations_count = s->unknowns_count = 0;
+}
+
+static void conclude(search *w)
+{
+  steif_structure *s = w->structure;
+  const sample chosen = choose(w);
+  s->count = chosen.count;
+  s->gap = chosen.gap;
+  s->finite = s->infinite = s->index = -1;
+  for (int k = 0; k < w->circles; k++) s->rcond = fmax(s->rcond, w->of[k].rcond);
+  s->regular = !chosen.singular && s->rcond >= fmin((sunrealtype)s->n * STF_EPS, 1e-11);
+  if (s->regular) decide(w, &chosen);
+  say(w, &chosen);
+}
+
+static int analyse(search *w, SUNMatrix E, SUNMatrix F)
+{
+  const sunrealtype e = stf_largest(E), f = stf_largest(F);
+  const sunindextype n = w->circle.scaled.n;
+  w->v = stf_claim(w->circle.scaled.pool, (size_t)n, sizeof *w->v);
+  if (!w->v) return STEIF_NO_MEMORY;
+  stf_random random = {w->analysis.seed};
+  for (sunindextype i = 0; i < n; i++) w->v[i] = stf_random_in(&random, -1, 1);
+  w->start = e > 0 && f > 0 ? f / e : 1;
+  w->end = bound(w);
+  STEIF_TRY(grow(w));
+  conclude(w);
+  return STEIF_OK;
+}
+
+static void reject(steif_structure *s, sunindextype rank)
+{
+  s->regular = 0;
+  s->index = -1;
+  s->finite = s->infinite = -1;
+  s->count = NAN;
+  snprintf(
+    s->message, sizeof s->message,
+    "singular pencil: the patterns of E and F allow rank %lld of %lld; %lld equations "
+    "share too few unknowns (the first is %lld) and %lld unknowns too few equations (the "
+    "first is %lld, both from 0)",
+    (long long)rank, (long long)s->n, (long long)s->equations_count, (long long)s->equations[0],
+    (long long)s->unknowns_count, (long long)s->unknowns[0]);
+}
+
+int stf_contour(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
+                steif_structure *structure)
+{
+  sunindextype rank;
+  search w = {.ctx = ctx, .analysis = stf_analysis_filled(analysis), .structure = structure};
+  structure->n = SM_COLUMNS_S(F);
+  structure->rank_E = -1;
+  structure->method = "contour";
+  STEIF_TRY(stf_matching_index(ctx, E, F, &rank, &w.pattern, structure));
+  if (rank < structure->n) {
+    reject(structure, rank);
+    return STEIF_OK;
+  }
+  STEIF_TRY(stf_circle_open(ctx, E, F, analysis, -1, w.analysis.index_most + 2, &w.circle));
+  const int code = analyse(&w, E, F);
+  stf_circle_close(&w.circle);
+  return code;
+}
