@@ -9,6 +9,7 @@
 #include <steif/descriptor.h>
 #include <steif/method.h>
 #include <steif/pencil.h>
+#include <steif/phi.h>
 #include <steif/problem.h>
 #include <steif/report.h>
 #include <steif/solver.h>

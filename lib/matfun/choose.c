@@ -1,0 +1,172 @@
+/* choose.c: degree and number of squarings from ||A^k||^{1/k} (A. H. Al-Mohy and N. J. Higham,
+ * SIAM J. Matrix Anal. Appl. 31, 2009, algorithm 5.1).
+ *
+ * With d_k = ||A^k||_1^{1/k}, the series of the backward error of the [m/m] approximant is governed
+ * by max(d_k, d_{k+1}), which may be far below ||A||. A^2, A^4, A^6 are needed anyway; of higher
+ * powers the norm suffices.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "matfun.h"
+#include "blas.h"
+
+enum { DEGREES = 5, EXACT = 32 };
+
+/* Bounds of the paper for unit round-off 2^{-53}, and log2 of the coefficient of x^{2m+1} in the
+ * backward error, (m!)^2 / ((2m)! (2m+1)!). */
+static const int degree[DEGREES] = {3, 5, 7, 9, 13};
+static const double theta[DEGREES] = {1.495585217958292e-2, 2.539398330063230e-1,
+                                      9.504178996162932e-1, 2.097847961257068, 4.25};
+static const double log_coefficient[DEGREES] = {-16.621136113274641, -33.227772656854167,
+                                                -51.994974307382167, -72.32471809893495,
+                                                -116.447004251763};
+
+double stf_norm1(int n, const double *A)
+{
+  double most = 0;
+  for (int j = 0; j < n; j++, A += n) {
+    double sum[4] = {0};
+    int i = 0;
+    for (; i + 4 <= n; i += 4)
+      for (int k = 0; k < 4; k++) sum[k] += fabs(A[i + k]);
+    for (; i < n; i++) sum[0] += fabs(A[i]);
+    const double total = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    if (!(total <= most)) most = total;
+  }
+  return most;
+}
+
+static void scale(size_t count, double c, double *A)
+{
+  for (size_t i = 0; i < count; i++) A[i] *= c;
+}
+
+/* ||F G||_1: by the product in `scratch` for small matrices, else estimated (N. J. Higham, ACM TOMS
+ * 14, 1988). */
+static double product_norm(stf_core *c, const double *F, const double *G, double *scratch)
+{
+  const int n = c->n, one = 1;
+  const double unit = 1, zero = 0;
+  if (n <= EXACT) {
+    stf_multiply(n, n, F, G, 0, scratch);
+    return stf_norm1(n, scratch);
+  }
+  double *v = scratch, *x = scratch + n, *y = scratch + 2 * n, estimate = 0;
+  int kase = 0, save[3];
+  for (;;) {
+    dlacn2_(&n, v, x, c->pivot, &estimate, &kase, save);
+    if (kase == 0) return estimate;
+    const char *trans = kase == 1 ? "N" : "T";
+    dgemv_(trans, &n, &n, &unit, kase == 1 ? G : F, &n, x, &one, &zero, y, &one, 1);
+    dgemv_(trans, &n, &n, &unit, kase == 1 ? F : G, &n, y, &one, &zero, x, &one, 1);
+  }
+}
+
+/* log2 || |A|^k ||_1, exactly: the row vector of ones times |A|, normalised as it grows. */
+static double log_absolute_power(stf_core *c, int k)
+{
+  const int n = c->n;
+  double *x = c->sums, *y = c->sums + n, log_norm = 0;
+  for (int i = 0; i < n; i++) x[i] = 1;
+  for (; k > 0; k--) {
+    double most = 0;
+    for (int j = 0; j < n; j++) {
+      const double *a = c->A + (size_t)j * (size_t)n;
+      double even = 0, odd = 0;
+      int i = 0;
+      for (; i + 2 <= n; i += 2) even += fabs(a[i]) * x[i], odd += fabs(a[i + 1]) * x[i + 1];
+      if (i < n) even += fabs(a[i]) * x[i];
+      y[j] = even + odd;
+      if (y[j] > most) most = y[j];
+    }
+    if (most == 0) return -INFINITY;
+    log_norm += log2(most);
+    for (int i = 0; i < n; i++) x[i] = y[i] / most;
+  }
+  return log_norm;
+}
+
+/* Squarings beyond s that the rounding-safe bound of degree m asks for; none when the norm itself
+ * is in bounds. */
+static int extra(stf_core *c, int which, int s)
+{
+  if (ldexp(c->norm, -s) <= theta[which]) return 0;
+  const int m = degree[which];
+  const double alpha =
+    log_coefficient[which] + log_absolute_power(c, 2 * m + 1) - log2(c->norm) - 2.0 * m * s;
+  const double more = ceil((alpha + 53) / (2 * m));
+  return more > 0 ? (int)more : 0;
+}
+
+static bool take(stf_core *c, int which, double eta)
+{
+  if (!(eta <= theta[which]) || extra(c, which, 0)) return false;
+  c->m = degree[which];
+  return true;
+}
+
+static int halvings(double size)
+{
+  const double s = ceil(log2(size / theta[DEGREES - 1]));
+  return s > 0 ? (int)s : 0;
+}
+
+static void large(stf_core *c)
+{
+  const int n = c->n;
+  const double d4 = pow(stf_norm1(n, c->A4), 0.25), d6 = pow(stf_norm1(n, c->A6), 1.0 / 6);
+  if (take(c, 0, fmax(d4, d6)) || take(c, 1, fmax(d4, d6))) return;
+  const double d8 = pow(product_norm(c, c->A4, c->A4, c->U), 0.125);
+  const double eta = fmax(d6, d8);
+  if (take(c, 2, eta) || take(c, 3, eta)) return;
+  const double d10 = pow(product_norm(c, c->A4, c->A6, c->U), 0.1);
+  c->m = 13;
+  int s = halvings(fmin(eta, fmax(d8, d10)));
+  s += extra(c, DEGREES - 1, s);
+  c->s = s < halvings(c->norm) ? s : halvings(c->norm);
+}
+
+/* Powers of A by need, m and s. */
+static void search(stf_core *c)
+{
+  const int n = c->n;
+  c->s = 0;
+  stf_multiply(n, n, c->A, c->A, 0, c->A2);
+  if (take(c, 0, c->norm)) return;
+  stf_multiply(n, n, c->A2, c->A2, 0, c->A4);
+  if (take(c, 1, c->norm)) return;
+  stf_multiply(n, n, c->A2, c->A4, 0, c->A6);
+  if (take(c, 2, c->norm) || take(c, 3, c->norm)) return;
+  if (c->norm <= theta[DEGREES - 1])
+    c->m = 13;
+  else
+    large(c);
+}
+
+/* Powers up to the tenth must not overflow. */
+enum { LARGEST = 64 };
+
+static void shrink(stf_core *c, int halvings_)
+{
+  scale((size_t)c->n * (size_t)c->n, ldexp(1, -halvings_), c->A);
+  c->norm = stf_norm1(c->n, c->A);
+  c->before += halvings_;
+}
+
+void stf_core_choose(stf_core *c)
+{
+  const size_t count = (size_t)c->n * (size_t)c->n;
+  int exponent = 0;
+  c->before = 0;
+  if (isinf(c->norm)) shrink(c, LARGEST);
+  frexp(c->norm, &exponent);
+  if (exponent > LARGEST) shrink(c, exponent - LARGEST);
+  search(c);
+  if (c->s > 0) {
+    scale(count, ldexp(1, -c->s), c->A);
+    scale(count, ldexp(1, -2 * c->s), c->A2);
+    scale(count, ldexp(1, -4 * c->s), c->A4);
+    scale(count, ldexp(1, -6 * c->s), c->A6);
+  }
+  if (c->m == 9) stf_multiply(c->n, c->n, c->A4, c->A4, 0, c->A8);
+  c->s += c->before;
+}
