@@ -39,7 +39,8 @@ int stf_drazin_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif
 int stf_matching(steif_context *ctx, SUNMatrix E, SUNMatrix F, sunindextype *rank,
                  steif_structure *structure);
 
-/* Claims lists in a structure and an impulse; NULL members stay. */
+/* Claim lists in a structure (one that is there is released) and an impulse. Behind x_plus stand
+ * 2 n values for the residuals: nothing else may claim it. */
 int stf_structure_list(steif_context *ctx, sunindextype count, sunindextype **list);
 int stf_impulse_claim(steif_context *ctx, sunindextype n, int index, steif_impulse *impulse);
 /* The three residuals of steif_impulse from its x_plus and c. */

@@ -4,7 +4,8 @@
 
 extern CU_TestInfo tests_of_exact[], tests_of_pair[], tests_of_moments[], tests_of_euler[],
   tests_of_bdf[], tests_of_ut5[], tests_of_rk[], tests_of_duality[], tests_of_mesh[],
-  tests_of_layer[], tests_of_weak[], tests_of_matching[], tests_of_contour[];
+  tests_of_layer[], tests_of_weak[], tests_of_matching[], tests_of_contour[],
+  tests_of_structure[], tests_of_families[], tests_of_impulse_dense[];
 
 SUITE_MAIN(
   {.pName = "exact", .pTests = tests_of_exact}, {.pName = "pair", .pTests = tests_of_pair},
@@ -14,4 +15,7 @@ SUITE_MAIN(
   {.pName = "duality", .pTests = tests_of_duality}, {.pName = "mesh", .pTests = tests_of_mesh},
   {.pName = "layer", .pTests = tests_of_layer}, {.pName = "weak", .pTests = tests_of_weak},
   {.pName = "matching", .pTests = tests_of_matching},
-  {.pName = "contour", .pTests = tests_of_contour})
+  {.pName = "contour", .pTests = tests_of_contour},
+  {.pName = "structure", .pTests = tests_of_structure},
+  {.pName = "families", .pTests = tests_of_families},
+  {.pName = "impulse dense", .pTests = tests_of_impulse_dense})
