@@ -19,7 +19,7 @@
 #ifndef STEIF_IMPULSE_H
 #define STEIF_IMPULSE_H
 
-#include <steif/problem.h>
+#include <steif/solver.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -94,6 +94,39 @@ STEIF_EXPORT void steif_impulse_clear(steif_context *ctx, steif_impulse *impulse
 /* Pi_s = Phi_{-1} E (slow) into P, n x n by columns: dense pencils only. */
 STEIF_EXPORT int steif_projector_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                                       const steif_analysis *analysis, sunrealtype *P);
+
+/* -- systems -------------------------------------------------------------------------------------- */
+
+/* E x' + F x = f(t). The matrices and what `user` points to outlive every use. */
+typedef struct steif_linear {
+  SUNMatrix E, F;        /* dense or both sparse (CSC) */
+  steif_forcing f;       /* NULL: 0 */
+  void *user;
+} steif_linear;
+
+/* The matrices of a problem of the descriptor form: E, F = -A and g. linear->E and linear->F are new:
+ * SUNMatDestroy them. */
+STEIF_EXPORT int steif_linear_of(steif_context *ctx, const steif_problem *problem,
+                                 steif_linear *linear);
+/* A problem on [t0, t1] that starts at x0 (n values, kept by the caller), for steif_solver_new. */
+STEIF_EXPORT int steif_linear_problem(steif_context *ctx, const steif_linear *linear,
+                                      const sunrealtype *x0, sunrealtype t0, sunrealtype t1,
+                                      steif_problem *problem);
+
+/* What a run tells as it goes; either may be NULL, nonzero stops the run. */
+typedef struct steif_linear_output {
+  int (*jump)(sunrealtype t, const sunrealtype *x_minus, const steif_impulse *impulse, void *user);
+  int (*step)(sunrealtype t, N_Vector x, void *user);
+  void *user;
+} steif_linear_output;
+
+/* From x(t0-) = x0 to options.t1: at t0 and at every declared break (ascending, inside) the jump and
+ * the impulses, then `method` from x(t+) with the options' steps to the next break. */
+STEIF_EXPORT int steif_linear_run(steif_context *ctx, const steif_linear *linear,
+                                  const sunrealtype *x0, sunrealtype t0, const char *method,
+                                  const steif_options *options, const steif_analysis *analysis,
+                                  size_t break_count, const sunrealtype *breaks,
+                                  const steif_linear_output *output);
 
 #ifdef __cplusplus
 }
