@@ -21,7 +21,8 @@ int steif_method_find(steif_context *ctx, const char *text, steif_method_info *i
   snprintf(info->name, sizeof info->name, "%s", text);
   if (!strcmp(text, "auto")) {
     info->family = "auto", info->about = "chooses by size, storage, index and tolerance";
-    info->forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR, info->adaptive = 1;
+    info->forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
+    info->adaptive = 1;
     return STEIF_OK;
   }
   const steif_engine *engine = stf_engine_find(spec.name);
@@ -43,7 +44,8 @@ static const char *const fixed[] = {
   "be",          "bdf:p=2",       "bdf:p=3",       "bdf:p=4",       "bdf:p=5",   "bdf:p=6",
   "gauss:s=1",   "gauss:s=2",     "gauss:s=3",     "gauss:s=4",     "gauss:s=5", "radau:s=1",
   "radau:s=2",   "radau:s=3",     "radau:s=4",     "radau:s=5",     "radau:s=7", "radau1a:s=2",
-  "radau1a:s=3", "lobatto3c:s=2", "lobatto3c:s=3", "lobatto3c:s=4",
+  "radau1a:s=3", "lobatto3c:s=2", "lobatto3c:s=3", "lobatto3c:s=4", "rodas4",    "rodas4p",
+  "rodas4p2",    "rodas5p",
 };
 
 static bool spec_at(size_t i, char *text, size_t size)

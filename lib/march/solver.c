@@ -174,7 +174,7 @@ static int specialise(steif_solver *s)
   stf_step *step = &s->step;
   if (stf_small_serves(step))
     step->method = &steif_method_small;
-  else if (step->adaptive && !step->table)
+  else if (step->adaptive && (step->method->traits & STF_MULTISTEP))
     step->method = &steif_method_vbdf;
   else
     return STEIF_OK;

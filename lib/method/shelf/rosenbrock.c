@@ -1,0 +1,195 @@
+/* rosenbrock.c: linearly implicit methods with one real shift and no iteration (rodas.h): few digits,
+ * smooth problems.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "rodas.h"
+#include "method.h"
+#include <complex.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct state {
+  const stf_rodas *r;
+  stf_newton *newton;
+  N_Vector u[STF_RODAS_STAGES], Y, sum, ft, f0, before, slope, end;
+  bool have_f0; /* f0 = f(t_n, y_n), ft = df/dt there */
+} state;
+
+static const stf_rodas *find(const char *name)
+{
+  for (size_t i = 0; i < stf_rodas_count; i++)
+    if (!strcmp(stf_rodas_tables[i].name, name)) return stf_rodas_tables + i;
+  return NULL;
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  (void)table;
+  state *e = s->state;
+  stf_split split;
+  e->r = find(spec->name);
+  STEIF_TRY(stf_split_single(s->pool, 1 / e->r->g, &split));
+  STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
+  N_Vector *const all[] = {&e->Y, &e->sum, &e->ft, &e->f0, &e->before, &e->slope, &e->end};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+    if (!(*all[i] = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
+  for (int i = 0; i < e->r->s; i++)
+    if (!(e->u[i] = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
+  s->newton.fresh = false;
+  s->error_order = e->r->order - 1;
+  s->error_tolerance = 1;
+  return STEIF_OK;
+}
+
+/* f at the accepted point and its slope in t, by f(t), f(t + d), f(t + 2 d) inside the step. */
+static int start(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const sunrealtype d = fmax(1e-4 * h, 64 * STF_EPS * fabs(s->t));
+  const sunrealtype c[] = {2 / d, -1.5 / d, -0.5 / d};
+  N_Vector f[] = {e->ft, e->f0, e->sum};
+  STEIF_TRY(stf_system_rhs(&s->system, s->t, s->y, e->f0));
+  e->have_f0 = true;
+  if (s->problem->autonomous) return STEIF_OK;
+  STEIF_TRY(stf_system_rhs(&s->system, s->t + d, s->y, e->ft));
+  STEIF_TRY(stf_system_rhs(&s->system, s->t + 2 * d, s->y, e->sum));
+  stf_combine(space, 3, c, f, e->ft);
+  return STEIF_OK;
+}
+
+/* Y_i, the argument of stage i. */
+static void argument(stf_step *s, int i)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  if (i >= e->r->rows) {
+    stf_axpy(space, 1, e->u[i - 1], e->Y);
+    return;
+  }
+  stf_combine(space, i, e->r->a + i * (i - 1) / 2, e->u, e->Y);
+  stf_axpy(space, 1, s->y, e->Y);
+}
+
+static int stage(stf_step *s, int i, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_rodas *r = e->r;
+  const stf_space *space = &s->system.space;
+  sunrealtype c[STF_RODAS_STAGES];
+  argument(s, i);
+  if (i == 0)
+    stf_copy(space, e->f0, e->u[0]);
+  else
+    STEIF_TRY(stf_system_rhs(&s->system, s->t + r->alpha[i] * h, e->Y, e->u[i]));
+  if (r->gamma[i] != 0 && !s->problem->autonomous)
+    stf_axpy(space, r->gamma[i] * h, e->ft, e->u[i]);
+  if (i > 0) {
+    for (int j = 0; j < i; j++) c[j] = r->c[i * (i - 1) / 2 + j] / h;
+    stf_combine(space, i, c, e->u, e->sum);
+    if (s->system.form == STEIF_MASS) {
+      STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', e->sum, s->error));
+      stf_axpy(space, 1, s->error, e->u[i]);
+    } else
+      stf_axpy(space, 1, e->sum, e->u[i]);
+  }
+  return steif_pencil_solve(s->system.pencil, 0, 1, &e->u[i], NULL);
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const int last = e->r->s - 1;
+  if (!e->have_f0) STEIF_TRY(start(s, h));
+  const bool renew = !s->newton.fresh && (s->count > 0 || s->restart);
+  STEIF_TRY(stf_newton_prepare(&s->newton, s->t, h, s->y, s->yp, renew));
+  s->newton.fresh = true;
+  for (int i = 0; i <= last; i++) STEIF_TRY(stage(s, i, h));
+  stf_sum(space, 1, e->Y, 1, e->u[last], s->next);
+  stf_copy(space, e->u[last], s->error);
+  if (!stf_finite(space, s->next))
+    return STEIF_RECOVER(s->ctx, STEIF_NOT_FINITE,
+                         "the step of problem '%s' from t = %.12g with h = %.6g is not finite",
+                         s->problem->name, s->t, h);
+  return STEIF_OK;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  stf_copy(&s->system.space, s->y, e->before);
+  stf_copy(&s->system.space, e->f0, e->slope);
+  e->have_f0 = false;
+  stf_swap(s);
+}
+
+/* Cubic Hermite for y' = f, linear for M y' = f. */
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  state *e = s->state;
+  const sunrealtype x = (t - (s->t - s->h)) / s->h, v = 1 - x;
+  N_Vector term[] = {e->before, s->y, e->slope, e->end};
+  if (s->system.form == STEIF_MASS) {
+    stf_sum(&s->system.space, v, e->before, x, s->y, y);
+    return STEIF_OK;
+  }
+  STEIF_TRY(stf_system_rhs((stf_system *)&s->system, s->t, s->y, e->end));
+  const sunrealtype c[] = {v * v * (1 + 2 * x), x * x * (1 + 2 * v), s->h * x * v * v,
+                           -s->h * x * x * v};
+  stf_combine(&s->system.space, 4, c, term, y);
+  return STEIF_OK;
+}
+
+/* The step on y' = lambda y with exact Jacobian: u_i solved in complex arithmetic. */
+static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                      const sunrealtype z[2], int *r, sunrealtype *M)
+{
+  (void)table;
+  const stf_rodas *t = find(spec->name);
+  const double complex zeta = z[0] + z[1] * I, pivot = 1 / t->g - zeta;
+  double complex u[STF_RODAS_STAGES], Y = 1;
+  sunrealtype R[2] = {0, 0};
+  if (isfinite(z[0]) && isfinite(z[1])) {
+    STEIF_CHECK(cabs(pivot) > 0, ctx, STEIF_SINGULAR, "z = %.17g is the pole of '%s'", z[0],
+                spec->name);
+    for (int i = 0; i < t->s; i++) {
+      const sunrealtype *a = t->a + i * (i - 1) / 2, *c = t->c + i * (i - 1) / 2;
+      double complex sum = 0;
+      Y = i < t->rows ? 1 : Y + u[i - 1];
+      for (int j = 0; j < i; j++) {
+        if (i < t->rows) Y += a[j] * u[j];
+        sum += c[j] * u[j];
+      }
+      u[i] = (zeta * Y + sum) / pivot;
+    }
+    Y += u[t->s - 1];
+    R[0] = creal(Y), R[1] = cimag(Y);
+  }
+  stf_propagate_scalar(R, r, M);
+  return STEIF_OK;
+}
+
+static int describe(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                    steif_method_info *info)
+{
+  (void)table;
+  STEIF_TRY(stf_spec_only(ctx, spec, (const char *const[]){NULL}));
+  const stf_rodas *r = find(spec->name);
+  info->family = "rosenbrock", info->about = r->about;
+  info->order = r->order, info->stages = r->s, info->adaptive = 1;
+  info->claims = STEIF_A_STABLE | STEIF_L_STABLE;
+  return STEIF_OK;
+}
+
+const steif_method steif_method_rosenbrock = {
+  .about = "Rosenbrock methods of Rodas type",
+  .forms = STEIF_ODE | STEIF_MASS,
+  .traits = STF_ADAPTIVE,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+  .propagator = propagator,
+  .describe = describe,
+};
