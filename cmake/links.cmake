@@ -1,5 +1,5 @@
 # What steif links, as two targets; read by steif's own build and by its installed package, after
-# SUNDIALS, KLU, LAPACK, Threads and jansson have been looked for.
+# SUNDIALS, KLU, LAPACK, Threads, jansson and, where steif_matio is set, matio have been looked for.
 #
 #   steif::sundials   vectors and matrices: part of steif's interface
 #   steif::private    the rest: to build steif, or to link libsteif.a
@@ -27,4 +27,9 @@ if(KLU_FOUND AND LAPACK_FOUND AND Threads_FOUND AND JANSSON_LIBRARY AND JANSSON_
                steif_klu LAPACK::LAPACK Threads::Threads ${JANSSON_LIBRARY} m)
   set_property(TARGET steif::private APPEND PROPERTY
                INTERFACE_INCLUDE_DIRECTORIES ${JANSSON_INCLUDE_DIR})
+endif()
+if(steif_matio)
+  set_property(TARGET steif::private APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${MATIO_LIBRARY})
+  set_property(TARGET steif::private APPEND PROPERTY
+               INTERFACE_INCLUDE_DIRECTORIES ${MATIO_INCLUDE_DIR})
 endif()

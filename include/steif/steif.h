@@ -7,6 +7,7 @@
 #include <steif/bench.h>
 #include <steif/collection.h>
 #include <steif/descriptor.h>
+#include <steif/input.h>
 #include <steif/method.h>
 #include <steif/pencil.h>
 #include <steif/phi.h>

@@ -1,0 +1,64 @@
+/* steif/input.h: matrices and forcing functions from files.
+ *
+ * Matrices: Matrix Market (coordinate or array; real, integer or pattern; general, symmetric or
+ * skew-symmetric) and MATLAB version 5 files. Forcing: one expression in t per line,
+ *     sin(3*t) + 2*exp(-t)          component 1
+ *     step(t - 0.5) * t^2           component 2: declares a breakpoint at t = 0.5
+ * with + - * / ^, numbers, t, pi, sin cos tan exp log sqrt sinh cosh tanh atan abs, step(t - c) and
+ * ramp(t - c). Derivatives of any order are exact, by Taylor arithmetic.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_INPUT_H
+#define STEIF_INPUT_H
+
+#include <steif/problem.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A sparse (CSC) SUNMatrix from a Matrix Market file; array files become dense matrices. NULL with
+ * the message set (file, line, what was expected). SUNMatDestroy it. */
+STEIF_EXPORT SUNMatrix steif_matrix_read(steif_context *ctx, const char *path);
+/* Variable `name` of a MATLAB v5 file, sparse or full. *found = 0 and NULL without a message when
+ * the file has no such variable. STEIF_UNSUPPORTED when built without matio. */
+STEIF_EXPORT SUNMatrix steif_matrix_read_mat(steif_context *ctx, const char *path, const char *name,
+                                             int *found);
+/* Coordinate (sparse) or array (dense) Matrix Market file with 17 digits. */
+STEIF_EXPORT int steif_matrix_write(steif_context *ctx, SUNMatrix M, const char *path);
+
+/* E and F of a system from files of users: path_E and path_F are Matrix Market files; path_F NULL:
+ * path_E is a .mat file with E and F, or E and A (F = -A), or M, D, K and G of
+ * M q'' + D q' + K q + G^T l = f, G q = g, taken to first order. The variables' names and sizes are
+ * checked. */
+STEIF_EXPORT int steif_system_read(steif_context *ctx, const char *path_E, const char *path_F,
+                                   SUNMatrix *E, SUNMatrix *F);
+
+typedef struct steif_function steif_function;
+
+/* n expressions from a file (lines; # begins a comment; fewer lines than n is an error with the
+ * line number), or from one text separated by ';'. B n x m dense or sparse: f = B u with m
+ * expressions; NULL: none. */
+STEIF_EXPORT steif_function *steif_function_read(steif_context *ctx, const char *path,
+                                                 sunindextype n, SUNMatrix B);
+STEIF_EXPORT steif_function *steif_function_parse(steif_context *ctx, const char *text,
+                                                  sunindextype n, SUNMatrix B);
+/* Samples: a CSV file with columns t, f_1 .. f_n at equal distances; derivatives at the first time
+ * by one-sided formulas over `points` samples (0: 8). *accuracy: estimated relative error of the
+ * derivative of order 1. */
+STEIF_EXPORT steif_function *steif_function_samples(steif_context *ctx, const char *path,
+                                                    sunindextype n, int points,
+                                                    sunrealtype *accuracy);
+STEIF_EXPORT void steif_function_free(steif_function **f);
+
+/* Fits steif_problem.g and steif_impulse_find, with the function as user data; right limits at
+ * breakpoints. */
+STEIF_EXPORT int steif_function_value(sunrealtype t, int derivative, N_Vector g, void *function);
+/* Declared breakpoints inside (t0, t1), ascending; returns how many there are. */
+STEIF_EXPORT size_t steif_function_breaks(const steif_function *f, sunrealtype t0, sunrealtype t1,
+                                          size_t room, sunrealtype *times);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
