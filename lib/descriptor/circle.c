@@ -17,6 +17,9 @@ enum { ALIAS = 3 };
 /* Points whose factors are alive at a time: few for large systems. */
 enum { LARGE = 100000, SLOTS = 4, SLOTS_LARGE = 2 };
 
+/* A radius over max |F| / max |E| where nothing is known. */
+#define GUESS 10.0
+
 static const sunrealtype pi = 3.14159265358979323846;
 
 steif_analysis stf_analysis_filled(const steif_analysis *analysis)
@@ -30,6 +33,15 @@ steif_analysis stf_analysis_filled(const steif_analysis *analysis)
     a.index_most = a.points - ALIAS < INDEX_MOST ? a.points - ALIAS : INDEX_MOST;
   if (!a.seed) a.seed = SEED;
   return a;
+}
+
+sunrealtype stf_radius(SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
+                       const steif_structure *structure)
+{
+  if (analysis && analysis->radius > 0) return analysis->radius;
+  if (structure->radius > 0 && isfinite(structure->radius)) return structure->radius;
+  const sunrealtype e = stf_largest(E), f = stf_largest(F);
+  return e > 0 && f > 0 ? GUESS * f / e : 1;
 }
 
 static int check(steif_context *ctx, const steif_analysis *a)

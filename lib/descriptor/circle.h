@@ -56,6 +56,9 @@ int stf_circle_run(stf_circle *circle, sunrealtype R, stf_circle_source *source,
 
 /* The analysis with its defaults. */
 steif_analysis stf_analysis_filled(const steif_analysis *analysis);
+/* The radius to use: given, found, or a guess from the largest entries. */
+sunrealtype stf_radius(SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
+                       const steif_structure *structure);
 /* max |M_ij|, 0 for an empty matrix. */
 sunrealtype stf_largest(SUNMatrix M);
 

@@ -13,21 +13,25 @@
 #include <stdio.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-/* A count this near to a whole number is one. Moments this far apart decide an index; this far
- * when the count is not certified to be complete; growth of the radius from circle to circle. */
+/* A count this near to a whole number is one. */
 #define WHOLE 0.05
+/* Moments that far apart decide an index; are clear; cannot part further in double precision. */
 #define GAP 1e3
-#define WIDE 1e12
 #define CLEAR 1e6
+#define WIDE 1e12
+/* Factors from circle to circle, up and down; how far beyond the estimate of the eigenvalues, and
+ * how far that may lie above max |F| / max |E|. */
 #define GROW 4.0
-/* The circle is given up this far beyond the estimate of the largest eigenvalue. */
+#define SHRINK 16.0
 #define BEYOND 64.0
-enum { CIRCLES = 24, MOMENTS = 65 };
+#define SPREAD 1e12
+enum { CIRCLES = 32, MOMENTS = 65 };
 
 /* What one circle showed. */
 typedef struct sample {
-  sunrealtype radius, log_det, gap, rcond, count; /* count: with the circle before; NaN */
-  int index, last; /* by the largest gap, by the last that is wide enough */
+  sunrealtype radius, log_det, gap, rcond;
+  sunrealtype below, count; /* with the smaller circle of radius `below`; NaN: none */
+  int index, last;          /* by the largest gap, by the last that is wide enough */
   bool singular;
 } sample;
 
@@ -83,14 +87,19 @@ static int draw(search *w, sunrealtype radius, bool moments)
   now->singular = code == STEIF_SINGULAR;
   if (now->singular) steif_forget(w->ctx);
   if (code) return now->singular ? STEIF_OK : code;
-  const sunrealtype n = (sunrealtype)w->circle.scaled.n;
   now->log_det = w->circle.log_det;
-  if (w->circles > 1 && !now[-1].singular)
-    now->count = (now->log_det - now[-1].log_det) / log(radius / now[-1].radius);
   if (!moments) return STEIF_OK;
-  now->rcond = 1 / (w->circle.scaled.norm * sqrt(n) * w->circle.amplified);
+  now->rcond =
+    1 / (w->circle.scaled.norm * sqrt((sunrealtype)w->circle.scaled.n) * w->circle.amplified);
   judge(w, now);
   return STEIF_OK;
+}
+
+static void count(sample *larger, const sample *smaller)
+{
+  if (larger->singular || smaller->singular) return;
+  larger->below = smaller->radius;
+  larger->count = (larger->log_det - smaller->log_det) / log(larger->radius / smaller->radius);
 }
 
 /* More eigenvalues than the pattern allows are rounding. */
@@ -130,59 +139,93 @@ static sunrealtype bound(search *w)
   return most;
 }
 
-/* Enough is known: all finite eigenvalues are inside, and the moments decide, or do not part any
- * further. */
-static bool enough(const search *w)
+static bool clear(const search *w, const sample *s)
 {
-  const sample *now = &w->of[w->circles - 1];
-  if (w->circles < 2 || !complete(w, now) || now->gap < GAP) return false;
-  if (now->gap >= WIDE || (now->gap >= CLEAR && now->last == w->pattern)) return true;
-  return now->gap < GROW * now[-1].gap;
+  return s->gap >= WIDE || (s->gap >= CLEAR && s->last == w->pattern);
 }
 
+/* Up until all finite eigenvalues are inside, and the moments decide or part no further. */
 static int grow(search *w)
 {
-  sunrealtype radius = w->start;
-  if (w->analysis.radius > 0) {
-    STEIF_TRY(draw(w, w->analysis.radius, true));
-    return draw(w, 2 * w->analysis.radius, false);
-  }
-  for (; w->circles < CIRCLES && radius <= w->end * BEYOND; radius *= GROW) {
-    STEIF_TRY(draw(w, radius, true));
-    if (enough(w)) break;
+  STEIF_TRY(draw(w, w->end, true));
+  for (int k = 1; k < CIRCLES / 2 && w->of[k - 1].radius < w->end * BEYOND; k++) {
+    const sample *now = &w->of[k];
+    STEIF_TRY(draw(w, GROW * now[-1].radius, true));
+    count(&w->of[k], now - 1);
+    if (!complete(w, now) || now->gap < GAP) continue;
+    if (clear(w, now) || now->gap < GROW * now[-1].gap) break;
   }
   return STEIF_OK;
 }
 
-/* The circle to believe: one with all eigenvalues inside, else one with a whole count, else any;
- * among equals the one with the widest gap. A given radius leaves no choice. */
+/* Down from the first circle: while all eigenvalues stay inside, when they are inside the second
+ * already, since rounding grows with R; or through the radii left out, when they never are. */
+static int shrink(search *w)
+{
+  const bool inside = w->circles == 2 && complete(w, &w->of[1]);
+  bool outside = true;
+  for (int k = 0; k < w->circles; k++) outside &= !complete(w, &w->of[k]);
+  const sunrealtype factor = inside ? SHRINK : GROW, least = outside ? w->start / GROW : 0;
+  if (!(inside && w->structure->degree > 0) && !outside) return STEIF_OK;
+  sample *lowest = &w->of[0];
+  while (w->circles < CIRCLES && lowest->radius / factor >= least) {
+    STEIF_TRY(draw(w, lowest->radius / factor, true));
+    sample *now = &w->of[w->circles - 1];
+    count(lowest, now);
+    if (inside && !complete(w, lowest)) break;
+    lowest = now;
+  }
+  return STEIF_OK;
+}
+
+static int explore(search *w)
+{
+  const sunrealtype given = w->analysis.radius;
+  if (given > 0) {
+    STEIF_TRY(draw(w, given, true));
+    STEIF_TRY(draw(w, 2 * given, false));
+    count(&w->of[1], &w->of[0]);
+    w->of[0].count = w->of[1].count;
+    w->circles = 1;
+    return STEIF_OK;
+  }
+  STEIF_TRY(grow(w));
+  return shrink(w);
+}
+
+static int class_of(const search *w, const sample *s)
+{
+  if (complete(w, s)) return clear(w, s) ? 3 : 2;
+  return whole(w, s) ? 1 : 0;
+}
+
+/* The circle to believe: the smallest with all eigenvalues inside and a clear index; else one with
+ * all inside, with a whole count, any, the widest gap first. */
 static sample choose(const search *w)
 {
-  int best = -1, best_class = -1;
+  sample best = {.singular = true, .count = NAN};
   for (int k = 0; k < w->circles; k++) {
     const sample *s = &w->of[k];
     if (s->singular) continue;
-    const int class = complete(w, s) ? 2 : whole(w, s) ? 1 : 0;
-    if (class > best_class || (class == best_class && s->gap > w->of[best].gap))
-      best = k, best_class = class;
+    const int class = class_of(w, s), before = best.singular ? -1 : class_of(w, &best);
+    const bool better = class == 3 ? s->radius < best.radius : s->gap > best.gap;
+    if (class > before || (class == before && better)) best = *s;
   }
-  sample chosen = best < 0 ? (sample){.singular = true, .count = NAN} : w->of[best];
-  if (w->analysis.radius > 0 && !w->of[0].singular) {
-    chosen = w->of[0];
-    chosen.count = w->of[1].count;
-  }
-  return chosen;
+  return best;
 }
 
-/* The radius at which aliasing, (rho / R)^points, is at rounding level. From Jensen's mean an
- * eigenvalue at rho is missed by (rho / R)^points / points: the distance of the count from a whole
- * number tells rho on the smaller circle of the pair. */
+/* The radius at which aliasing, (rho / R)^points, is at rounding level, by the smallest circle with
+ * all eigenvalues inside. From Jensen's mean an eigenvalue at rho is missed by (rho / R)^points /
+ * points: the distance of the count from a whole number tells rho on the smaller circle of the
+ * pair. */
 static sunrealtype settle(const search *w, const sample *chosen)
 {
   if (w->analysis.radius > 0 || !complete(w, chosen)) return chosen->radius;
-  const sunrealtype m = w->analysis.points, before = chosen->radius / GROW;
+  for (int k = 0; k < w->circles; k++)
+    if (complete(w, &w->of[k]) && w->of[k].radius < chosen->radius) chosen = &w->of[k];
+  const sunrealtype m = w->analysis.points, ratio = chosen->radius / chosen->below;
   const sunrealtype off = fmax(fabs(chosen->count - round(chosen->count)), 1e-12);
-  return before * pow(off * m * log(GROW) / STF_EPS, 1 / m);
+  return chosen->below * pow(off * m * log(ratio) / STF_EPS, 1 / m);
 }
 
 static void say(const search *w, const sample *chosen)
@@ -263,8 +306,8 @@ static int analyse(search *w, SUNMatrix E, SUNMatrix F)
   stf_random random = {w->analysis.seed};
   for (sunindextype i = 0; i < n; i++) w->v[i] = stf_random_in(&random, -1, 1);
   w->start = e > 0 && f > 0 ? f / e : 1;
-  w->end = bound(w);
-  STEIF_TRY(grow(w));
+  w->end = fmin(bound(w), SPREAD * w->start);
+  STEIF_TRY(explore(w));
   conclude(w);
   return STEIF_OK;
 }

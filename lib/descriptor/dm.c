@@ -97,7 +97,7 @@ static int analyse(steif_context *ctx, stf_pool *pool, SUNMatrix E, SUNMatrix F,
 {
   stf_graph g, t;
   sunindextype highest = -1;
-  STEIF_TRY(stf_graph_build(pool, E, F, &g));
+  STEIF_TRY(stf_graph_build(ctx, pool, E, F, &g));
   STEIF_TRY(stf_graph_match(pool, &g, rank));
   STEIF_TRY(stf_graph_transpose(pool, &g, &t));
   unsigned char *chosen = stf_claim(pool, (size_t)g.n, 1);

@@ -17,8 +17,6 @@
  * rounding in the fast part grows. NEAR its smallest value is near enough. */
 enum { MOST = 40, PATIENCE = 3, INDEX = 64, WIDE = MOST + INDEX + 1 };
 #define NEAR 3.0
-/* sigma over max |F| / max |E| where nothing is known. */
-#define BEYOND 10.0
 
 /* Vectors are in scaled coordinates, x = column x^. */
 typedef struct drazin {
@@ -249,15 +247,6 @@ static int analyse(drazin *z, const sunrealtype *x0)
   return STEIF_OK;
 }
 
-static sunrealtype shift(SUNMatrix E, SUNMatrix F, const steif_analysis *a,
-                         const steif_structure *structure)
-{
-  if (a->radius > 0) return a->radius;
-  if (structure->radius > 0) return structure->radius;
-  const sunrealtype e = stf_largest(E), f = stf_largest(F);
-  return e > 0 && f > 0 ? BEYOND * f / e : 1;
-}
-
 int stf_drazin_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                        const steif_analysis *analysis, const sunrealtype *x0,
                        const stf_sources *sources, steif_structure *structure,
@@ -277,12 +266,10 @@ int stf_drazin_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
   if (!z) return STEIF_NO_MEMORY;
   *z = (drazin){.sources = sources, .impulse = impulse, .index = index};
   z->refinements = a.refinements;
-  z->sigma = shift(E, F, &a, structure);
+  z->sigma = stf_radius(E, F, analysis, structure);
   int code = stf_scaled_open(ctx, E, F, &z->scaled);
   if (!code) code = analyse(z, x0);
   stf_scaled_close(&z->scaled);
   stf_release(ctx, z);
-  STEIF_TRY(code);
-  stf_impulse_residuals(E, F, x0, sources->f, impulse);
-  return STEIF_OK;
+  return code;
 }

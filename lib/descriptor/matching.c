@@ -44,9 +44,29 @@ static void join(stf_graph *g, SUNMatrix M, sunindextype j, unsigned char sigma,
   }
 }
 
-int stf_graph_build(stf_pool *pool, SUNMatrix E, SUNMatrix F, stf_graph *g)
+/* The frame of the graph is what the index arrays say: they are looked at before use. */
+static int check(steif_context *ctx, const char *name, SUNMatrix M)
+{
+  const sunindextype *ptr = SM_INDEXPTRS_S(M), *row = SM_INDEXVALS_S(M), n = SM_COLUMNS_S(M);
+  bool good = ptr[0] == 0;
+  for (sunindextype j = 0; good && j < n; j++) {
+    good = ptr[j] <= ptr[j + 1] && ptr[j + 1] <= SM_NNZ_S(M);
+    for (sunindextype k = ptr[j]; good && k < ptr[j + 1]; k++) good = row[k] >= 0 && row[k] < n;
+    STEIF_CHECK(
+      good, ctx, STEIF_BAD_INPUT,
+      "column %lld (from 0) of %s has pointers that do not rise within its %lld entries "
+      "or a row outside 0 .. %lld: check the index arrays",
+      (long long)j, name, (long long)SM_NNZ_S(M), (long long)n - 1);
+  }
+  STEIF_CHECK(good, ctx, STEIF_BAD_INPUT, "the column pointers of %s do not start at 0", name);
+  return STEIF_OK;
+}
+
+int stf_graph_build(steif_context *ctx, stf_pool *pool, SUNMatrix E, SUNMatrix F, stf_graph *g)
 {
   const sunindextype n = SM_COLUMNS_S(F);
+  STEIF_TRY(check(ctx, "E", E));
+  STEIF_TRY(check(ctx, "F", F));
   STEIF_TRY(claim(pool, n, entries(E) + entries(F), g));
   sunindextype *seen = stf_claim(pool, (size_t)n, sizeof *seen);
   if (!seen) return STEIF_NO_MEMORY;

@@ -33,8 +33,8 @@ static inline sunindextype stf_reduced(const stf_graph *g, sunindextype j, sunin
   return 1 - g->sigma[k] - g->u[j] - g->v[g->row[k]];
 }
 
-/* Claimed from the pool, nothing matched. */
-int stf_graph_build(stf_pool *pool, SUNMatrix E, SUNMatrix F, stf_graph *g);
+/* Claimed from the pool, nothing matched; index arrays out of order are refused. */
+int stf_graph_build(steif_context *ctx, stf_pool *pool, SUNMatrix E, SUNMatrix F, stf_graph *g);
 /* The same graph with the roles of rows and columns exchanged, matched alike. */
 int stf_graph_transpose(stf_pool *pool, const stf_graph *g, stf_graph *t);
 /* A matching of most edges, and if it is perfect one of largest sum of sigma. */

@@ -157,16 +157,14 @@ static int claim(residue *w)
   return STEIF_OK;
 }
 
-/* `fixed`: the radius given, 0 for one to be looked for. */
-static int analyse(residue *w, sunrealtype fixed, const steif_structure *structure)
+static int analyse(residue *w, sunrealtype R, bool fixed, const steif_structure *structure)
 {
   steif_impulse *out = w->impulse;
-  const size_t n = (size_t)out->n;
-  sunrealtype R = fixed > 0 ? fixed : structure->radius;
+  const size_t n = (size_t)out->n, count = (size_t)out->count;
   STEIF_TRY(claim(w));
-  STEIF_TRY(find(w, fixed > 0, &R));
+  STEIF_TRY(find(w, fixed, &R));
   memcpy(out->x_plus, w->at[0].x, n * sizeof *out->x_plus);
-  if (out->count) memcpy(out->c, w->at[0].x + n, n * (size_t)out->count * sizeof *out->c);
+  if (count) memcpy(out->c, w->at[0].x + n, n * count * sizeof *out->c);
   out->certified = structure->certified && out->estimate <= CERTIFIED;
   say(w, structure, R);
   return STEIF_OK;
@@ -179,20 +177,17 @@ int stf_contour_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
 {
   const int index = structure->index < 0 ? structure->index_least : structure->index;
   const int terms = sources->f ? index : 0;
+  const bool fixed = analysis && analysis->radius > 0;
   residue w = {.ctx = ctx, .sources = sources, .impulse = impulse, .terms = terms};
+  (void)x0; /* only E x(0-) enters */
   STEIF_CHECK(terms <= sources->derivatives + 1, ctx, STEIF_BAD_INPUT,
               "index %d asks for derivatives of the forcing up to order %d, %d is known: give "
               "them in the forcing function",
               index, index - 1, sources->derivatives);
-  STEIF_CHECK(structure->radius > 0 && isfinite(structure->radius), ctx, STEIF_BAD_INPUT,
-              "the structure names no radius: find it with STEIF_CONTOUR, or give one");
   STEIF_TRY(stf_impulse_claim(ctx, sources->n, index, impulse));
   impulse->method = "contour";
   STEIF_TRY(stf_circle_open(ctx, E, F, analysis, -1, impulse->count + 1, &w.circle));
-  const sunrealtype fixed = analysis ? analysis->radius : 0;
-  const int code = analyse(&w, fixed, structure);
+  const int code = analyse(&w, stf_radius(E, F, analysis, structure), fixed, structure);
   stf_circle_close(&w.circle);
-  STEIF_TRY(code);
-  stf_impulse_residuals(E, F, x0, sources->f, impulse);
-  return STEIF_OK;
+  return code;
 }
