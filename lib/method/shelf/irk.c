@@ -115,6 +115,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
               "'%s' has no error estimate (its first node is 0): give steps with h",
               table->name);
   if (table->c[0] > 0) fill_slope(e);
+  if (s->adaptive && !(s->options->newton > 0)) s->newton.tolerance = 1e-3;
   s->error_order = e->s;
   s->error_tolerance = 0.1 * pow(s->options->rtol, (e->s + 1.0) / (2 * e->s) - 1);
   return STEIF_OK;

@@ -77,7 +77,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   for (int j = 0; j < e->s; j++) stf_small_basis(e, j);
   e->itmax =
     s->options->iterations ? s->options->iterations : 7 + (e->s > 3 ? 5 * (e->s - 3) / 2 : 0);
-  e->kappa = s->options->newton > 0 ? s->options->newton : 1e-2;
+  e->kappa = s->options->newton > 0 ? s->options->newton : 1e-3;
   if (s->problem->dae_index >= 3 && !(s->options->newton > 0)) e->kappa = 1e-4;
   e->eta = 1, e->new_J = true;
   s->error_order = e->s;
