@@ -44,7 +44,7 @@ typedef struct steif_analysis {
 
 /* What was found. Lists are owned by the structure. */
 typedef struct steif_structure {
-  sunindextype n, rank_E;
+  sunindextype n, rank_E;   /* rank_E -1: not computed (contour) */
   int regular;              /* 1, 0 */
   int index;                /* -1: undecided, then index_least is a lower bound */
   int index_least;
@@ -75,7 +75,8 @@ typedef struct steif_impulse {
   sunrealtype *x_plus;      /* n */
   sunrealtype *c;           /* count x n, by rows: c_0, c_1, ... */
   sunrealtype last, chain, first; /* residuals ||E c_{k-2}||, max ||F c_i + E c_{i-1}||, ||F c_0 +
-                               E (x+ - x-)||, each relative to the norms of its terms */
+                               E (x+ - x-)||, each relative to the norms of its terms
+                               (the first to max |E| ||c_{k-2}||) */
   sunrealtype estimate;     /* of the relative error of x_plus: two radii, or two algorithms */
   int certified;
   const char *method;

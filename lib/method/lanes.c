@@ -8,7 +8,7 @@
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__linux__) &&   \
   !defined(__SANITIZE_ADDRESS__)
-#define CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#define CLONES __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
 #else
 #define CLONES
 #endif
@@ -35,15 +35,15 @@
 
 /* -- factor ------------------------------------------------------------------------------------ */
 
-/* lambda/h M - J by rows, all lanes. */
+/* lambda/h M - J by columns, all lanes. */
 INLINE void assemble(stf_lanes *L, const int n, const int lanes, const double *J, double h)
 {
   double s[2 * STF_LANES];
   for (int k = 0; k < 2 * lanes; k++) s[k] = L->lambda[k] / h;
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) {
+  for (int j = 0; j < n; j++)
+    for (int i = 0; i < n; i++) {
       const double m = L->M ? L->M[i * n + j] : i == j, a = J[i + n * j];
-      double *e = L->lu + (i * n + j) * 2 * lanes;
+      double *e = L->lu + (j * n + i) * 2 * lanes;
       for (int k = 0; k < lanes; k++) e[k] = s[k] * m - a, e[lanes + k] = s[lanes + k] * m;
     }
 }
@@ -67,6 +67,22 @@ INLINE void minus(const int lanes, double *restrict z, const double *restrict x,
   }
 }
 
+/* z_i -= a_i x for i = from .. to - 1: independent, so that the processor may overlap them. */
+INLINE void subtract(const int lanes, int from, int to, const double *restrict a,
+                     const double *x, double *restrict z)
+{
+  double re[STF_LANES], im[STF_LANES];
+  for (int k = 0; k < lanes; k++) re[k] = x[k], im[k] = x[lanes + k];
+  for (int i = from; i < to; i++) {
+    const double *e = a + i * 2 * lanes;
+    double *w = z + i * 2 * lanes;
+    for (int k = 0; k < lanes; k++) {
+      w[k] -= e[k] * re[k] - e[lanes + k] * im[k];
+      w[lanes + k] -= e[k] * im[k] + e[lanes + k] * re[k];
+    }
+  }
+}
+
 INLINE void times(const int lanes, double *restrict x, const double *restrict y)
 {
   for (int k = 0; k < lanes; k++) {
@@ -82,15 +98,18 @@ INLINE double pivot(stf_lanes *L, const int n, const int lanes, int k)
   double *a = L->lu, big = -1;
   int p = k;
   for (int i = k; i < n; i++) {
-    const double *e = a + (i * n + k) * 2 * lanes, size = fabs(e[0]) + fabs(e[lanes]);
+    const double *e = a + (k * n + i) * 2 * lanes, size = fabs(e[0]) + fabs(e[lanes]);
     if (size > big) big = size, p = i;
   }
   if (p == k) return big;
   const int row = L->order[k];
   L->order[k] = L->order[p], L->order[p] = row;
-  for (int j = 0; j < n * 2 * lanes; j++) {
-    const double x = a[k * n * 2 * lanes + j];
-    a[k * n * 2 * lanes + j] = a[p * n * 2 * lanes + j], a[p * n * 2 * lanes + j] = x;
+  for (int j = 0; j < n; j++) {
+    double *x = a + (j * n + k) * 2 * lanes, *y = a + (j * n + p) * 2 * lanes;
+    for (int m = 0; m < 2 * lanes; m++) {
+      const double t = x[m];
+      x[m] = y[m], y[m] = t;
+    }
   }
   return big;
 }
@@ -100,19 +119,17 @@ INLINE void eliminate(stf_lanes *L, const int n, const int lanes, const double *
 {
   assemble(L, n, lanes, J, h);
   for (int i = 0; i < n; i++) L->order[i] = i;
-  double *a = L->lu;
   for (int k = 0; k < n; k++) {
     if (!(pivot(L, n, lanes, k) >= DBL_MIN)) {
       *failed = k + 1;
       return;
     }
-    double *d = a + (k * n + k) * 2 * lanes;
+    double *column = L->lu + k * n * 2 * lanes, *d = column + k * 2 * lanes;
     reciprocal(lanes, d);
-    for (int i = k + 1; i < n; i++) {
-      double *l = a + (i * n + k) * 2 * lanes;
-      times(lanes, l, d);
-      for (int j = k + 1; j < n; j++)
-        minus(lanes, a + (i * n + j) * 2 * lanes, l, a + (k * n + j) * 2 * lanes);
+    for (int i = k + 1; i < n; i++) times(lanes, column + i * 2 * lanes, d);
+    for (int j = k + 1; j < n; j++) {
+      double *other = L->lu + j * n * 2 * lanes;
+      subtract(lanes, k + 1, n, column, other + k * 2 * lanes, other);
     }
   }
 }
@@ -126,23 +143,20 @@ CLONES int stf_lanes_factor(stf_lanes *L, const double *J, double h)
 
 /* -- solve --------------------------------------------------------------------------------------- */
 
-/* x from rhs by the LU: forward in the order of elimination, then backward. */
+/* x from rhs by the LU: forward in the order of elimination, then backward, by columns. */
 INLINE void solve(stf_lanes *L, const int n, const int lanes, const double *restrict rhs,
                   double *restrict x)
 {
-  const double *a = L->lu;
   for (int i = 0; i < n; i++) {
-    double *xi = x + i * 2 * lanes;
     const double *b = rhs + L->order[i] * 2 * lanes;
-    for (int k = 0; k < 2 * lanes; k++) xi[k] = b[k];
-    for (int j = 0; j < i; j++)
-      minus(lanes, xi, a + (i * n + j) * 2 * lanes, x + j * 2 * lanes);
+    for (int k = 0; k < 2 * lanes; k++) x[i * 2 * lanes + k] = b[k];
   }
-  for (int i = n - 1; i >= 0; i--) {
-    double *xi = x + i * 2 * lanes;
-    for (int j = i + 1; j < n; j++)
-      minus(lanes, xi, a + (i * n + j) * 2 * lanes, x + j * 2 * lanes);
-    times(lanes, xi, a + (i * n + i) * 2 * lanes);
+  for (int j = 0; j < n - 1; j++)
+    subtract(lanes, j + 1, n, L->lu + j * n * 2 * lanes, x + j * 2 * lanes, x);
+  for (int j = n - 1; j >= 0; j--) {
+    const double *column = L->lu + j * n * 2 * lanes;
+    times(lanes, x + j * 2 * lanes, column + j * 2 * lanes);
+    subtract(lanes, 0, j, column, x + j * 2 * lanes, x);
   }
 }
 

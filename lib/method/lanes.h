@@ -23,7 +23,7 @@ typedef struct stf_lanes {
   double gain[STF_LANES]; /* weight of |omega_k|^2 in the norm: 1 real, 4 pair, 0 padding */
   double Vinv[STF_WIDE][2 * STF_LANES]; /* column j of V^{-1}: re, im by lane */
   double V[2 * STF_LANES][STF_WIDE];    /* Z_j = sum_k V[k][j] re_k + V[lanes + k][j] im_k */
-  double *lu;                           /* n x n by rows, 2 lanes each */
+  double *lu;                           /* n x n by columns, 2 lanes each */
   int *order;                           /* rows in the order of elimination */
   double *omega, *rhs, *work;           /* n x 2 lanes */
   double *Z;                            /* n x wide */

@@ -1,0 +1,322 @@
+/* stages.c: consistent start values by stages. In stage k = -max d, ..., 0, 1 the equations
+ * F_i^(c_i + k) determine y_j^(d_j + k) (orders >= 0), with the matching part of the system
+ * Jacobian; what is left open moves least. J. D. Pryce, Numer. Algorithms 19 (1998) 195-211.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "diagnose.h"
+#include <math.h>
+#include <string.h>
+
+static const sunrealtype proximal = 1e-3; /* weight of derivatives, which have no guess */
+static const sunrealtype violated = 1e-6; /* residual over the terms of its equation */
+
+typedef struct stage_work {
+  stf_task *task;
+  const stf_structure *structure;
+  size_t n;
+  int deepest; /* orders kept */
+  int stage;
+  sunrealtype *u; /* y^(k)/k!, (deepest + 1) x n */
+  sunrealtype *guess, *climb, *E, *B;
+  size_t rows, columns;
+  size_t *equation, *unknown;
+  int *order; /* n: of equation i in this stage, -1 */
+  stf_ladder ladder;
+  stf_curve curve;
+} stage_work;
+
+static sunrealtype factorial(int k) { return k > 1 ? k * factorial(k - 1) : 1; }
+
+static int unknown_order(const stage_work *w, size_t j)
+{
+  return w->structure->d[j] + w->stage;
+}
+
+static void put(stage_work *w, const sunrealtype *z)
+{
+  for (size_t k = 0; k < w->columns; k++) {
+    const int order = unknown_order(w, w->unknown[k]);
+    w->u[(size_t)order * w->n + w->unknown[k]] = z[k] / factorial(order);
+  }
+}
+
+static int residual(void *data, const sunrealtype *z, sunrealtype *r)
+{
+  stage_work *w = data;
+  put(w, z);
+  STEIF_TRY(stf_ladder_climb(&w->ladder, &w->curve, w->climb));
+  for (size_t k = 0; k < w->rows; k++) {
+    const int order = w->order[w->equation[k]];
+    r[k] = factorial(order) * w->climb[(size_t)order * w->n + w->equation[k]];
+  }
+  return STEIF_OK;
+}
+
+/* Sizes of the terms of the equations at the current point. */
+static void rescale(stage_work *w)
+{
+  const sunrealtype *floor = w->task->lens->floor;
+  sunrealtype *scale = w->task->scale;
+  memset(scale, 0, w->n * sizeof *scale);
+  for (size_t k = 0; k < w->n * w->n; k++) {
+    const size_t i = k % w->n, j = k / w->n;
+    scale[i] += fabs(w->E[k] * w->u[w->n + j]) + fabs(w->B[k]) * fmax(fabs(w->u[j]), floor[j]);
+  }
+  for (size_t i = 0; i < w->n; i++)
+    if (!(scale[i] > 0)) scale[i] = 1;
+}
+
+static int jacobian(void *data, const sunrealtype *z, sunrealtype *J)
+{
+  stage_work *w = data;
+  const stf_structure *s = w->structure;
+  put(w, z);
+  STEIF_TRY(stf_diagnose_matrices(w->task->lens, w->curve.t, w->u, w->u + w->n, w->E, w->B));
+  rescale(w);
+  STEIF_TRY(stf_ladder_choose(&w->ladder, &w->curve, w->task->scale, w->order));
+  for (size_t l = 0; l < w->columns; l++)
+    for (size_t k = 0; k < w->rows; k++) {
+      const size_t i = w->equation[k], j = w->unknown[l];
+      const int order = s->d[j] - s->c[i];
+      J[l * w->rows + k] = order == 1   ? w->E[j * w->n + i]
+                           : order == 0 ? w->B[j * w->n + i]
+                                        : 0;
+    }
+  return STEIF_OK;
+}
+
+static void select(stage_work *w)
+{
+  const stf_structure *s = w->structure;
+  w->rows = w->columns = 0;
+  for (size_t i = 0; i < w->n; i++) {
+    w->order[i] = s->c[i] + w->stage >= 0 ? s->c[i] + w->stage : -1;
+    if (w->order[i] >= 0) w->equation[w->rows++] = i;
+  }
+  for (size_t j = 0; j < w->n; j++) {
+    const int order = unknown_order(w, j);
+    const bool fixed = order == 0 && stf_start_attribute(w->task, j) == STEIF_FIXED;
+    if (order >= 0 && !fixed) w->unknown[w->columns++] = j;
+  }
+}
+
+static void prepare(stage_work *w, stf_move *m)
+{
+  const stf_task *task = w->task;
+  const sunrealtype rate = sqrt(w->ladder.slowest * w->ladder.fastest);
+  for (size_t k = 0; k < w->columns; k++) {
+    const size_t j = w->unknown[k];
+    const int order = unknown_order(w, j);
+    const bool guessed = order == 0 && stf_start_attribute(task, j) == STEIF_GUESS;
+    m->z[k] = factorial(order) * w->u[(size_t)order * w->n + j];
+    m->target[k] = guessed ? w->guess[j] : NAN;
+    m->weight[k] = stf_start_weight(task, j) * (guessed ? 1 : proximal * pow(rate, -order));
+    m->unit[k] = task->lens->floor[j] * pow(rate, order);
+  }
+}
+
+/* -- what went wrong ------------------------------------------------------------------------------- */
+
+static bool occurs(const stage_work *w, size_t i, size_t j)
+{
+  return w->E[j * w->n + i] != 0 || w->B[j * w->n + i] != 0;
+}
+
+/* Equations that the fixed values contradict: those with a part in a combination of rows that no
+ * unknown of the stage can change and that is not zero. */
+static int conflict(stage_work *w, const stf_move *m, sunrealtype size)
+{
+  stf_lens *lens = w->task->lens;
+  char text[STEIF_SENTENCE] = "", room[STEIF_SPEC_WORD];
+  size_t fixed = 0, last = 0;
+  stf_diagnose_say(text, "fixed values contradict each other: equations {");
+  int *in = w->order; /* done with */
+  for (size_t i = 0; i < w->n; i++) in[i] = 0;
+  for (size_t k = m->rank; k < m->rows; k++) {
+    sunrealtype along = 0;
+    for (size_t i = 0; i < m->rows; i++) along += m->U[k * m->rows + i] * m->left[i] * m->r[i];
+    for (size_t i = 0; i < m->rows && fabs(along) > 1e-9; i++)
+      if (fabs(m->U[k * m->rows + i]) > 1e-6) in[w->equation[i]] = 1;
+  }
+  stf_diagnose_list(lens, text, true, in, 1, false);
+  stf_diagnose_say(text, "} contain only fixed unknowns {");
+  for (size_t j = 0; j < w->n; j++) {
+    if (unknown_order(w, j) != 0 || stf_start_attribute(w->task, j) != STEIF_FIXED) continue;
+    bool there = false;
+    for (size_t i = 0; i < w->n; i++) there = there || (in[i] && occurs(w, i, j));
+    if (!there) continue;
+    stf_diagnose_say(text, "%s%s", fixed++ ? ", " : "", stf_diagnose_unknown(lens, j, room));
+    last = j;
+  }
+  stf_diagnose_say(text, "}; residual %.4g.", size);
+  if (fixed == 1)
+    stf_diagnose_say(text, " The equations determine %s: it can never be prescribed.",
+                     stf_diagnose_unknown(lens, last, room));
+  else
+    stf_diagnose_say(text, " Leave at least one of them free.");
+  return STEIF_FAIL(lens->ctx, STEIF_BAD_INPUT, "%s", text);
+}
+
+static int stalled(stage_work *w, const stf_move *m, size_t worst, sunrealtype size)
+{
+  stf_lens *lens = w->task->lens;
+  char text[STEIF_SENTENCE] = "", e[STEIF_SPEC_WORD], y[STEIF_SPEC_WORD];
+  for (size_t k = 0; k < w->columns && k < 3; k++)
+    stf_diagnose_say(text, "%s%s", k ? ", " : "",
+                     stf_diagnose_unknown(lens, w->unknown[w->columns - 1 - k], y));
+  return STEIF_FAIL(
+    lens->ctx, STEIF_NO_CONVERGENCE,
+    "no consistent point found within %d iterations; residual %.3g in %s; stage "
+    "%d stalled; last unknowns %s: give better values for them",
+    m->iterations, size, stf_diagnose_equation(lens, w->equation[worst], e), w->stage, text);
+}
+
+static int singular(stage_work *w, const stf_move *m, size_t worst)
+{
+  stf_lens *lens = w->task->lens;
+  char text[STEIF_SENTENCE] = "", y[STEIF_SPEC_WORD], e[STEIF_SPEC_WORD];
+  const size_t least = m->rows < m->columns ? m->rows : m->columns;
+  int shown = 0;
+  for (size_t k = 0; k < m->columns && shown < 5; k++) {
+    sunrealtype part = 0;
+    for (size_t q = m->rank; q < least; q++) part = fmax(part, fabs(m->VT[k * m->columns + q]));
+    if (part > 0.3)
+      stf_diagnose_say(text, "%s%s", shown++ ? ", " : "",
+                       stf_diagnose_unknown(lens, w->unknown[k], y));
+  }
+  return STEIF_FAIL(
+    lens->ctx, STEIF_SINGULAR,
+    "%s %s more than one consistent value near the guess, or none (Jacobian of "
+    "stage %d nearly singular, rcond %.1e; equation %s is off by %.3g): give %s, or "
+    "move the guess",
+    shown ? text : "the start", shown > 1 ? "have" : "has", w->stage, m->rcond,
+    stf_diagnose_equation(lens, w->equation[worst], e), fabs(m->r[worst]),
+    shown ? text : "more values");
+}
+
+/* -- one stage --------------------------------------------------------------------------------------- */
+
+/* Largest residual against the terms of its equation; *worst names the row. */
+static sunrealtype leftover(const stage_work *w, const stf_move *m, size_t *worst)
+{
+  sunrealtype most = 0;
+  *worst = 0;
+  for (size_t k = 0; k < m->rows; k++) {
+    sunrealtype size = w->task->scale[w->equation[k]];
+    for (size_t l = 0; l < m->columns; l++)
+      size = fmax(size, fabs(m->J[l * m->rows + k]) * fmax(fabs(m->z[l]), m->unit[l]));
+    const sunrealtype part = fabs(m->r[k]) / (size > 0 ? size : 1);
+    if (!(part <= most)) most = part, *worst = k;
+  }
+  return most;
+}
+
+static int judge(stage_work *w, stf_move *m)
+{
+  size_t fixed = 0, worst;
+  for (size_t j = 0; j < w->n; j++)
+    fixed += unknown_order(w, j) == 0 && stf_start_attribute(w->task, j) == STEIF_FIXED;
+  const sunrealtype part = leftover(w, m, &worst);
+  w->task->start->residual = fmax(w->task->start->residual, part);
+  if (part > violated && m->rank < m->rows && fixed) return conflict(w, m, fabs(m->r[worst]));
+  if (m->rank < m->rows && !fixed) return singular(w, m, worst);
+  if (!m->converged || part > violated) return stalled(w, m, worst, fabs(m->r[worst]));
+  return STEIF_OK;
+}
+
+/* What moved by rounding only did not move. */
+static void snap(stf_move *m)
+{
+  for (size_t k = 0; k < m->columns; k++)
+    if (fabs(m->z[k] - m->target[k]) <= 64 * STF_EPS * fabs(m->target[k]))
+      m->z[k] = m->target[k];
+}
+
+static int run(stage_work *w)
+{
+  stf_lens *lens = w->task->lens;
+  select(w);
+  if (w->rows == 0) return STEIF_OK;
+  stf_pool *pool = stf_pool_new(lens->ctx);
+  if (!pool) return STEIF_NO_MEMORY;
+  stf_move m = {.ctx = lens->ctx,
+                .rows = w->rows,
+                .columns = w->columns,
+                .residual = residual,
+                .jacobian = jacobian,
+                .data = w,
+                .most = w->task->most};
+  int code = stf_move_open(pool, &m);
+  if (!code) prepare(w, &m);
+  if (!code) code = stf_move_solve(&m);
+  w->task->start->iterations += m.iterations;
+  if (!code) snap(&m);
+  if (!code) put(w, m.z);
+  if (!code) code = judge(w, &m);
+  stf_pool_free(&pool);
+  if (code > 0)
+    code =
+      STEIF_FAIL(lens->ctx, STEIF_CALLBACK,
+                 "'%s' could not be evaluated near its start at t = %g: give a guess inside "
+                 "the domain of its functions",
+                 lens->problem.name, lens->t);
+  return code;
+}
+
+static int claim(stf_pool *pool, stage_work *w)
+{
+  const size_t n = w->n, orders = (size_t)w->deepest + 1;
+  w->u = stf_claim(pool, 2 * orders * n, sizeof *w->u);
+  w->guess = stf_claim(pool, n, sizeof *w->guess);
+  w->E = stf_claim(pool, 2 * n * n, sizeof *w->E);
+  w->equation = stf_claim(pool, 2 * n, sizeof *w->equation);
+  w->order = stf_claim(pool, n, sizeof *w->order);
+  if (!w->u || !w->guess || !w->E || !w->equation || !w->order) return STEIF_NO_MEMORY;
+  w->climb = w->u + orders * n, w->B = w->E + n * n, w->unknown = w->equation + n;
+  w->curve = (stf_curve){.t = w->task->lens->t, .tau = 1, .count = w->deepest + 1, .z = w->u};
+  return STEIF_OK;
+}
+
+static int all(stage_work *w, stf_pool *pool, int c, int d)
+{
+  stf_lens *lens = w->task->lens;
+  sunrealtype slow, fast;
+  stf_view_rates(lens, w->task->view, &slow, &fast);
+  STEIF_TRY(claim(pool, w));
+  memcpy(w->u, lens->y0, w->n * sizeof *w->u);
+  memcpy(w->u + w->n, lens->yp0, w->n * sizeof *w->u);
+  memcpy(w->guess, lens->y0, w->n * sizeof *w->guess);
+  bool algebraic = false;
+  for (size_t j = 0; j < w->n; j++) algebraic = algebraic || w->structure->d[j] == 0;
+  for (w->stage = -d; w->stage <= (algebraic ? 1 : 0); w->stage++) {
+    const int order = c + w->stage;
+    STEIF_TRY(stf_ladder_open(pool, lens, order > 0 ? order : 0, &w->ladder));
+    w->ladder.slowest = slow, w->ladder.fastest = fast;
+    STEIF_TRY(run(w));
+    w->task->start->stages++;
+  }
+  return STEIF_OK;
+}
+
+int stf_start_stages(stf_task *task, const stf_structure *s)
+{
+  stf_lens *lens = task->lens;
+  stage_work w = {.task = task, .structure = s, .n = lens->n};
+  int c = 0, d = 0;
+  for (size_t i = 0; i < w.n; i++) c = s->c[i] > c ? s->c[i] : c, d = s->d[i] > d ? s->d[i] : d;
+  STEIF_CHECK(c < STF_DEEPEST, lens->ctx, STEIF_UNSUPPORTED,
+              "'%s' has an equation that must be differentiated %d times: a start is computed "
+              "for at most %d",
+              lens->problem.name, c, STF_DEEPEST - 1);
+  w.deepest = d + 1 > c + 2 ? d + 1 : c + 2;
+  stf_pool *pool = stf_pool_new(lens->ctx);
+  if (!pool) return STEIF_NO_MEMORY;
+  task->start->stages = 0;
+  const int code = all(&w, pool, c, d);
+  if (!code) {
+    memcpy(task->start->y, w.u, w.n * sizeof *w.u);
+    memcpy(task->start->yp, w.u + w.n, w.n * sizeof *w.u);
+    memcpy(task->start->enforced, s->c, w.n * sizeof *s->c);
+  }
+  stf_pool_free(&pool);
+  return code;
+}
