@@ -7,6 +7,8 @@
 #include <steif/bench.h>
 #include <steif/collection.h>
 #include <steif/descriptor.h>
+#include <steif/diagnose.h>
+#include <steif/impulse.h>
 #include <steif/input.h>
 #include <steif/method.h>
 #include <steif/pencil.h>
