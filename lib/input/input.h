@@ -8,6 +8,9 @@
 #include <locale.h>
 #include <stdio.h>
 #include <steif/input.h>
+#ifdef __APPLE__
+#include <xlocale.h> /* newlocale and uselocale */
+#endif
 
 /* ---- text ------------------------------------------------------------------------------------ */
 
