@@ -1,5 +1,5 @@
-/* blas.h: prototypes of the BLAS and LAPACK routines used. Fortran passes the length of a character
- * argument last.
+/* blas.h: prototypes of the BLAS and LAPACK routines used. Fortran passes the length of a
+ * character argument last.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_BLAS_H
 #define STF_BLAS_H

@@ -1,9 +1,9 @@
 /* choose.c: degree and number of squarings from ||A^k||^{1/k} (A. H. Al-Mohy and N. J. Higham,
  * SIAM J. Matrix Anal. Appl. 31, 2009, algorithm 5.1).
  *
- * With d_k = ||A^k||_1^{1/k}, the series of the backward error of the [m/m] approximant is governed
- * by max(d_k, d_{k+1}), which may be far below ||A||. A^2, A^4, A^6 are needed anyway; of higher
- * powers the norm suffices.
+ * With d_k = ||A^k||_1^{1/k}, the series of the backward error of the [m/m] approximant is
+ * governed by max(d_k, d_{k+1}), which may be far below ||A||. A^2, A^4, A^6 are needed anyway;
+ * of higher powers the norm suffices.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "matfun.h"
@@ -11,8 +11,8 @@
 
 enum { DEGREES = 5, EXACT = 32 };
 
-/* Bounds of the paper for unit round-off 2^{-53}, and log2 of the coefficient of x^{2m+1} in the
- * backward error, (m!)^2 / ((2m)! (2m+1)!). */
+/* Bounds of the paper for unit round-off 2^{-53}, and log2 of the coefficient of x^{2m+1} in
+ * the backward error, (m!)^2 / ((2m)! (2m+1)!). */
 static const int degree[DEGREES] = {3, 5, 7, 9, 13};
 static const double theta[DEGREES] = {1.495585217958292e-2, 2.539398330063230e-1,
                                       9.504178996162932e-1, 2.097847961257068, 4.25};
@@ -40,8 +40,8 @@ static void scale(size_t count, double c, double *A)
   for (size_t i = 0; i < count; i++) A[i] *= c;
 }
 
-/* ||F G||_1: by the product in `scratch` for small matrices, else estimated (N. J. Higham, ACM TOMS
- * 14, 1988). */
+/* ||F G||_1: by the product in `scratch` for small matrices, else estimated (N. J. Higham, ACM
+ * TOMS 14, 1988). */
 static double product_norm(stf_core *c, const double *F, const double *G, double *scratch)
 {
   const int n = c->n, one = 1;
@@ -85,8 +85,8 @@ static double log_absolute_power(stf_core *c, int k)
   return log_norm;
 }
 
-/* Squarings beyond s that the rounding-safe bound of degree m asks for; none when the norm itself
- * is in bounds. */
+/* Squarings beyond s that the rounding-safe bound of degree m asks for; none when the norm
+ * itself is in bounds. */
 static int extra(stf_core *c, int which, int s)
 {
   if (ldexp(c->norm, -s) <= theta[which]) return 0;

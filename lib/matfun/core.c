@@ -33,7 +33,7 @@ void stf_core_open(stf_core *c, steif_context *ctx, int n, int p, void *memory)
   c->A2 = A + N * N, c->A4 = c->A2 + N * N, c->A6 = c->A4 + N * N;
   c->U = c->A6 + N * N, c->V = c->U + N * N, c->W = c->A8 = c->V + N * N;
   c->pivot = part(&at, N * sizeof(int));
-  c->balance = (stf_balance){.n = n, .d = vectors + 2 * N};
+  c->balance = (stf_scaling){.n = n, .d = vectors + 2 * N};
   c->balance.perm = part(&at, N * sizeof(int));
   c->corner = part(&at, 2 * N * sizeof(stf_corner));
 }
@@ -64,8 +64,8 @@ int stf_check_result(steif_context *ctx, const char *name, size_t count, const d
   return STEIF_OK;
 }
 
-/* Subtract mu = tr(A)/n where that brings the norm down by a quarter; e^mu is multiplied in before
- * the squarings, where it cannot overflow or underflow alone. */
+/* Subtract mu = tr(A)/n where that brings the norm down by a quarter; e^mu is multiplied in
+ * before the squarings, where it cannot overflow or underflow alone. */
 static void shift(stf_core *c)
 {
   const int n = c->n;

@@ -1,8 +1,9 @@
 /* corner.c: closed forms on the diagonal of block triangular matrices.
  *
- * Where A is block upper triangular, the diagonal blocks of phi_l(A) are phi_l of those of A, and
- * the entry between neighbouring 1 x 1 blocks is a divided difference. Setting them after every
- * squaring keeps overscaling from growing (A. H. Al-Mohy and N. J. Higham, 2009, section 2).
+ * Where A is block upper triangular, the diagonal blocks of phi_l(A) are phi_l of those of A,
+ * and the entry between neighbouring 1 x 1 blocks is a divided difference. Setting them after
+ * every squaring keeps overscaling from growing (A. H. Al-Mohy and N. J. Higham, 2009, section
+ * 2).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "matfun.h"

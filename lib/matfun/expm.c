@@ -26,7 +26,7 @@ int stf_core_expm(stf_core *c, const double *A, double *X)
     stf_corners_fix(c, 0, now);
   }
   stf_balance_undo(&c->balance, now, X);
-  return stf_check_result(c->ctx, "exp(A)", (size_t)n * (size_t)n, X, stf_norm1(n, A));
+  return STEIF_OK;
 }
 
 /* From phi_0 .. phi_p of some matrix to those of its double; the powers of A are lost. */
@@ -74,8 +74,7 @@ int stf_core_phi(stf_core *c, const double *A, double *phi)
       memcpy(c->A, phi + count * (size_t)l, count * sizeof *phi);
       stf_balance_undo(&c->balance, c->A, phi + count * (size_t)l);
     }
-  return stf_check_result(c->ctx, "a phi function", count * (size_t)(c->p + 1), phi,
-                          stf_norm1(c->n, A));
+  return STEIF_OK;
 }
 
 static int check_order(steif_context *ctx, int p)
@@ -95,7 +94,10 @@ int steif_phi_matrix(steif_context *ctx, int n, int p, const double *A, double *
   if (!memory) return STEIF_NO_MEMORY;
   stf_core c;
   stf_core_open(&c, ctx, n, p, memory);
-  const int code = stf_core_phi(&c, A, phi);
+  int code = stf_core_phi(&c, A, phi);
+  if (!code)
+    code = stf_check_result(ctx, p > 0 ? "a phi function" : "exp(A)",
+                            (size_t)n * (size_t)n * (size_t)(p + 1), phi, stf_norm1(n, A));
   stf_release(ctx, memory);
   return code;
 }
@@ -105,10 +107,10 @@ int steif_expm(steif_context *ctx, int n, const double *A, double *X)
   return steif_phi_matrix(ctx, n, 0, A, X);
 }
 
-/* [A W; 0 J] of size n + p, with W = eta [b_p .. b_1] in the balanced basis and J the shift: the
- * exponential applied to (b_0, e_p/eta) holds the combination (Al-Mohy and Higham, 2011). eta is a
- * power of two so small that W does not raise the norm. */
-static double augment(const stf_balance *b, int p, const double *A, const double *W, double *M)
+/* [A W; 0 J] of size n + p, with W = eta [b_p .. b_1] in the balanced basis and J the shift:
+ * the exponential applied to (b_0, e_p/eta) holds the combination (Al-Mohy and Higham, 2011).
+ * eta is a power of two so small that W does not raise the norm. */
+static double augment(const stf_scaling *b, int p, const double *A, const double *W, double *M)
 {
   const size_t n = (size_t)b->n, N = n + (size_t)p;
   double most = 0;
@@ -129,7 +131,7 @@ static double augment(const stf_balance *b, int p, const double *A, const double
 /* The memory of one combination. */
 typedef struct blend {
   double *A, *b, *M, *X;
-  stf_balance balance;
+  stf_scaling balance;
   void *core;
 } blend;
 
@@ -137,7 +139,7 @@ static int claim(steif_context *ctx, stf_pool *pool, int n, int p, blend *m)
 {
   const size_t N = (size_t)n, big = N + (size_t)p;
   m->A = stf_claim(pool, N * N + N * (size_t)(p + 1) + 2 * big * big + N, sizeof(double));
-  m->balance = (stf_balance){.n = n, .perm = stf_claim(pool, N, sizeof(int))};
+  m->balance = (stf_scaling){.n = n, .perm = stf_claim(pool, N, sizeof(int))};
   m->core = stf_claim(pool, stf_core_bytes(n + p, 0), 1);
   if (!m->A || !m->balance.perm || !m->core) return steif_status(ctx);
   m->b = m->A + N * N, m->M = m->b + N * (size_t)(p + 1);

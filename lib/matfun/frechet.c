@@ -1,8 +1,8 @@
 /* frechet.c: the derivative of the exponential and its condition number.
  *
- * The [13/13] approximant and all squarings are differentiated with the parts that depend on A only
- * kept: d(A^2) = A E + E A, and so on (A. H. Al-Mohy and N. J. Higham, SIAM J. Matrix Anal. Appl.
- * 30, 2009, algorithm 6.4). The adjoint of E -> L(A, E) is L(A^T, E) = L(A, E^T)^T.
+ * The [13/13] approximant and all squarings are differentiated with the parts that depend on A
+ * only kept: d(A^2) = A E + E A, and so on (A. H. Al-Mohy and N. J. Higham, SIAM J. Matrix
+ * Anal. Appl. 30, 2009, algorithm 6.4). The adjoint of E -> L(A, E) is L(A^T, E) = L(A, E^T)^T.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "matfun.h"
@@ -100,7 +100,8 @@ static void part(const derivative *d, int odd, const double *inner, double *out)
   pair(d, d->c.A6, d->T, d->M6, inner, 1, out);
 }
 
-/* d->T = derivative of the scaled approximant X = (V - U)^{-1} (V + U) in the direction d->E. */
+/* d->T = derivative of the scaled approximant X = (V - U)^{-1} (V + U) in the direction d->E.
+ */
 static int approximant(derivative *d)
 {
   stf_core *c = &d->c;

@@ -20,21 +20,21 @@ void stf_spot_open(stf_spot *s, int p, stf_jet z, stf_two q);
 void stf_spot_double(stf_spot *s);
 double stf_spot_size(const stf_spot *s);
 
-/* balance.c: A(perm[i], perm[j]) = B(i, j) d[i]/d[j]. Rows and columns lo .. hi-1 of B are full, B
- * is triangular outside. */
-typedef struct stf_balance {
+/* balance.c: A(perm[i], perm[j]) = B(i, j) d[i]/d[j]. Rows and columns lo .. hi-1 of B are
+ * full, B is triangular outside. */
+typedef struct stf_scaling {
   int n, lo, hi;
   double *d;
   int *perm;
-} stf_balance;
+} stf_scaling;
 
 /* A becomes B. */
-void stf_balance_open(stf_balance *b, double *A);
+void stf_balance_open(stf_scaling *b, double *A);
 /* B into X, which is another array. */
-void stf_balance_undo(const stf_balance *b, const double *B, double *X);
+void stf_balance_undo(const stf_scaling *b, const double *B, double *X);
 /* E into F, as A became B. */
-void stf_balance_redo(const stf_balance *b, const double *E, double *F);
-bool stf_balance_trivial(const stf_balance *b);
+void stf_balance_redo(const stf_scaling *b, const double *E, double *F);
+bool stf_balance_trivial(const stf_scaling *b);
 
 /* corner.c: the part of a block triangular matrix that has a closed form, at one scale: a 1 x 1
  * block, the entry between two neighbouring ones, or a 2 x 2 block. */
@@ -55,7 +55,7 @@ typedef struct stf_core {
   double *A, *A2, *A4, *A6, *A8, *U, *V, *W; /* n^2 each; A8 is borrowed */
   double *sums;                              /* 2n */
   int *pivot;
-  stf_balance balance;
+  stf_scaling balance;
   double mu;   /* of the trace shift; 0 for p > 0 */
   double norm; /* ||A||_1, shifted */
   int m, s;    /* degree, squarings */
@@ -75,7 +75,7 @@ int stf_check_result(steif_context *ctx, const char *name, size_t count, const d
 
 /* Copy A into the core, balance, look for corners, shift, choose m and s, scale the powers. */
 void stf_core_prepare(stf_core *c, const double *A);
-/* e^A without allocation; X is not A. */
+/* e^A without allocation or a check for overflow; X is not A. */
 int stf_core_expm(stf_core *c, const double *A, double *X);
 int stf_core_phi(stf_core *c, const double *A, double *phi);
 

@@ -51,8 +51,8 @@ static void sum_low(const stf_core *c, const double *k, int odd, double *out)
   add_diagonal(c->n, k[odd], out);
 }
 
-/* out = the even (odd = 0) or odd (odd = 1) part of the polynomial k, the latter without the factor
- * A; c->U is lost for m = 13. */
+/* out = the even (odd = 0) or odd (odd = 1) part of the polynomial k, the latter without the
+ * factor A; c->U is lost for m = 13. */
 static void part(stf_core *c, const double *k, int odd, double *out)
 {
   sum_low(c, k, odd, out);

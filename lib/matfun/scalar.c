@@ -1,7 +1,7 @@
 /* scalar.c: phi functions of real and complex numbers.
  *
- * Near 0, and on the positive axis, where nothing cancels, by doubling. Elsewhere by
- * phi_{k+1} = (phi_k - 1/k!)/z in twice the working precision: its errors shrink like k/|z|, while
+ * Near 0, and on the positive axis, where nothing cancels, by doubling. Elsewhere by phi_{k+1}
+ * = (phi_k - 1/k!)/z in twice the working precision: its errors shrink like k/|z|, while
  * doubling cancels where Re z > 0 and Im z is large.
  *
  * SPDX-License-Identifier: BSD-3-Clause */

@@ -1,9 +1,9 @@
 /* spot.c: phi_0 .. phi_p of one number or of one 2 x 2 matrix, z = a + b N with N^2 = q.
  *
- * A Taylor series for |z| <= 1/2, then phi_l(2z) = 2^{-l} (phi_0(z) phi_l(z)
- * + sum_{j=1}^{l} phi_j(z)/(l-j)!), in twice the working precision: where q >= 0 no term cancels
- * beyond the conditioning of the values, and b of the result is the divided difference
- * phi_l[a + b sqrt q, a - b sqrt q] in units of z.b.
+ * A Taylor series for |z| <= 1/2, then phi_l(2z) = 2^{-l} (phi_0(z) phi_l(z) + sum_{j=1}^{l}
+ * phi_j(z)/(l-j)!), in twice the working precision: where q >= 0 no term cancels beyond the
+ * conditioning of the values, and b of the result is the divided difference phi_l[a + b sqrt q,
+ * a - b sqrt q] in units of z.b.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "matfun.h"

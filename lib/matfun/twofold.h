@@ -1,6 +1,7 @@
 /* twofold.h: numbers hi + lo of twice the working precision, |lo| <= ulp(hi)/2 (T. J. Dekker,
- * Numer. Math. 18, 1971), and a + b N with N^2 = q, the algebra of functions of one 2 x 2 matrix.
- * An overflow leaves lo = 0 and 0 times infinity is 0, so that infinity does not become NaN.
+ * Numer. Math. 18, 1971), and a + b N with N^2 = q, the algebra of functions of one 2 x 2
+ * matrix. An overflow leaves lo = 0 and 0 times infinity is 0, so that infinity does not become
+ * NaN.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_TWOFOLD_H
 #define STF_TWOFOLD_H

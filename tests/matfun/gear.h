@@ -17,8 +17,8 @@ double gear_distance(int n, const double *X, const double *Y);
 /* Z = X Y */
 void gear_times(int n, const double *X, const double *Y, double *Z);
 
-/* Calls run(ctx) with the first, the second ... allocation failing until it succeeds; every failure
- * must be STEIF_NO_MEMORY. Returns the number of allocations. */
+/* Calls run(ctx) with the first, the second ... allocation failing until it succeeds; every
+ * failure must be STEIF_NO_MEMORY. Returns the number of allocations. */
 int gear_hunger(int (*run)(steif_context *ctx));
 
 #endif

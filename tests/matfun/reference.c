@@ -1,9 +1,8 @@
-/* reference.c: matrices with their exponential and phi functions, by rows.
- * Source: computed with mpmath at 60 and 90 digits, which agree to 1e-40; printed to 17 digits. An
- * entry is the double nearest to what is printed. Condition numbers: relative, Frobenius norm, from
- * the Kronecker form, three digits; 0 where none is known.
- * T06: C. Moler and C. Van Loan, SIAM Review 45 (2003); T07 to T09: R. C. Ward, SIAM J. Numer. Anal.
- * 14 (1977).
+/* reference.c: matrices with their exponential and phi functions, by rows. Source: computed
+ * with mpmath at 60 and 90 digits, which agree to 1e-40; printed to 17 digits. An entry is the
+ * double nearest to what is printed. Condition numbers: relative, Frobenius norm, from the
+ * Kronecker form, three digits; 0 where none is known. T06: C. Moler and C. Van Loan, SIAM
+ * Review 45 (2003); T07 to T09: R. C. Ward, SIAM J. Numer. Anal. 14 (1977).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "reference.h"
 #include <math.h>

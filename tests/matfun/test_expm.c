@@ -41,7 +41,8 @@ static void references_hold(void)
   steif_context_free(&ctx);
 }
 
-/* The transposed matrix has the transposed functions, but meets the code as lower triangular. */
+/* The transposed matrix has the transposed functions, but meets the code as lower triangular.
+ */
 static void transposes(void)
 {
   ctx = steif_context_new(NULL);
@@ -84,8 +85,8 @@ static void combinations(void)
   steif_context_free(&ctx);
 }
 
-/* HiPPO-LegS: A_ik = -sqrt((2i+1)(2k+1)) below, -(i+1) on the diagonal; B_i = sqrt(2i+1). Trace and
- * norm of e^{A dt}, its corner and the first entry of dt phi_1(A dt) B; mpmath. */
+/* HiPPO-LegS: A_ik = -sqrt((2i+1)(2k+1)) below, -(i+1) on the diagonal; B_i = sqrt(2i+1). Trace
+ * and norm of e^{A dt}, its corner and the first entry of dt phi_1(A dt) B; mpmath. */
 static void legs(void)
 {
   static const struct {
@@ -130,8 +131,8 @@ static void legs(void)
   steif_context_free(&ctx);
 }
 
-/* e^{A} = (e^{A/2})^2 over norms that take every degree, several squarings, products of norms both
- * exact and estimated. */
+/* e^{A} = (e^{A/2})^2 over norms that take every degree, several squarings, products of norms
+ * both exact and estimated. */
 static void degrees_agree(void)
 {
   static double A[MOST * MOST], X[MOST * MOST], half[MOST * MOST], square[MOST * MOST];

@@ -70,8 +70,9 @@ static void condition_numbers(void)
   steif_context_free(&ctx);
 }
 
-/* The relative change of e^A under a small change of A stays below the condition number, and comes
- * near it in the worst direction of a symmetric matrix, which is that of its largest eigenvalue. */
+/* The relative change of e^A under a small change of A stays below the condition number, and
+ * comes near it in the worst direction of a symmetric matrix, which is that of its largest
+ * eigenvalue. */
 static void condition_bounds_changes(void)
 {
   enum { N = 6 };

@@ -52,7 +52,8 @@ static void stable_matrices_of_large_norm(void)
   steif_context_free(&ctx);
 }
 
-/* -2000 x the Laplacian of a tree on five vertices: e^A is the mean, phi_1 the mean plus -A^+. */
+/* -2000 x the Laplacian of a tree on five vertices: e^A is the mean, phi_1 the mean plus -A^+.
+ */
 static void laplacian_of_a_tree(void)
 {
   static const int edge[4][2] = {{0, 1}, {1, 2}, {1, 3}, {3, 4}};

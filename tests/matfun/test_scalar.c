@@ -3,7 +3,8 @@
 #include "gear.h"
 #include "suite.h"
 
-/* phi_0 .. phi_4; mpmath at 60 and 90 digits, printed to 17; 0 where the value is below the range. */
+/* phi_0 .. phi_4; mpmath at 60 and 90 digits, printed to 17; 0 where the value is below the
+ * range. */
 static const struct {
   double x, y, re[5], im[5];
 } rows[] = {
@@ -145,8 +146,8 @@ static void values(void)
     }
 }
 
-/* phi_k(z) - z phi_{k+1}(z) = 1/k!, on a grid over all branches of the evaluation; the terms round
- * on their own. */
+/* phi_k(z) - z phi_{k+1}(z) = 1/k!, on a grid over all branches of the evaluation; the terms
+ * round on their own. */
 static void recurrence(void)
 {
   double factorial = 1;
