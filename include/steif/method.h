@@ -4,6 +4,13 @@
  * lobatto3c:s=, euler, rk4; the baselines cvode, ida, arkode; and auto, which chooses by size, storage,
  * index and tolerance (steif_method_used tells what and why).
  *
+ * Splitting methods, symplectic, with equal steps, for separable problems (.positions of problem.h):
+ * symeuler:first=p|q, verlet:first=kick|drift, yoshida4, suzuki4, yoshida6, kahanli6, suzuki6, suzuki8,
+ * kahanli8 (compositions of verlet, with the same first=); pefrl, blanesmoan6; rkn6 and rkn11 have their
+ * order only where T is quadratic in p, which is not checked. compensated=1 keeps what rounding takes
+ * from the sums (theirs by default in runs of 10000 steps and more; also of gauss:s= with given steps):
+ * rounding then grows like the root of the number of steps.
+ *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_METHOD_H
 #define STEIF_METHOD_H
@@ -31,7 +38,8 @@ STEIF_EXPORT int steif_method_find(steif_context *ctx, const char *spec, steif_m
 
 /* One step of the method on y' = lambda y as a matrix: with z = h lambda, history maps to history
  * by M(z), r x r, by rows, entries (re, im). r = 1 for Runge-Kutta (M = R), p for BDF. M NULL asks
- * for r only. z infinite gives the limit. */
+ * for r only. z infinite gives the limit. STEIF_UNSUPPORTED for splitting methods, whose step on
+ * y' = lambda y is no function of z. */
 STEIF_EXPORT int steif_method_propagator(steif_context *ctx, const char *spec,
                                          const sunrealtype z[2], int *r, sunrealtype *M);
 

@@ -103,6 +103,14 @@ struct steif_problem {
   int (*invariant)(sunrealtype t, N_Vector y, sunrealtype *value, void *user); /* ... all of them */
   const sunrealtype *breaks; /* declared discontinuities of f inside (t0, t1), ascending */
   int break_count;
+  /* A separable problem: the first `positions` components are q, the others p; q' depends on (t, p)
+   * only and p' on (t, q) only, as for H = T(p) + V(q). 0: not separable. The halves of f alone, for
+   * splitting methods: kick writes the components p' of ydot, drift the components q', neither
+   * touches the others; NULL: through f. */
+  sunindextype positions;
+  steif_rhs kick, drift;
+  int unit_mass;             /* 1: q' = p, component by component; drift is not called for serial
+                                vectors */
   sunrealtype rtol_scale;    /* atol = rtol_scale * rtol by default; 0: 1 */
 
   /* Problems with parameters: fill the rest of *self from the spec; `destroy` undoes it. Members

@@ -46,7 +46,7 @@ static int given(steif_solver *s)
                           ? o->mesh[s->mesh_at + 1]
                           : s->t1 - (sunrealtype)(s->total - step->count - 1) * step->h_equal;
   const sunrealtype h = mesh ? t - step->t : step->h_equal;
-  renew_weights(s, h);
+  if (!(step->method->traits & STF_EXPLICIT)) renew_weights(s, h);
   const int code = step->method->attempt(step, h);
   if (code) return give_up(s, code);
   accept(s, h, t);

@@ -1,6 +1,7 @@
 /* methods.c: the list of methods, ours and the baselines, with what is claimed of each.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "march.h"
+#include "splitting.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -40,19 +41,23 @@ int steif_method_find(steif_context *ctx, const char *text, steif_method_info *i
 }
 
 /* Specs of one shelf entry: families with several stage numbers, tables with one line. */
+/* clang-format off */
 static const char *const fixed[] = {
   "be",          "bdf:p=2",       "bdf:p=3",       "bdf:p=4",       "bdf:p=5",   "bdf:p=6",
   "gauss:s=1",   "gauss:s=2",     "gauss:s=3",     "gauss:s=4",     "gauss:s=5", "radau:s=1",
   "radau:s=2",   "radau:s=3",     "radau:s=4",     "radau:s=5",     "radau:s=7", "radau1a:s=2",
   "radau1a:s=3", "lobatto3c:s=2", "lobatto3c:s=3", "lobatto3c:s=4", "rodas4",    "rodas4p",
-  "rodas4p2",    "rodas5p",
+  "rodas4p2",    "rodas5p",       "symeuler:first=q", "verlet:first=drift",
 };
+/* clang-format on */
 
 static bool spec_at(size_t i, char *text, size_t size)
 {
   const size_t count = sizeof fixed / sizeof *fixed;
   if (i < count) return snprintf(text, size, "%s", fixed[i]) > 0;
   i -= count;
+  if (i < stf_splitting_count) return snprintf(text, size, "%s", stf_splittings[i].name) > 0;
+  i -= stf_splitting_count;
   for (size_t k = 0; k < stf_table_count; k++) {
     const bool dirk = stf_table_shelf[k].item->kind == STEIF_DIRK;
     if (stf_table_shelf[k].item->kind == STEIF_COLLOCATION || i--) continue;

@@ -181,6 +181,20 @@ static int specialise(steif_solver *s)
   return claim_state(s);
 }
 
+static int open_system(steif_solver *s, int form, N_Vector y, N_Vector yp)
+{
+  stf_step *step = &s->step;
+  const steif_options *o = &s->options;
+  const sunrealtype scale = o->atol / o->rtol;
+  if (!(step->method->traits & STF_EXPLICIT))
+    return stf_system_open(s->pool, s->ctx, s->problem, form,
+                           o->force_storage ? o->storage : s->problem->storage, scale, y, yp,
+                           &step->system);
+  step->system.ctx = s->ctx, step->system.problem = s->problem, step->system.form = form;
+  step->system.scale = scale, step->system.weight = 1;
+  return STEIF_OK;
+}
+
 static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector y, N_Vector yp)
 {
   stf_step *step = &s->step;
@@ -210,9 +224,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   stf_space_open(&step->system.space, y);
   STEIF_TRY(stf_system_start(s->ctx, p, form, space, y, yp, &step->yp_known));
   STEIF_TRY(claim_step(s));
-  const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
-  STEIF_TRY(stf_system_open(s->pool, s->ctx, p, form, storage, o->atol / o->rtol, y, yp,
-                            &step->system));
+  STEIF_TRY(open_system(s, form, y, yp));
   open_newton(s);
   step->safety = 0.9, step->grow_most = 5, step->keep_up_to = 1.2;
   STEIF_TRY(specialise(s));

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "method.h"
 #include "rodas.h"
+#include "splitting.h"
 #include <string.h>
 
 static const steif_method *family(const char *name)
@@ -29,6 +30,7 @@ static int unknown(steif_context *ctx, const steif_spec *spec)
   const char *names[64] = {"be", "bdf", "dirk", "cvode", "ida", "arkode"};
   size_t count = 6;
   for (size_t i = 0; i < stf_rodas_count; i++) names[count++] = stf_rodas_tables[i].name;
+  for (size_t i = 0; i < stf_splitting_count; i++) names[count++] = stf_splittings[i].name;
   for (size_t i = 0; i < stf_table_count && count < 64; i++)
     if (stf_table_shelf[i].item->kind != STEIF_DIRK) names[count++] = stf_table_shelf[i].name;
   return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME,
@@ -65,6 +67,10 @@ int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_meth
       *method = family("rosenbrock");
       return STEIF_OK;
     }
+  if (stf_splitting_find(spec->name)) {
+    *method = family("sympl");
+    return STEIF_OK;
+  }
   if (!strcmp(spec->name, "dirk")) {
     *method = family("dirk");
     return dirk_table(ctx, spec, table);

@@ -17,7 +17,8 @@ typedef struct stf_step stf_step;
 
 enum stf_trait {
   STF_ADAPTIVE = 1, /* fills s->error */
-  STF_MULTISTEP = 2 /* keeps history: steps given at open */
+  STF_MULTISTEP = 2, /* keeps history: steps given at open */
+  STF_EXPLICIT = 4   /* needs neither matrices nor, for given steps, weights */
 };
 
 typedef struct steif_method {

@@ -16,17 +16,24 @@ typedef struct orbit {
   sunrealtype e, start[4];
 } orbit;
 
-static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+static int kick(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 {
   const sunrealtype *x = N_VGetArrayPointer(y), r2 = x[0] * x[0] + x[1] * x[1];
   const sunrealtype pull = 1 / (r2 * sqrt(r2));
   sunrealtype *dx = N_VGetArrayPointer(ydot);
   (void)t, (void)user;
-  dx[0] = x[2];
-  dx[1] = x[3];
   dx[2] = -pull * x[0];
   dx[3] = -pull * x[1];
   return 0;
+}
+
+static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  const sunrealtype *x = N_VGetArrayPointer(y);
+  sunrealtype *dx = N_VGetArrayPointer(ydot);
+  dx[0] = x[2];
+  dx[1] = x[3];
+  return kick(t, y, ydot, user);
 }
 
 /* d(-q/r^3)/dq = (3 q q^T - r^2 I) / r^5. */
@@ -101,6 +108,9 @@ const steif_problem steif_problem_kepler = {
   .exact = exact,
   .invariants = 2,
   .invariant = conserved,
+  .positions = 2,
+  .kick = kick,
+  .unit_mass = 1,
   .build = build,
   .destroy = stf_collection_release,
 };

@@ -24,6 +24,14 @@ static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
   return 0;
 }
 
+static int kick(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  const sunrealtype *x = N_VGetArrayPointer(y);
+  (void)t, (void)user;
+  N_VGetArrayPointer(ydot)[1] = -sin(x[0]);
+  return 0;
+}
+
 static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector a,
                N_Vector b, N_Vector c)
 {
@@ -61,4 +69,7 @@ const steif_problem steif_problem_pendulum = {
   .reference = &reference,
   .invariants = 1,
   .invariant = energy,
+  .positions = 1,
+  .kick = kick,
+  .unit_mass = 1,
 };

@@ -8,12 +8,12 @@
 
 enum { N = 7 };
 
-static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+static int kick(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 {
   const sunrealtype *x = NV_DATA_S(y), *z = x + N;
-  sunrealtype *d = NV_DATA_S(ydot), *ax = d + 2 * N, *az = ax + N;
+  sunrealtype *ax = NV_DATA_S(ydot) + 2 * N, *az = ax + N;
   (void)t, (void)user;
-  for (int i = 0; i < 2 * N; i++) d[i] = x[2 * N + i], ax[i] = 0;
+  for (int i = 0; i < 2 * N; i++) ax[i] = 0;
   for (int i = 0; i < N; i++)
     for (int j = 0; j < i; j++) {
       const sunrealtype dx = x[j] - x[i], dz = z[j] - z[i], r2 = dx * dx + dz * dz;
@@ -23,6 +23,12 @@ static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
       ax[j] -= (i + 1) * w * dx, az[j] -= (i + 1) * w * dz;
     }
   return 0;
+}
+
+static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  for (int i = 0; i < 2 * N; i++) NV_DATA_S(ydot)[i] = NV_DATA_S(y)[2 * N + i];
+  return kick(t, y, ydot, user);
 }
 
 /* Add m times the tidal tensor T = d(acceleration of star i)/d(position of star j). */
@@ -96,4 +102,7 @@ const steif_problem steif_problem_plei = {
   .reference = &reference,
   .invariants = 4,
   .invariant = invariant,
+  .positions = 2 * N,
+  .kick = kick,
+  .unit_mass = 1,
 };

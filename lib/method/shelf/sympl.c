@@ -1,0 +1,169 @@
+/* sympl.c: splitting methods for separable systems q' = T_p(p), p' = -V_q(q): symplectic, explicit, for
+ * long runs with equal steps. E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration, 2nd
+ * ed., Springer 2006, II.5 and V.3.
+ *
+ * A step is a sequence of kicks p += h b_i p'(q) and drifts q += h a_i q'(p). Where it begins and ends
+ * with a kick the last force serves the next step. Parameters: first=kick|drift (or p|q) where the
+ * scheme leaves that open, compensated=1|0: sums that remember their rounding, by default in runs of
+ * LONG steps and more.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "halves.h"
+#include "splitting.h"
+#include <string.h>
+
+enum { LONG = 10000 };
+
+typedef struct state {
+  stf_passes passes;
+  stf_halves halves;
+  N_Vector force, kept;                     /* p' of the trial; at y, for the first kick */
+  bool known;                               /* kept is filled */
+  N_Vector before;                          /* y at the start of the last step */
+  N_Vector error, next_error, error_before; /* what rounding took; NULL: not kept */
+} state;
+
+static int parameters(steif_context *ctx, const steif_spec *spec, const stf_splitting **scheme,
+                      bool *kick_first)
+{
+  const stf_splitting *x = stf_splitting_find(spec->name);
+  const bool open_choice = x->kind != STF_ALTERNATING;
+  const char *first = stf_spec_word(spec, "first");
+  STEIF_TRY(stf_spec_only(ctx, spec,
+                          open_choice ? (const char *const[]){"first", "compensated", NULL}
+                                      : (const char *const[]){"compensated", NULL}));
+  *scheme = x, *kick_first = x->kick_first;
+  if (!first) return STEIF_OK;
+  const bool kick = !strcmp(first, "kick") || !strcmp(first, "p");
+  STEIF_CHECK(kick || !strcmp(first, "drift") || !strcmp(first, "q"), ctx, STEIF_BAD_INPUT,
+              "parameter first=%s of '%s' must be kick (or p) or drift (or q)", first,
+              spec->name);
+  *kick_first = kick;
+  return STEIF_OK;
+}
+
+static bool is_long(const stf_step *s)
+{
+  const steif_options *o = s->options;
+  if (o->mesh) return o->mesh_size > LONG;
+  return (o->t1 - s->t0) / s->h_equal >= LONG;
+}
+
+static int claim(stf_step *s, state *e, bool compensated)
+{
+  e->force = stf_claim_vector(s->pool, s->y);
+  e->before = stf_claim_vector(s->pool, s->y);
+  if (!e->force || !e->before) return STEIF_NO_MEMORY;
+  if (e->passes.reuses && !(e->kept = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
+  if (!compensated) return STEIF_OK;
+  e->error = stf_claim_vector(s->pool, s->y);
+  e->next_error = stf_claim_vector(s->pool, s->y);
+  e->error_before = stf_claim_vector(s->pool, s->y);
+  return e->error && e->next_error && e->error_before ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  (void)table;
+  state *e = s->state;
+  const stf_splitting *scheme;
+  bool kick_first;
+  int compensated;
+  STEIF_TRY(parameters(s->ctx, spec, &scheme, &kick_first));
+  STEIF_TRY(stf_spec_int(s->ctx, spec, "compensated", 0, 1, is_long(s), &compensated));
+  stf_splitting_passes(scheme, kick_first, &e->passes);
+  STEIF_TRY(stf_halves_open(s->pool, &s->system, spec->name, s->y, s->yp, &e->halves));
+  return claim(s, e, compensated);
+}
+
+/* A step of length h from `from` at t; known: `kept` is the force there. */
+static int flow(state *e, sunrealtype t, sunrealtype h, bool known, stf_point from,
+                stf_point to)
+{
+  const stf_passes *P = &e->passes;
+  for (int i = 0; i < P->count; i++) {
+    N_Vector force = i == 0 && known ? e->kept : e->force;
+    if (P->kick[i] != 0 && force == e->force)
+      STEIF_TRY(stf_halves_force(&e->halves, t + P->kick_at[i] * h, from.y, force));
+    STEIF_TRY(stf_halves_pass(&e->halves, P->kick[i] * h, force, P->drift[i] * h,
+                              t + P->drift_at[i] * h, from, to));
+    from = to;
+  }
+  return STEIF_OK;
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  if (e->kept && !e->known) {
+    STEIF_TRY(stf_halves_force(&e->halves, s->t, s->y, e->kept));
+    e->known = true;
+  }
+  return flow(e, s->t, h, e->known, (stf_point){s->y, e->error},
+              (stf_point){s->next, e->next_error});
+}
+
+static void rotate(N_Vector *now, N_Vector *next, N_Vector *before)
+{
+  N_Vector oldest = *before;
+  *before = *now, *now = *next, *next = oldest;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  rotate(&s->y, &s->next, &e->before);
+  rotate(&e->error, &e->next_error, &e->error_before);
+  if (!e->kept) return;
+  N_Vector used = e->kept;
+  e->kept = e->force, e->force = used;
+}
+
+/* The same method with a step that ends at t: as accurate as the steps themselves. */
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  state *e = s->state;
+  return flow(e, s->t - s->h, t - (s->t - s->h), false, (stf_point){e->before, e->error_before},
+              (stf_point){y, e->next_error});
+}
+
+static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                      const sunrealtype z[2], int *r, sunrealtype *M)
+{
+  (void)table, (void)z, (void)r, (void)M;
+  return STEIF_FAIL(
+    ctx, STEIF_UNSUPPORTED,
+    "'%s' treats q and p differently: its step on y' = lambda y is not a function "
+    "of h lambda; see what it keeps with 'steif energy harmonic %s --h 0.1'",
+    spec->name, spec->name);
+}
+
+static int describe(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                    steif_method_info *info)
+{
+  (void)table;
+  const stf_splitting *scheme;
+  bool kick_first;
+  int compensated;
+  stf_passes passes;
+  STEIF_TRY(parameters(ctx, spec, &scheme, &kick_first));
+  STEIF_TRY(stf_spec_int(ctx, spec, "compensated", 0, 1, 0, &compensated));
+  stf_splitting_passes(scheme, kick_first, &passes);
+  info->family = "sympl", info->about = scheme->about;
+  info->order = scheme->order, info->stages = passes.kicks;
+  info->claims = STEIF_SYMPLECTIC | (scheme->kind == STF_EULER ? 0 : STEIF_SYMMETRIC);
+  return STEIF_OK;
+}
+
+const steif_method steif_method_sympl = {
+  .about = "splitting of separable systems, symplectic",
+  .forms = STEIF_ODE,
+  .traits = STF_EXPLICIT,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+  .propagator = propagator,
+  .describe = describe,
+};
