@@ -55,7 +55,8 @@ static void destroy_vector(void *v) { N_VDestroy(v); }
 
 N_Vector stf_claim_vector(stf_pool *pool, N_Vector like)
 {
-  N_Vector v = N_VClone(like);
+  N_Vector v = like->ops->nvclone(like); /* N_VClone writes through a null result */
+  if (v) v->sunctx = like->sunctx;
   if (!v) {
     STEIF_FAIL(pool->ctx, STEIF_NO_MEMORY, "no memory for a vector of %lld components",
                (long long)N_VGetLength(like));

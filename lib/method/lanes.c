@@ -1,17 +1,11 @@
 /* lanes.c: the kernels of lanes.h. The loops over lanes and stages have constant length in each
  * instance, so that a compiler keeps them in vector registers; where the compiler can, the kernels
- * exist once per instruction set and the processor decides at load time.
+ * exist once per instruction set and the processor decides when a solver is opened.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "lanes.h"
 #include <float.h>
 #include <math.h>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__linux__) &&   \
-  !defined(__SANITIZE_ADDRESS__)
-#define CLONES __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
-#else
-#define CLONES
-#endif
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline))
 #else
@@ -68,19 +62,62 @@ INLINE void minus(const int lanes, double *restrict z, const double *restrict x,
 }
 
 /* z_i -= a_i x for i = from .. to - 1: independent, so that the processor may overlap them. */
-INLINE void subtract(const int lanes, int from, int to, const double *restrict a,
-                     const double *x, double *restrict z)
+#if defined(__GNUC__)
+#define VECTOR(N)                                                                              \
+  typedef double v##N __attribute__((vector_size(8 * N), aligned(8), may_alias));              \
+  INLINE void subtract##N(int from, int to, const double *a, const double *x, double *z)       \
+  {                                                                                            \
+    const v##N re = *(const v##N *)x, im = *(const v##N *)(x + N);                             \
+    for (int i = from; i < to; i++) {                                                          \
+      const v##N *e = (const v##N *)(a + i * 2 * N);                                           \
+      v##N *w = (v##N *)(z + i * 2 * N);                                                       \
+      w[0] -= e[0] * re - e[1] * im;                                                           \
+      w[1] -= e[0] * im + e[1] * re;                                                           \
+    }                                                                                          \
+  }                                                                                            \
+  /* r += x f for vectors of 2 N numbers. */                                                   \
+  INLINE void add##N(double *r, const double *x, double f)                                     \
+  {                                                                                            \
+    v##N *to = (v##N *)r;                                                                      \
+    const v##N *from = (const v##N *)x;                                                        \
+    to[0] += from[0] * f, to[1] += from[1] * f;                                                \
+  }
+
+VECTOR(2)
+VECTOR(4)
+VECTOR(8)
+#define HAND(N, name, ...)                                                                     \
+  if (lanes == N) {                                                                            \
+    name##N(__VA_ARGS__);                                                                      \
+    return;                                                                                    \
+  }
+#else
+#define HAND(N, name, ...)
+#endif
+
+INLINE void subtract(const int lanes, int from, int to, const double *a, const double *x,
+                     double *z)
 {
-  double re[STF_LANES], im[STF_LANES];
-  for (int k = 0; k < lanes; k++) re[k] = x[k], im[k] = x[lanes + k];
+  HAND(2, subtract, from, to, a, x, z)
+  HAND(4, subtract, from, to, a, x, z)
+  HAND(8, subtract, from, to, a, x, z)
   for (int i = from; i < to; i++) {
     const double *e = a + i * 2 * lanes;
     double *w = z + i * 2 * lanes;
     for (int k = 0; k < lanes; k++) {
-      w[k] -= e[k] * re[k] - e[lanes + k] * im[k];
-      w[lanes + k] -= e[k] * im[k] + e[lanes + k] * re[k];
+      w[k] -= e[k] * x[k] - e[lanes + k] * x[lanes + k];
+      w[lanes + k] -= e[k] * x[lanes + k] + e[lanes + k] * x[k];
     }
   }
+}
+
+/* r += x f, 2 lanes numbers. */
+INLINE void add(const int lanes, double *r, const double *x, double f)
+{
+  HAND(2, add, r, x, f)
+  HAND(4, add, r, x, f)
+  HAND(8, add, r, x, f)
+  for (int k = 0; k < 2 * lanes; k++) r[k] += x[k] * f;
 }
 
 INLINE void times(const int lanes, double *restrict x, const double *restrict y)
@@ -134,13 +171,6 @@ INLINE void eliminate(stf_lanes *L, const int n, const int lanes, const double *
   }
 }
 
-CLONES int stf_lanes_factor(stf_lanes *L, const double *J, double h)
-{
-  int failed = 0;
-  WITH_SIZES(eliminate, J, h, &failed)
-  return failed;
-}
-
 /* -- solve --------------------------------------------------------------------------------------- */
 
 /* x from rhs by the LU: forward in the order of elimination, then backward, by columns. */
@@ -167,8 +197,7 @@ INLINE void stages(stf_lanes *L, const int n, const int lanes, const int wide, c
   for (int i = 0; i < n; i++) {
     double z[STF_WIDE] = {0};
     const double *w = L->omega + i * 2 * lanes;
-    for (int k = 0; k < 2 * lanes; k++)
-      for (int j = 0; j < wide; j++) z[j] += L->V[k][j] * w[k];
+    for (int k = 0; k < 2 * lanes; k++) add(wide / 2, z, L->V[k], w[k]);
     for (int j = 0; j < s; j++) L->Y[j * n + i] = y[i] + z[j];
   }
 }
@@ -192,7 +221,7 @@ INLINE void right_sides(stf_lanes *L, const int n, const int lanes, double h)
     double r[2 * STF_LANES] = {0}, m[2 * STF_LANES] = {0};
     for (int j = 0; j < L->s; j++) {
       const double f = L->F[j * n + i];
-      for (int k = 0; k < 2 * lanes; k++) r[k] += L->Vinv[j][k] * f;
+      add(lanes, r, L->Vinv[j], f);
     }
     if (L->M) {
       for (int j = 0; j < n; j++) {
@@ -223,13 +252,6 @@ INLINE void sweep(stf_lanes *L, const int n, const int lanes, const double *y,
   for (int k = 0; k < lanes; k++) *sum += L->gain[k] * total[k];
 }
 
-CLONES double stf_lanes_sweep(stf_lanes *L, const double *y, const double *weight, double h)
-{
-  double sum = 0;
-  WITH_SIZES(sweep, y, weight, h, &sum)
-  return sum;
-}
-
 INLINE void begin(stf_lanes *L, const int n, const int lanes, const double *y)
 {
   for (int i = 0; i < n; i++) {
@@ -237,23 +259,20 @@ INLINE void begin(stf_lanes *L, const int n, const int lanes, const double *y)
     for (int j = 0; j < L->s; j++) {
       const double z = L->Z[i * L->wide + j];
       L->Y[j * n + i] = y[i] + z;
-      for (int k = 0; k < 2 * lanes; k++) w[k] += L->Vinv[j][k] * z;
+      add(lanes, w, L->Vinv[j], z);
     }
     for (int k = 0; k < 2 * lanes; k++) L->omega[i * 2 * lanes + k] = w[k];
   }
 }
 
-CLONES void stf_lanes_begin(stf_lanes *L, const double *y){WITH_SIZES(begin, y)}
-
-CLONES void stf_lanes_end(stf_lanes *L)
+INLINE void end_of(stf_lanes *L, const int n, const int lanes, int unused)
 {
-  const int lanes = L->lanes;
-  for (int i = 0; i < L->n; i++) {
+  (void)unused;
+  for (int i = 0; i < n; i++) {
     double *z = L->Z + i * L->wide;
     const double *w = L->omega + i * 2 * lanes;
     for (int j = 0; j < L->wide; j++) z[j] = 0;
-    for (int k = 0; k < 2 * lanes; k++)
-      for (int j = 0; j < L->wide; j++) z[j] += L->V[k][j] * w[k];
+    for (int k = 0; k < 2 * lanes; k++) add(L->wide / 2, z, L->V[k], w[k]);
   }
 }
 
@@ -268,7 +287,71 @@ INLINE void filter(stf_lanes *L, const int n, const int lanes, double *x)
       im == 0 ? L->work[i * 2 * lanes] : -L->lambda[0] / im * L->work[i * 2 * lanes + lanes];
 }
 
-CLONES void stf_lanes_filter(stf_lanes *L, double *x) { WITH_SIZES(filter, x) }
+/* -- instruction sets ----------------------------------------------------------------------------- */
+
+struct stf_lanes_kernels {
+  int (*factor)(stf_lanes *L, const double *J, double h);
+  void (*begin)(stf_lanes *L, const double *y);
+  double (*sweep)(stf_lanes *L, const double *y, const double *weight, double h);
+  void (*end)(stf_lanes *L);
+  void (*filter)(stf_lanes *L, double *x);
+};
+
+/* The kernels once more for an instruction set. */
+#define KERNELS(isa, attribute)                                                                \
+  attribute static int factor_##isa(stf_lanes *L, const double *J, double h)                   \
+  {                                                                                            \
+    int failed = 0;                                                                            \
+    WITH_SIZES(eliminate, J, h, &failed)                                                       \
+    return failed;                                                                             \
+  }                                                                                            \
+  attribute static void begin_##isa(stf_lanes *L, const double *y){                            \
+    WITH_SIZES(begin, y)} attribute static double sweep_##isa(stf_lanes *L, const double *y,   \
+                                                              const double *weight, double h)  \
+  {                                                                                            \
+    double sum = 0;                                                                            \
+    WITH_SIZES(sweep, y, weight, h, &sum)                                                      \
+    return sum;                                                                                \
+  }                                                                                            \
+  attribute static void end_##isa(stf_lanes *L){                                               \
+    WITH_SIZES(end_of, 0)} attribute static void filter_##isa(stf_lanes *L, double *x)         \
+  {                                                                                            \
+    WITH_SIZES(filter, x)                                                                      \
+  }                                                                                            \
+  static const struct stf_lanes_kernels isa = {factor_##isa, begin_##isa, sweep_##isa,         \
+                                               end_##isa, filter_##isa};
+
+KERNELS(plain, )
+#if defined(__x86_64__) && defined(__GNUC__)
+KERNELS(avx2, __attribute__((target("avx2,fma"))))
+KERNELS(avx512, __attribute__((target("avx512f,avx512vl,avx512dq,avx2,fma"))))
+
+static const struct stf_lanes_kernels *best(void)
+{
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma"))
+    return &avx512;
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? &avx2 : &plain;
+}
+#else
+static const struct stf_lanes_kernels *best(void) { return &plain; }
+#endif
+
+int stf_lanes_factor(stf_lanes *L, const double *J, double h)
+{
+  return L->kernels->factor(L, J, h);
+}
+
+void stf_lanes_begin(stf_lanes *L, const double *y) { L->kernels->begin(L, y); }
+
+double stf_lanes_sweep(stf_lanes *L, const double *y, const double *weight, double h)
+{
+  return L->kernels->sweep(L, y, weight, h);
+}
+
+void stf_lanes_end(stf_lanes *L) { L->kernels->end(L); }
+
+void stf_lanes_filter(stf_lanes *L, double *x) { L->kernels->filter(L, x); }
 
 /* -- open ------------------------------------------------------------------------------------------ */
 
@@ -299,7 +382,7 @@ static void fill(const stf_split *split, stf_lanes *L)
 
 int stf_lanes_open(stf_pool *pool, const stf_split *split, int n, const double *M, stf_lanes *L)
 {
-  *L = (stf_lanes){.n = n, .s = split->s, .M = M};
+  *L = (stf_lanes){.n = n, .s = split->s, .M = M, .kernels = best()};
   L->lanes = padded(split->lanes, STF_LANES);
   L->wide = split->s <= 4 ? 4 : split->s <= 8 ? 8 : 16;
   fill(split, L);

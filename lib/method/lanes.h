@@ -17,7 +17,10 @@
 
 enum { STF_LANES = 8, STF_WIDE = 16 };
 
+struct stf_lanes_kernels;
+
 typedef struct stf_lanes {
+  const struct stf_lanes_kernels *kernels; /* of the instruction set there is */
   int n, s, lanes, wide;        /* lanes: 1, 2, 4 or 8; wide: stages padded to 4, 8 or 16 */
   double lambda[2 * STF_LANES]; /* re, im; padding lanes repeat the first */
   double gain[STF_LANES]; /* weight of |omega_k|^2 in the norm: 1 real, 4 pair, 0 padding */

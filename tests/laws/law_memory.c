@@ -25,9 +25,9 @@ void *__libc_malloc(size_t);
 void *__libc_calloc(size_t, size_t);
 void *__libc_realloc(void *, size_t);
 static int granted(void) { return ++asked != fail_at; }
-void *malloc(size_t size) { return granted() ? __libc_malloc(size) : NULL; }
-void *calloc(size_t n, size_t size) { return granted() ? __libc_calloc(n, size) : NULL; }
-void *realloc(void *p, size_t size) { return granted() ? __libc_realloc(p, size) : NULL; }
+STEIF_EXPORT void *malloc(size_t size) { return granted() ? __libc_malloc(size) : NULL; }
+STEIF_EXPORT void *calloc(size_t n, size_t size) { return granted() ? __libc_calloc(n, size) : NULL; }
+STEIF_EXPORT void *realloc(void *p, size_t size) { return granted() ? __libc_realloc(p, size) : NULL; }
 #endif
 
 static const char *const problems[] = {"hires", "transamp", "heat:n=40", "medakzo",
