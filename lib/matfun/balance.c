@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "matfun.h"
 #include "blas.h"
+#include <string.h>
 
 static void exchange(stf_scaling *b, int i)
 {
@@ -31,6 +32,10 @@ bool stf_balance_trivial(const stf_scaling *b)
 void stf_balance_undo(const stf_scaling *b, const double *B, double *X)
 {
   const size_t n = (size_t)b->n;
+  if (stf_balance_trivial(b)) {
+    memcpy(X, B, n * n * sizeof *X);
+    return;
+  }
   for (size_t j = 0; j < n; j++)
     for (size_t i = 0; i < n; i++)
       X[(size_t)b->perm[i] + n * (size_t)b->perm[j]] = B[i + n * j] * (b->d[i] / b->d[j]);

@@ -9,7 +9,7 @@
 #include "matfun.h"
 #include "blas.h"
 
-enum { DEGREES = 5, EXACT = 32 };
+enum { DEGREES = 5, EXACT = 32, WORTH = 3 };
 
 /* Bounds of the paper for unit round-off 2^{-53}, and log2 of the coefficient of x^{2m+1} in
  * the backward error, (m!)^2 / ((2m)! (2m+1)!). */
@@ -61,40 +61,52 @@ static double product_norm(stf_core *c, const double *F, const double *G, double
   }
 }
 
-/* log2 || |A|^k ||_1, exactly: the row vector of ones times |A|, normalised as it grows. */
-static double log_absolute_power(stf_core *c, int k)
+/* y = the row vector x times |A|, divided by its largest entry, which is returned. */
+static double times_absolute(const stf_core *c, const double *x, double *y)
 {
   const int n = c->n;
-  double *x = c->sums, *y = c->sums + n, log_norm = 0;
-  for (int i = 0; i < n; i++) x[i] = 1;
-  for (; k > 0; k--) {
-    double most = 0;
-    for (int j = 0; j < n; j++) {
-      const double *a = c->A + (size_t)j * (size_t)n;
-      double even = 0, odd = 0;
-      int i = 0;
-      for (; i + 2 <= n; i += 2) even += fabs(a[i]) * x[i], odd += fabs(a[i + 1]) * x[i + 1];
-      if (i < n) even += fabs(a[i]) * x[i];
-      y[j] = even + odd;
-      if (y[j] > most) most = y[j];
-    }
+  double most = 0;
+  for (int j = 0; j < n; j++) {
+    const double *a = c->A + (size_t)j * (size_t)n;
+    double even = 0, odd = 0;
+    int i = 0;
+    for (; i + 2 <= n; i += 2) even += fabs(a[i]) * x[i], odd += fabs(a[i + 1]) * x[i + 1];
+    if (i < n) even += fabs(a[i]) * x[i];
+    y[j] = even + odd;
+    if (y[j] > most) most = y[j];
+  }
+  for (int j = 0; j < n && most > 0; j++) y[j] /= most;
+  return most;
+}
+
+/* A bound of log2 || |A|^k ||_1, the exact value where the bound exceeds `harmless`: first
+ * ||B^3||^{k/3} ||B||^{k mod 3}, then the product with the row vector of ones. */
+static double log_absolute_power(stf_core *c, int k, double harmless)
+{
+  double *x = c->sums, *y = c->sums + c->n, log_norm = 0;
+  for (int i = 0; i < c->n; i++) x[i] = 1;
+  for (int done = 1; done <= k; done++) {
+    const double most = times_absolute(c, x, y);
     if (most == 0) return -INFINITY;
     log_norm += log2(most);
-    for (int i = 0; i < n; i++) x[i] = y[i] / most;
+    double *const t = x;
+    x = y, y = t;
+    if (done != 3) continue;
+    const double bound = log_norm * (k / 3) + (k % 3) * log2(c->norm);
+    if (bound <= harmless) return bound;
   }
   return log_norm;
 }
 
-/* Squarings beyond s that the rounding-safe bound of degree m asks for; none when the norm
- * itself is in bounds. */
+/* Squarings beyond s that the rounding-safe bound of degree m asks for: those that bring
+ * |c_{2m+1}| || |A|^{2m+1} || / ||A|| below the unit round-off. */
 static int extra(stf_core *c, int which, int s)
 {
-  if (ldexp(c->norm, -s) <= theta[which]) return 0;
   const int m = degree[which];
-  const double alpha =
-    log_coefficient[which] + log_absolute_power(c, 2 * m + 1) - log2(c->norm) - 2.0 * m * s;
-  const double more = ceil((alpha + 53) / (2 * m));
-  return more > 0 ? (int)more : 0;
+  const double fixed = log_coefficient[which] - log2(c->norm) - 2.0 * m * s + 53;
+  if (fixed + (2 * m + 1) * log2(c->norm) <= 0) return 0;
+  const double alpha = fixed + log_absolute_power(c, 2 * m + 1, -fixed);
+  return alpha > 0 ? (int)ceil(alpha / (2 * m)) : 0;
 }
 
 static bool take(stf_core *c, int which, double eta)
@@ -110,17 +122,24 @@ static int halvings(double size)
   return s > 0 ? (int)s : 0;
 }
 
+/* ||A^8|| and ||A^10|| are bounded by ||A^4|| and ||A^6||; for larger matrices their estimates
+ * cost as much as a squaring and are made where several may be saved. */
 static void large(stf_core *c)
 {
   const int n = c->n;
   const double d4 = pow(stf_norm1(n, c->A4), 0.25), d6 = pow(stf_norm1(n, c->A6), 1.0 / 6);
-  if (take(c, 0, fmax(d4, d6)) || take(c, 1, fmax(d4, d6))) return;
-  const double d8 = pow(product_norm(c, c->A4, c->A4, c->U), 0.125);
-  const double eta = fmax(d6, d8);
-  if (take(c, 2, eta) || take(c, 3, eta)) return;
-  const double d10 = pow(product_norm(c, c->A4, c->A6, c->U), 0.1);
+  const double bound = fmax(d4, d6);
+  for (int which = 0; which < DEGREES - 1; which++)
+    if (take(c, which, bound)) return;
+  double eta = bound;
+  if (n <= EXACT || halvings(bound) > WORTH) {
+    const double d8 = pow(product_norm(c, c->A4, c->A4, c->U), 0.125);
+    const double low = fmax(d6, d8);
+    if (take(c, 2, low) || take(c, 3, low)) return;
+    eta = fmin(low, fmax(d8, pow(product_norm(c, c->A4, c->A6, c->U), 0.1)));
+  }
   c->m = 13;
-  int s = halvings(fmin(eta, fmax(d8, d10)));
+  int s = halvings(eta);
   s += extra(c, DEGREES - 1, s);
   c->s = s < halvings(c->norm) ? s : halvings(c->norm);
 }
