@@ -76,7 +76,8 @@ typedef struct steif_impulse {
   sunrealtype *c;           /* count x n, by rows: c_0, c_1, ... */
   sunrealtype last, chain, first; /* residuals ||E c_{k-2}||, max ||F c_i + E c_{i-1}||, ||F c_0 +
                                E (x+ - x-)||, each relative to the norms of its terms
-                               (the first to max |E| ||c_{k-2}||) */
+                               (the first to max |E| ||c_{k-2}|| or, where larger, max |E|^2 /
+                               max |F| times the norm of c_{k-3} or x- - x+) */
   sunrealtype estimate;     /* of the relative error of x_plus: two radii, or two algorithms */
   int certified;
   const char *method;

@@ -93,14 +93,20 @@ static sunrealtype largest(SUNMatrix M)
   return most;
 }
 
-/* ||E c|| / (max |E| ||c||): every term of E c may vanish, so they are no measure here. */
-static sunrealtype left_over(SUNMatrix E, const sunrealtype *c, steif_impulse *impulse)
+/* ||E c|| / max(max |E| ||c||, max |E|^2 / max |F| ||b||) with b of F c + E b = 0: every term of
+ * E c may vanish, and c too, so they are no measure here. b = y - z; z NULL: 0. */
+static sunrealtype left_over(SUNMatrix E, SUNMatrix F, const sunrealtype *c,
+                             const sunrealtype *y, const sunrealtype *z, steif_impulse *impulse)
 {
-  sunrealtype *r = impulse->x_plus + impulse->n, norm = 0, size = 0;
+  sunrealtype *r = impulse->x_plus + impulse->n, norm = 0, size = 0, before = 0;
+  const sunrealtype e = largest(E), f = largest(F);
   for (sunindextype i = 0; i < SCRATCH * impulse->n; i++) r[i] = 0;
   add(E, c, NULL, r, r + impulse->n);
-  for (sunindextype i = 0; i < impulse->n; i++) norm += r[i] * r[i], size += c[i] * c[i];
-  size = sqrt(size) * largest(E);
+  for (sunindextype i = 0; i < impulse->n; i++) {
+    const sunrealtype b = y[i] - (z ? z[i] : 0);
+    norm += r[i] * r[i], size += c[i] * c[i], before += b * b;
+  }
+  size = e * fmax(sqrt(size), f > 0 ? e / f * sqrt(before) : 0);
   return size > 0 ? sqrt(norm) / size : 0;
 }
 
@@ -111,7 +117,10 @@ void stf_impulse_residuals(SUNMatrix E, SUNMatrix F, const sunrealtype *x0,
   const sunindextype n = impulse->n;
   const sunrealtype *c = impulse->c;
   (void)f;
-  impulse->last = count ? left_over(E, c + (count - 1) * n, impulse) : 0;
+  const sunrealtype *last = count ? c + (count - 1) * n : NULL;
+  impulse->last = count > 1   ? left_over(E, F, last, last - n, NULL, impulse)
+                  : count > 0 ? left_over(E, F, last, impulse->x_plus, x0, impulse)
+                              : 0;
   impulse->chain = 0;
   for (int i = 1; i < count; i++)
     impulse->chain =

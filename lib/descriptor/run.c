@@ -2,7 +2,11 @@
  * the impulses, between them a method on the smooth solution.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "structure.h"
+#include <math.h>
+#include <nvector/nvector_serial.h>
 #include <string.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
 
 typedef struct run {
   steif_context *ctx;
@@ -13,7 +17,80 @@ typedef struct run {
   const steif_linear_output *output;
   steif_structure structure; /* of the pencil, found once */
   sunrealtype *x;            /* x(t-), then x(t+) */
+  int *index;                /* of each unknown; NULL: all 1 */
 } run;
+
+/* ---- the index of each unknown ---------------------------------------------------------------- */
+
+/* Steps of an integrator are judged by h^(index-1) of an unknown, which for unknown j is one more
+ * than the last power of s with which it answers to forcing: the last i with (Phi_i v)_j != 0 for
+ * a generic v. From x(0-) = 0 with f = v constant, x(0+) = Phi_0 v and c_i = Phi_{i+1} v. */
+enum { INDEX_MOST = 3 }; /* of problem->index */
+
+static int constant(sunrealtype t, int derivative, N_Vector g, void *v)
+{
+  sunrealtype *out = N_VGetArrayPointer(g);
+  const sunindextype n = N_VGetLength(g);
+  (void)t;
+  for (sunindextype i = 0; i < n; i++) out[i] = derivative ? 0 : ((const sunrealtype *)v)[i];
+  return 0;
+}
+
+static sunrealtype largest(SUNMatrix M)
+{
+  const bool dense = SUNMatGetID(M) == SUNMATRIX_DENSE;
+  const sunindextype count = dense ? SM_LDATA_D(M) : SM_INDEXPTRS_S(M)[SM_NP_S(M)];
+  const sunrealtype *a = dense ? SM_DATA_D(M) : SM_DATA_S(M);
+  sunrealtype most = 0;
+  for (sunindextype i = 0; i < count; i++) most = fmax(most, fabs(a[i]));
+  return most;
+}
+
+/* Powers of s are compared at |s| = R, where the finite eigenvalues end. */
+static sunrealtype scale(const run *r)
+{
+  const sunrealtype e = largest(r->linear->E), f = largest(r->linear->F);
+  return r->structure.radius > 0 ? r->structure.radius : e > 0 && f > 0 ? f / e : 1;
+}
+
+static void read_off(run *r, const steif_impulse *answer)
+{
+  const sunrealtype R = scale(r), noise = 1e-8;
+  for (sunindextype j = 0; j < answer->n; j++) {
+    sunrealtype most = fabs(answer->x_plus[j]), power = 1;
+    for (int i = 0; i < answer->count; i++)
+      power *= R, most = fmax(most, power * fabs(answer->c[i * answer->n + j]));
+    r->index[j] = 1, power = 1;
+    for (int i = 0; i < answer->count; i++) {
+      power *= R;
+      if (power * fabs(answer->c[i * answer->n + j]) > noise * most) r->index[j] = i + 2;
+    }
+    if (r->index[j] > INDEX_MOST) r->index[j] = INDEX_MOST;
+  }
+}
+
+static int grade(run *r)
+{
+  const steif_linear *l = r->linear;
+  const sunindextype n = r->structure.n;
+  if (!r->structure.regular || r->structure.index == 0 || r->structure.index == 1)
+    return STEIF_OK;
+  steif_impulse answer = {0};
+  sunrealtype *work = stf_allocate(r->ctx, 2 * (size_t)n, sizeof *work), *v = work + n;
+  if (!work) return STEIF_NO_MEMORY;
+  for (sunindextype i = 0; i < n; i++)
+    work[i] = 0, v[i] = 1 + 0.5 * sin(1 + 2.399963 * (sunrealtype)i); /* the golden angle */
+  int code = steif_impulse_find(r->ctx, l->E, l->F, work, 0, constant, v, r->analysis,
+                                &r->structure, &answer);
+  if (!code && !(r->index = stf_allocate(r->ctx, (size_t)n, sizeof *r->index)))
+    code = STEIF_NO_MEMORY;
+  if (!code) read_off(r, &answer);
+  steif_impulse_clear(r->ctx, &answer);
+  stf_release(r->ctx, work);
+  return code;
+}
+
+/* ---- jumps and the smooth solution between them ----------------------------------------------- */
 
 static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
 {
@@ -35,18 +112,56 @@ static int jump(run *r, sunrealtype t)
   return code;
 }
 
-static int smooth(run *r, sunrealtype from, sunrealtype to)
+/* f up to the end of a segment: where it breaks there, from the left. */
+typedef struct segment {
+  const steif_linear *linear;
+  sunrealtype end, before; /* before: the last number before end */
+} segment;
+
+static int left_of(sunrealtype t, int derivative, N_Vector g, void *user)
+{
+  const segment *s = user;
+  return s->linear->f(t < s->end ? t : s->before, derivative, g, s->linear->user);
+}
+
+/* In a first step far below the time scales of the system an unknown of index k would be its
+ * rounding errors times h^(1-k). */
+static void begin(const run *r, sunrealtype from, sunrealtype to, steif_options *o)
+{
+  o->t1 = to;
+  if (r->output->step) o->observe = observe, o->observer = (void *)r;
+  if (!(o->h0 > 0) && r->structure.index > 1)
+    o->h0 = fmin(1e-3 * (to - from), r->structure.radius > 0 ? 1e-2 / r->structure.radius : to);
+}
+
+static int smooth(run *r, segment *s, sunrealtype from)
 {
   steif_problem p;
-  STEIF_TRY(steif_linear_problem(r->ctx, r->linear, r->x, from, to, &p));
+  const steif_linear *l = r->linear;
+  const steif_linear cut = {l->E, l->F, l->f ? left_of : NULL, s};
+  STEIF_TRY(steif_linear_problem(r->ctx, &cut, r->x, from, s->end, &p));
+  p.index = r->index, p.dae_index = r->structure.index;
   steif_options o = r->options;
-  o.t1 = to;
-  if (r->output->step) o.observe = observe, o.observer = r;
-  steif_solver *s = steif_solver_new(r->ctx, &p, r->method, &o);
-  if (!s) return steif_status(r->ctx);
-  const int code = steif_solve_to(s, to);
-  if (!code) memcpy(r->x, N_VGetArrayPointer(steif_solution(s)), (size_t)p.n * sizeof *r->x);
-  steif_solver_free(&s);
+  begin(r, from, s->end, &o);
+  steif_solver *solver = steif_solver_new(r->ctx, &p, r->method, &o);
+  if (!solver) return steif_status(r->ctx);
+  const int code = steif_solve_to(solver, s->end);
+  if (!code)
+    memcpy(r->x, N_VGetArrayPointer(steif_solution(solver)), (size_t)p.n * sizeof *r->x);
+  steif_solver_free(&solver);
+  return code;
+}
+
+/* x(t-) on the constraints that hold before a break: what the method missed them by would be taken
+ * for a jump, and differentiated. */
+static int settle(run *r, segment *s)
+{
+  steif_impulse i = {0};
+  const steif_linear *l = r->linear;
+  const int code = steif_impulse_find(r->ctx, l->E, l->F, r->x, s->end, l->f ? left_of : NULL,
+                                      s, r->analysis, &r->structure, &i);
+  if (!code) memcpy(r->x, i.x_plus, (size_t)i.n * sizeof *r->x);
+  steif_impulse_clear(r->ctx, &i);
   return code;
 }
 
@@ -58,8 +173,10 @@ static int segments(run *r, sunrealtype t0, size_t count, const sunrealtype *bre
     STEIF_CHECK(end > t, r->ctx, STEIF_BAD_INPUT,
                 "breaks must ascend within (%.17g, %.17g): %.17g comes after %.17g", t0,
                 r->options.t1, end, t);
+    segment s = {r->linear, end, nextafter(end, t)};
     STEIF_TRY(jump(r, t));
-    STEIF_TRY(smooth(r, t, end));
+    STEIF_TRY(smooth(r, &s, t));
+    if (i < count) STEIF_TRY(settle(r, &s));
     t = end;
   }
   return STEIF_OK;
@@ -84,8 +201,10 @@ int steif_linear_run(steif_context *ctx, const steif_linear *linear, const sunre
   if (!r.x) return STEIF_NO_MEMORY;
   memcpy(r.x, x0, (size_t)p.n * sizeof *r.x);
   int code = steif_structure_find(ctx, linear->E, linear->F, analysis, &r.structure);
+  if (!code) code = grade(&r);
   if (!code) code = segments(&r, t0, break_count, breaks);
   steif_structure_clear(ctx, &r.structure);
+  stf_release(ctx, r.index);
   stf_release(ctx, r.x);
   return code;
 }

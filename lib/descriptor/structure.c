@@ -164,18 +164,26 @@ static void multiply(SUNMatrix E, const sunrealtype *x, sunrealtype *y)
         y[SM_INDEXVALS_S(E)[p]] += SM_DATA_S(E)[p] * x[j];
 }
 
+/* Why derivative j is not there, in the words of the forcing where it has any. */
+static int missing(const question *q, int j, int derivatives)
+{
+  char words[320] = "";
+  if (steif_status(q->ctx)) snprintf(words, sizeof words, ": %s", steif_message(q->ctx));
+  return STEIF_FAIL(q->ctx, STEIF_BAD_INPUT,
+                    "derivative %d of the forcing is not known at t = %g; index %d needs "
+                    "derivatives up to %d%s",
+                    j, q->t, derivatives + 1, derivatives, words);
+}
+
 static int force(question *q, int derivatives, N_Vector g, sunrealtype *rows)
 {
   const sunindextype n = order(q->E);
+  steif_forget(q->ctx);
   for (int j = 0; j <= derivatives; j++) {
     const int code = q->f(q->t, j, g, q->user);
     STEIF_CHECK(code >= 0, q->ctx, STEIF_CALLBACK,
                 "the forcing returned %d for derivative %d at t = %g", code, j, q->t);
-    STEIF_CHECK(
-      code == 0, q->ctx, STEIF_BAD_INPUT,
-      "derivative %d of the forcing is not known at t = %g; index %d needs derivatives "
-      "up to %d",
-      j, q->t, derivatives + 1, derivatives);
+    if (code > 0) return missing(q, j, derivatives);
     const sunrealtype *value = N_VGetArrayPointer(g);
     STEIF_CHECK(stf_all_finite(value, (size_t)n), q->ctx, STEIF_NOT_FINITE,
                 "derivative %d of the forcing is not finite at t = %g", j, q->t);
