@@ -1,0 +1,126 @@
+/* impulse.c: jump and impulses of E x' + F x = f from any x(0-), and the run that follows.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "impulse.h"
+
+void impulse_fill(steif_report *r, const steif_impulse *i)
+{
+  steif_report_whole(r, "index", i->index);
+  steif_report_list(r, "x_plus", (size_t)i->n, i->x_plus);
+  steif_report_matrix(r, "impulses", (size_t)i->count, (size_t)i->n, i->c);
+  steif_report_real(r, "residuals.last", i->last);
+  steif_report_real(r, "residuals.chain", i->chain);
+  steif_report_real(r, "residuals.first", i->first);
+  steif_report_real(r, "estimate", i->estimate);
+  steif_report_truth(r, "certified", i->certified);
+  steif_report_text(r, "method", i->method);
+  steif_report_text(r, "message", i->message);
+}
+
+static void row(steif_report *r, const char *sheet, const char *kind, double t, size_t n,
+                const double *x)
+{
+  char name[64];
+  steif_report_row(r, sheet);
+  snprintf(name, sizeof name, "%s.t", sheet), steif_report_real(r, name, t);
+  snprintf(name, sizeof name, "%s.kind", sheet), steif_report_text(r, name, kind);
+  snprintf(name, sizeof name, "%s.x", sheet), steif_report_list(r, name, n, x);
+}
+
+void impulse_rows(steif_report *r, const char *sheet, double t, const double *before,
+                  const steif_impulse *i)
+{
+  const size_t n = (size_t)i->n;
+  char kind[16];
+  row(r, sheet, "x-", t, n, before);
+  for (int q = 0; q < i->count; q++) {
+    snprintf(kind, sizeof kind, "c%d", q);
+    row(r, sheet, kind, t, n, i->c + (size_t)q * n);
+  }
+  row(r, sheet, "x+", t, n, i->x_plus);
+}
+
+int impulse_verdict(const struct call *call, const steif_impulse *i)
+{
+  if (!i->certified) say(call, "%s", i->message);
+  return i->certified ? EXIT_OK : EXIT_UNCERTIFIED;
+}
+
+static int tell(struct call *call, const struct linear *l, const steif_impulse *i)
+{
+  steif_report *r = steif_report_new(call->ctx), *sheet = steif_report_new(call->ctx);
+  int code = r && sheet ? EXIT_OK : fail(call);
+  if (!code) impulse_fill(r, i), code = show(call, r);
+  if (!code && call->csv) {
+    impulse_rows(sheet, "rows", l->t0, l->x0, i);
+    code = save_csv(call, sheet);
+  }
+  steif_report_free(&sheet);
+  steif_report_free(&r);
+  return code ? code : impulse_verdict(call, i);
+}
+
+static int start(struct call *call, const struct linear *l, const steif_structure *s)
+{
+  steif_impulse i = {0};
+  const steif_linear *q = &l->system;
+  const steif_analysis a = linear_analysis(call);
+  if (steif_impulse_find(call->ctx, q->E, q->F, l->x0, l->t0, q->f, q->user, &a, s, &i))
+    return linear_fail(call);
+  const int code = tell(call, l, &i);
+  steif_impulse_clear(call->ctx, &i);
+  return code;
+}
+
+static int analyse(struct call *call, struct linear *l)
+{
+  steif_structure s = {0};
+  const steif_analysis a = linear_analysis(call);
+  progress(call, "%ld equations", l->n);
+  if (steif_structure_find(call->ctx, l->system.E, l->system.F, &a, &s))
+    return linear_fail(call);
+  const int code = !s.regular                ? linear_singular(call, &s)
+                   : given(call, "--method") ? impulse_run(call, l)
+                                             : start(call, l, &s);
+  steif_structure_clear(call->ctx, &s);
+  return code;
+}
+
+static int run(struct call *call)
+{
+  struct linear l;
+  if (given(call, "--method") != given(call, "--t1"))
+    return refuse(call, "--method and --t1 go together: the run after the jump and its end");
+  if (!given(call, "--method") && (given(call, "--h") || given(call, "--rtol") || call->plot))
+    return refuse(call, "--h, --rtol and --plot belong to a run; add --method and --t1");
+  int code = linear_open(call, &l, true);
+  if (!code && !l.x0) code = refuse(call, "--x0 X.mtx is needed: the values x(0-)");
+  if (!code && given(call, "--t1") && real_of(call, "--t1", 0) <= l.t0)
+    code = refuse(call, "--t1 is %s and must be later than the jump at %g",
+                  word_of(call, "--t1", ""), l.t0);
+  if (!code) code = analyse(call, &l);
+  linear_close(call, &l);
+  return code;
+}
+
+static const struct option options[] = {
+  START_ROWS,
+  {"--method", WORD, "METHOD",
+   "integrate from x(0+), with a jump at every declared break of f"},
+  {"--t1", REAL, "T", "end of that run"},
+  {"--h", POSITIVE, "H", "its equal steps (default: chosen)"},
+  {"--rtol", POSITIVE, "R", "its tolerance (default 1e-6)"},
+  ANALYSIS_ROWS,
+  {NULL, FLAG, NULL, NULL},
+};
+
+static const char *const clash[][2] = {{"--forcing", "--f"}, {"--h", "--rtol"}, {NULL, NULL}};
+
+const struct verb verb_impulse = {
+  "impulse",
+  "Find x(0+) and the impulses of E x' + F x = f from any x(0-)",
+  "E.mtx F.mtx --x0 X.mtx | PROBLEM [--forcing FILE] [--method METHOD --t1 T --csv FILE]",
+  1,
+  2,
+  options,
+  clash,
+  run};

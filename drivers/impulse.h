@@ -1,0 +1,20 @@
+/* impulse.h: the start of a descriptor system, and the run that follows.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef IMPULSE_H
+#define IMPULSE_H
+
+#include "linear.h"
+#include "run.h"
+
+/* The start as fields of a report. */
+void impulse_fill(steif_report *r, const steif_impulse *i);
+/* The rows of a sheet with columns t, kind, x: x-, c0, c1, ..., x+ of one jump. */
+void impulse_rows(steif_report *r, const char *sheet, double t, const double *before,
+                  const steif_impulse *i);
+/* EXIT_UNCERTIFIED after a sentence, or EXIT_OK. */
+int impulse_verdict(const struct call *call, const steif_impulse *i);
+
+/* Trajectory, jumps and impulses up to --t1 by --method; an exit code. */
+int impulse_run(struct call *call, struct linear *l);
+
+#endif

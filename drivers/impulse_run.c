@@ -1,0 +1,88 @@
+/* impulse_run.c: trajectory, jumps and impulses of a descriptor system.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "impulse.h"
+#include <nvector/nvector_serial.h>
+
+enum { BREAKS = 256, TITLE = 160 };
+
+/* What a run leaves: its start and end on stdout, everything in the sheet of --csv. */
+struct record {
+  const struct call *call;
+  steif_report *shown, *sheet;
+  trajectory path;
+  size_t n;
+  int verdict;
+  long jumps, steps;
+};
+
+static int jump(double t, const double *before, const steif_impulse *i, void *user)
+{
+  struct record *k = user;
+  if (!k->jumps++) impulse_fill(k->shown, i);
+  impulse_rows(k->shown, "jumps", t, before, i);
+  if (k->call->csv) impulse_rows(k->sheet, "rows", t, before, i);
+  if (!k->verdict) k->verdict = impulse_verdict(k->call, i);
+  return 0;
+}
+
+static int step(double t, N_Vector x, void *user)
+{
+  struct record *k = user;
+  const double *value = N_VGetArrayPointer(x);
+  k->steps++;
+  if (k->call->csv) {
+    steif_report_row(k->sheet, "rows");
+    steif_report_real(k->sheet, "rows.t", t);
+    steif_report_text(k->sheet, "rows.kind", "x");
+    steif_report_list(k->sheet, "rows.x", k->n, value);
+  }
+  if (t >= k->path.t1) {
+    steif_report_real(k->shown, "t", t);
+    steif_report_list(k->shown, "x", k->n, value);
+  }
+  return k->call->plot ? trajectory_add(NULL, t, x, &k->path) : 0;
+}
+
+static int output(struct record *k, const char *method)
+{
+  char title[TITLE];
+  snprintf(title, sizeof title, "%s by %s", k->call->word[0], method);
+  steif_report_whole(k->shown, "steps", k->steps);
+  int code = show(k->call, k->shown);
+  if (!code) code = save_csv(k->call, k->sheet);
+  if (!code) code = trajectory_plot(k->call, &k->path, title);
+  return code ? code : k->verdict;
+}
+
+static int integrate_on(struct call *call, const struct linear *l, struct record *k)
+{
+  double breaks[BREAKS];
+  steif_options o = steif_defaults();
+  o.t1 = k->path.t1, o.h = real_of(call, "--h", 0), o.rtol = real_of(call, "--rtol", o.rtol);
+  const char *method = word_of(call, "--method", NULL);
+  const size_t count =
+    l->function ? steif_function_breaks(l->function, l->t0, o.t1, BREAKS, breaks) : 0;
+  if (count > BREAKS)
+    return refuse(call, "f has %zu breaks up to t = %g, %d are the most; end earlier", count,
+                  o.t1, BREAKS);
+  const steif_analysis a = linear_analysis(call);
+  const steif_linear_output out = {jump, step, k};
+  return steif_linear_run(call->ctx, &l->system, l->x0, l->t0, method, &o, &a, count, breaks,
+                          &out)
+           ? linear_fail(call)
+           : output(k, method);
+}
+
+int impulse_run(struct call *call, struct linear *l)
+{
+  struct record k = {.call = call,
+                     .shown = steif_report_new(call->ctx),
+                     .sheet = steif_report_new(call->ctx),
+                     .n = (size_t)l->n,
+                     .path = {.call = call, .n = (size_t)l->n, .t1 = real_of(call, "--t1", 0)}};
+  const int code = k.shown && k.sheet ? integrate_on(call, l, &k) : fail(call);
+  trajectory_free(&k.path);
+  steif_report_free(&k.sheet);
+  steif_report_free(&k.shown);
+  return code;
+}

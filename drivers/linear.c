@@ -1,0 +1,190 @@
+/* linear.c: descriptor systems from files, or from the collection.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "linear.h"
+#include <stdlib.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+static bool ends(const char *word, const char *ending)
+{
+  const size_t length = strlen(word), tail = strlen(ending);
+  return length > tail && !strcmp(word + length - tail, ending);
+}
+
+bool linear_is_file(const char *word)
+{
+  return ends(word, ".mtx") || ends(word, ".mat") || strchr(word, '/');
+}
+
+static int bad_file(const struct call *call)
+{
+  const int code = fail(call);
+  return code == EXIT_USAGE || code == EXIT_FAILED ? EXIT_FILE : code;
+}
+
+int linear_fail(const struct call *call)
+{
+  const int code = steif_status(call->ctx);
+  const bool file =
+    linear_is_file(call->word[0]) || given(call, "--x0") || given(call, "--forcing");
+  const bool blamed =
+    (code == STEIF_BAD_INPUT && !given(call, "--f")) || code == STEIF_NOT_FINITE;
+  return blamed && file ? bad_file(call) : fail(call);
+}
+
+/* " 3 4 7 ..." */
+static const char *numbers(char *text, size_t room, long count, const sunindextype *value)
+{
+  enum { SHOWN = 8 };
+  size_t used = 0;
+  *text = 0;
+  for (long i = 0; i < count && i < SHOWN && used < room; i++)
+    used += (size_t)snprintf(text + used, room - used, " %ld", (long)value[i]);
+  if (count > SHOWN && used < room) snprintf(text + used, room - used, " ...");
+  return text;
+}
+
+int linear_singular(const struct call *call, const steif_structure *s)
+{
+  char one[256], two[256];
+  if (s->equations_count || s->unknowns_count)
+    say(call, "%s; counted from 0, look at equations%s and unknowns%s", s->message,
+        numbers(one, sizeof one, (long)s->equations_count, s->equations),
+        numbers(two, sizeof two, (long)s->unknowns_count, s->unknowns));
+  else
+    say(call, "%s", s->message);
+  return EXIT_SINGULAR;
+}
+
+/* ---- matrices ---- */
+
+static bool is_sparse(SUNMatrix M) { return SUNMatGetID(M) == SUNMATRIX_SPARSE; }
+
+static long rows(SUNMatrix M)
+{
+  return (long)(is_sparse(M) ? SUNSparseMatrix_Rows(M) : SUNDenseMatrix_Rows(M));
+}
+
+static void negate(SUNMatrix M)
+{
+  const sunindextype n = rows(M);
+  double *x = is_sparse(M) ? SUNSparseMatrix_Data(M) : SUNDenseMatrix_Data(M);
+  const sunindextype count =
+    is_sparse(M) ? SUNSparseMatrix_IndexPointers(M)[n] : SUNDenseMatrix_LData(M);
+  for (sunindextype i = 0; i < count; i++) x[i] = -x[i];
+}
+
+static int from_files(struct call *call, struct linear *l)
+{
+  const bool one = ends(call->word[0], ".mat");
+  if (one && call->words > 1)
+    return refuse(call, "%s holds both matrices; leave %s out", call->word[0], call->word[1]);
+  if (!one && call->words < 2)
+    return refuse(call, "%s is E, the second file is missing: steif %s E.mtx F.mtx",
+                  call->word[0], call->verb->name);
+  if (one && given(call, "--state-space"))
+    return refuse(call,
+                  "--state-space is for two files; a .mat file tells by the name, F or A");
+  if (steif_system_read(call->ctx, call->word[0], one ? NULL : call->word[1], &l->system.E,
+                        &l->system.F))
+    return bad_file(call);
+  l->n = rows(l->system.E);
+  if (given(call, "--state-space")) negate(l->system.F);
+  return EXIT_OK;
+}
+
+static int no_memory(struct call *call)
+{
+  say(call, "no memory for %s; give the process more", call->word[0]);
+  return EXIT_FAILED;
+}
+
+static int from_collection(struct call *call, struct linear *l)
+{
+  if (call->words > 1)
+    return refuse(call, "\"%s\" is one word too many after the problem %s", call->word[1],
+                  call->word[0]);
+  if (given(call, "--state-space"))
+    return refuse(call, "--state-space is for files; leave it out with the problem %s",
+                  call->word[0]);
+  if (steif_problem_find(call->ctx, call->word[0], &l->problem)) return fail(call);
+  if (steif_linear_of(call->ctx, &l->problem, &l->system)) return fail(call);
+  l->n = (long)l->problem.n, l->t0 = l->problem.t0;
+  l->x0 = malloc((size_t)l->n * sizeof *l->x0);
+  if (!l->x0) return no_memory(call);
+  memcpy(l->x0, l->problem.y0, (size_t)l->n * sizeof *l->x0);
+  return EXIT_OK;
+}
+
+/* ---- x(0-) and f ---- */
+
+static void column_of(SUNMatrix X, long n, double *x)
+{
+  for (long i = 0; i < n; i++) x[i] = is_sparse(X) ? 0 : SUNDenseMatrix_Data(X)[i];
+  for (sunindextype p = 0; is_sparse(X) && p < SUNSparseMatrix_IndexPointers(X)[1]; p++)
+    x[SUNSparseMatrix_IndexValues(X)[p]] += SUNSparseMatrix_Data(X)[p];
+}
+
+static int read_x0(struct call *call, struct linear *l)
+{
+  const char *path = word_of(call, "--x0", NULL);
+  if (!path) return EXIT_OK;
+  SUNMatrix X = steif_matrix_read(call->ctx, path);
+  if (!X) return bad_file(call);
+  const long height = rows(X);
+  const long width =
+    (long)(is_sparse(X) ? SUNSparseMatrix_Columns(X) : SUNDenseMatrix_Columns(X));
+  free(l->x0);
+  l->x0 = malloc((size_t)l->n * sizeof *l->x0);
+  const bool good = height == l->n && width == 1;
+  if (good && l->x0) column_of(X, l->n, l->x0);
+  SUNMatDestroy(X);
+  if (!l->x0) return no_memory(call);
+  if (good) return EXIT_OK;
+  say(call, "'%s': x(0-) is %ld x %ld and should be %ld x 1, the rows of E; correct it", path,
+      height, width, l->n);
+  return EXIT_FILE;
+}
+
+static int read_forcing(struct call *call, struct linear *l)
+{
+  const char *path = word_of(call, "--forcing", NULL), *text = word_of(call, "--f", NULL);
+  if (!path && !text) return EXIT_OK;
+  l->function = text                 ? steif_function_parse(call->ctx, text, l->n, NULL)
+                : ends(path, ".csv") ? steif_function_samples(call->ctx, path, l->n, 0, NULL)
+                                     : steif_function_read(call->ctx, path, l->n, NULL);
+  if (!l->function) return path ? bad_file(call) : fail(call);
+  l->system.f = steif_function_value, l->system.user = l->function;
+  return EXIT_OK;
+}
+
+int linear_open(struct call *call, struct linear *l, bool start)
+{
+  *l = (struct linear){0};
+  int code = linear_is_file(call->word[0]) ? from_files(call, l) : from_collection(call, l);
+  if (!code && start) code = read_x0(call, l);
+  if (!code && start) code = read_forcing(call, l);
+  l->t0 = real_of(call, "--t0", l->t0);
+  return code;
+}
+
+void linear_close(struct call *call, struct linear *l)
+{
+  if (l->system.E) SUNMatDestroy(l->system.E);
+  if (l->system.F) SUNMatDestroy(l->system.F);
+  steif_function_free(&l->function);
+  steif_problem_clear(call->ctx, &l->problem);
+  free(l->x0);
+}
+
+steif_analysis linear_analysis(const struct call *call)
+{
+  static const char *const names[] = {"auto", "staircase", "qz", "contour", "drazin"};
+  const char *name = word_of(call, "--algorithm", "auto");
+  steif_analysis a = {.radius = real_of(call, "--radius", 0),
+                      .points = (int)whole_of(call, "--points", 0)};
+  for (int i = 0; i < 5; i++)
+    if (!strcmp(name, names[i])) a.algorithm = (enum steif_algorithm)i;
+  return a;
+}

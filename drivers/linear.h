@@ -1,0 +1,46 @@
+/* linear.h: a descriptor system from the words of a call.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef LINEAR_H
+#define LINEAR_H
+
+#include "face.h"
+
+/* From two Matrix Market files E F, one .mat file, or the name of a problem of the collection. */
+struct linear {
+  steif_linear system;
+  steif_problem problem; /* of the collection; its name is NULL otherwise */
+  steif_function *function;
+  double *x0; /* --x0, or the start of the problem; NULL: none */
+  double t0;
+  long n;
+};
+
+/* Rows of an option table: of every analysis, and of those that start somewhere. */
+#define ANALYSIS_ROWS                                                                          \
+  {"--state-space", FLAG, NULL, "the second file is A of E x' = A x + f, so F = -A"},          \
+    {"--algorithm", CHOICE, "auto|staircase|qz|contour|drazin", "how it is analysed"},         \
+    {"--radius", POSITIVE, "R", "of the contour (default: raised until certified)"},           \
+  {                                                                                            \
+    "--points", COUNT, "N", "of the contour (default 16)"                                      \
+  }
+#define START_ROWS                                                                             \
+  {"--x0", WORD, "X.mtx", "x(0-), a column of as many rows as E"},                             \
+    {"--forcing", WORD, "FILE",                                                                \
+     "f: an expression in t per line, or samples t,f1,... in .csv"},                           \
+    {"--f", WORD, "TEXT", "the same expressions separated by ';' (default 0)"},                \
+  {                                                                                            \
+    "--t0", REAL, "T", "time of the jump (default 0, or the problem's)"                        \
+  }
+
+/* EXIT_OK, or the exit code after a sentence; close it in any case. start: x(0-) and f too. */
+int linear_open(struct call *call, struct linear *l, bool start);
+void linear_close(struct call *call, struct linear *l);
+/* Is the word a file rather than a problem of the collection? */
+bool linear_is_file(const char *word);
+steif_analysis linear_analysis(const struct call *call);
+/* Say why there is no solution, with the first equations and unknowns to look at; EXIT_SINGULAR. */
+int linear_singular(const struct call *call, const steif_structure *s);
+/* fail(), where input is to blame and came from a file: EXIT_FILE. */
+int linear_fail(const struct call *call);
+
+#endif
