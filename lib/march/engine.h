@@ -14,19 +14,19 @@
 /* The run as an engine sees it. */
 typedef struct stf_run {
   steif_context *ctx;
-  stf_pool *pool;                 /* lives as long as the solver */
+  stf_pool *pool; /* lives as long as the solver */
   const steif_problem *problem;
-  int form;                       /* enum steif_form */
-  const steif_options *options;   /* complete: defaults filled in, t1 > t0 */
-  N_Vector like;                  /* vector to clone */
-  sunrealtype t;                  /* time of y */
-  N_Vector y, yp;                 /* in: start values (yp 0 where not known); out: after a step */
-  steif_stats stats;              /* the engine keeps it current after every step */
+  int form;                     /* enum steif_form */
+  const steif_options *options; /* complete: defaults filled in, t1 > t0 */
+  N_Vector like;                /* vector to clone */
+  sunrealtype t;                /* time of y */
+  N_Vector y, yp;               /* in: start values (yp 0 where not known); out: after a step */
+  steif_stats stats;            /* the engine keeps it current after every step */
 } stf_run;
 
 typedef struct steif_engine {
-  const char *about;              /* one sentence with a citation */
-  unsigned forms;                 /* enum steif_form accepted */
+  const char *about; /* one sentence with a citation */
+  unsigned forms;    /* enum steif_form accepted */
   size_t size;
   /* spec parameters are the engine's own: refuse unknown ones with stf_spec_only. */
   int (*open)(stf_run *run, void *state, const steif_spec *spec);

@@ -28,8 +28,11 @@ struct steif_solver {
   int failure;
   sunrealtype cpu_s;
   steif_stats stats;
-  char method[160];             /* spec in use; for auto with the reason */
+  char method[160]; /* spec in use; for auto with the reason */
 };
+
+/* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. */
+int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o);
 
 /* One accepted step of a method of ours, not beyond t_stop when steps are chosen. */
 int stf_advance(steif_solver *s, sunrealtype t_stop);
