@@ -94,6 +94,8 @@ int stf_groups_open(stf_pool *pool, stf_system *s)
   if (!g) return STEIF_NO_MEMORY;
   s->groups = g;
   g->differences = needs(s->problem, s->form);
+  if (s->storage == STEIF_SPARSE && (g->differences || s->problem->pattern))
+    STEIF_TRY(check_pattern(s));
   if (!g->differences) return STEIF_OK;
   sunindextype *group = stf_claim(pool, (size_t)n, sizeof *group);
   g->column = stf_claim(pool, (size_t)n, sizeof *g->column);
@@ -101,10 +103,9 @@ int stf_groups_open(stf_pool *pool, stf_system *s)
   g->step = stf_claim(pool, (size_t)n, sizeof *g->step);
   if (!group || !g->column || !g->start || !g->step) return STEIF_NO_MEMORY;
   const sunindextype width = s->problem->lower + s->problem->upper + 1;
-  if (s->storage == STEIF_SPARSE) {
-    STEIF_TRY(check_pattern(s));
+  if (s->storage == STEIF_SPARSE)
     STEIF_TRY(colour_pattern(pool, s->problem->pattern, n, group));
-  } else
+  else
     for (sunindextype j = 0; j < n; j++) group[j] = s->storage == STEIF_BAND ? j % width : j;
   sort(g, n, group);
   return STEIF_OK;
@@ -165,7 +166,8 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
   STEIF_TRY(evaluate(s, t, y, yp, base));
   stf_copy(&s->space, which == 'A' ? y : yp, moved);
   sunrealtype *m = N_VGetArrayPointer(moved), *d = N_VGetArrayPointer(changed);
-  const sunrealtype *b = N_VGetArrayPointer(base);
+  const sunrealtype *b = N_VGetArrayPointer(base),
+                    *at = N_VGetArrayPointer(which == 'A' ? y : yp);
   for (int group = 0; group < g->count; group++) {
     const sunindextype from = g->start[group], to = g->start[group + 1];
     for (sunindextype k = from; k < to; k++) {
@@ -178,7 +180,7 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
     for (sunindextype i = 0; i < s->space.n; i++) d[i] -= b[i];
     for (sunindextype k = from; k < to; k++) {
       const sunindextype j = g->column[k];
-      m[j] -= g->step[j];
+      m[j] = at[j];
       put(s, M, j, d, sign / g->step[j]);
     }
   }

@@ -26,8 +26,8 @@ static int check_values(steif_context *ctx, const steif_problem *p)
 {
   STEIF_CHECK(p->y0 || p->start, ctx, STEIF_BAD_INPUT,
               "problem '%s' has no start values: set .y0 or .start", p->name);
-  for (sunindextype i = 0; p->y0 && i < p->n; i++) {
-    STEIF_CHECK(isfinite(p->y0[i]), ctx, STEIF_NOT_FINITE,
+  for (sunindextype i = 0; i < p->n; i++) {
+    STEIF_CHECK(!p->y0 || isfinite(p->y0[i]), ctx, STEIF_NOT_FINITE,
                 "start value y0[%lld] = %g of problem '%s' is not finite", (long long)i,
                 p->y0[i], p->name);
     STEIF_CHECK(!p->yp0 || isfinite(p->yp0[i]), ctx, STEIF_NOT_FINITE,
@@ -40,15 +40,31 @@ static int check_values(steif_context *ctx, const steif_problem *p)
   return STEIF_OK;
 }
 
-static int check_storage(steif_context *ctx, const steif_problem *p)
+static int check_breaks(steif_context *ctx, const steif_problem *p)
 {
-  if (p->storage == STEIF_BAND)
+  STEIF_CHECK(p->break_count == 0 || (p->break_count > 0 && p->breaks), ctx, STEIF_BAD_INPUT,
+              "problem '%s' announces %d breaks: set .breaks to as many times, or neither",
+              p->name, p->break_count);
+  for (int i = 0; i < p->break_count; i++)
+    STEIF_CHECK(isfinite(p->breaks[i]) && (i == 0 || p->breaks[i] > p->breaks[i - 1]), ctx,
+                STEIF_BAD_INPUT, "breaks[%d] = %.17g of problem '%s' must be finite and ascend",
+                i, p->breaks[i], p->name);
+  return STEIF_OK;
+}
+
+int stf_storage_check(steif_context *ctx, const steif_problem *p, enum steif_storage storage)
+{
+  STEIF_CHECK(
+    (unsigned)storage <= STEIF_KRYLOV, ctx, STEIF_BAD_INPUT,
+    "storage %d of problem '%s' must be 0 (dense), 1 (band), 2 (sparse) or 3 (Krylov)",
+    (int)storage, p->name);
+  if (storage == STEIF_BAND)
     STEIF_CHECK(p->lower >= 0 && p->upper >= 0 && p->lower < p->n && p->upper < p->n, ctx,
                 STEIF_BAD_INPUT,
                 "bandwidths lower = %lld, upper = %lld of problem '%s' must lie "
                 "in 0 .. %lld",
                 (long long)p->lower, (long long)p->upper, p->name, (long long)p->n - 1);
-  if (p->storage == STEIF_SPARSE)
+  if (storage == STEIF_SPARSE)
     STEIF_CHECK(p->pattern || p->nnz > 0, ctx, STEIF_BAD_INPUT,
                 "problem '%s' is stored sparse: set .nnz for its Jacobian or a .pattern for "
                 "differences",
@@ -77,7 +93,8 @@ int steif_problem_form(steif_context *ctx, const steif_problem *p)
                "interval [%g, %g] of problem '%s' must be finite and "
                "ascending",
                p->t0, p->t1, p->name);
-  else if (!check_values(ctx, p) && !check_storage(ctx, p))
+  else if (!check_values(ctx, p) && !check_breaks(ctx, p) &&
+           !stf_storage_check(ctx, p, p->storage))
     return form;
   return 0;
 }

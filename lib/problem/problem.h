@@ -25,7 +25,7 @@ typedef struct stf_system {
   bool linear; /* constant E and A: linearised once */
   enum steif_storage storage;
   steif_pencil *pencil;
-  SUNMatrix E, A, J;  /* owned; E NULL: identity; J: scratch of an IDA Jacobian */
+  SUNMatrix E, A;     /* owned; E NULL: identity */
   sunrealtype scale;  /* floor of |y_j| in difference increments: atol / rtol */
   stf_groups *groups; /* columns that may be moved together */
   N_Vector work[6];
@@ -36,8 +36,8 @@ typedef struct stf_system {
   long nfe, nje;
 } stf_system;
 
-/* Everything is claimed from the pool. start values are filled into y and yp (yp: zero where
- * neither given nor computable), and the first linearisation is made there. */
+/* Everything is claimed from the pool. The first linearisation is made at (t0, y, yp), the
+ * start values that stf_system_start has filled in. */
 int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem, int form,
                     enum steif_storage storage, sunrealtype scale, N_Vector y, N_Vector yp,
                     stf_system *system);
@@ -50,9 +50,14 @@ int stf_system_rhs(stf_system *system, sunrealtype t, N_Vector y, N_Vector out);
 int stf_system_linearise(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
 /* The same into system->E and system->A only, for families with factors of their own. */
 int stf_system_matrices(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
-/* y' at the start: given, or f for the ode form; *known tells whether yp can be relied on. */
+/* Start values into y and yp: y' is given, or f for the ode form, else left as it is; *known
+ * tells whether yp can be relied on. */
 int stf_system_start(steif_context *ctx, const steif_problem *problem, int form,
                      const stf_space *space, N_Vector y, N_Vector yp, bool *known);
+
+/* Is the problem complete for this kind of storage? */
+int stf_storage_check(steif_context *ctx, const steif_problem *problem,
+                      enum steif_storage storage);
 
 /* The 0-based component that is not finite, or -1. Needs a host array (else -1). */
 sunindextype stf_not_finite(N_Vector v);
@@ -61,7 +66,8 @@ sunindextype stf_not_finite(N_Vector v);
 int stf_groups_open(stf_pool *pool, stf_system *system);
 int stf_differ(stf_system *system, char which, sunrealtype t, N_Vector y, N_Vector yp,
                SUNMatrix M);
-/* One random direction through the filled pencil against differences: a missing entry is named. */
+/* One random direction through the filled pencil against differences: a missing entry is
+ * named. */
 int stf_probe(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
 
 #endif

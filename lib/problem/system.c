@@ -101,29 +101,42 @@ static sunrealtype *values(SUNMatrix M, sunindextype *count)
   }
 }
 
-/* J(c) = F_y + c F_y' is affine in c: A = -J(0), E = (J(c) - J(0))/c with c of the size of J(0). */
+/* Both filled by one callback: entry k of one is entry k of the other. */
+static bool alike(SUNMatrix A, SUNMatrix E)
+{
+  if (SUNMatGetID(A) != SUNMATRIX_SPARSE) return true;
+  const size_t columns = (size_t)SUNSparseMatrix_NP(A) + 1, size = sizeof(sunindextype);
+  const sunindextype *a = SUNSparseMatrix_IndexPointers(A),
+                     *e = SUNSparseMatrix_IndexPointers(E);
+  return !memcmp(a, e, columns * size) &&
+         !memcmp(SUNSparseMatrix_IndexValues(A), SUNSparseMatrix_IndexValues(E),
+                 (size_t)a[columns - 1] * size);
+}
+
+/* J(c) = F_y + c F_y' is affine in c: A = -J(0), E = (J(c) - J(0))/c with c of the size of
+ * J(0). */
 static int separate(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
 {
   const steif_problem *p = s->problem;
   N_Vector *w = s->work;
   clear(s->A);
-  STEIF_TRY(callback(s, p->F(t, y, yp, w[3], p->user), "F", t));
-  s->nfe++;
+  STEIF_TRY(stf_system_residual(s, t, y, yp, w[3]));
   STEIF_TRY(
     callback(s, p->idajac(t, 0, y, yp, w[3], s->A, p->user, w[0], w[1], w[2]), "idajac", t));
   STEIF_TRY(check_filled(s, s->A, "idajac"));
-  sunindextype count, again;
+  sunindextype count;
   sunrealtype *a = values(s->A, &count), c = 0;
   for (sunindextype i = 0; i < count; i++) c = fmax(c, fabs(a[i]));
   if (!(c > 0)) c = 1;
   clear(s->E);
   STEIF_TRY(
     callback(s, p->idajac(t, c, y, yp, w[3], s->E, p->user, w[0], w[1], w[2]), "idajac", t));
-  sunrealtype *e = values(s->E, &again);
-  STEIF_CHECK(again == count, s->ctx, STEIF_BAD_INPUT,
-              "idajac of problem '%s' filled %lld entries with c = 0 and %lld with c = %g: its "
+  STEIF_TRY(check_filled(s, s->E, "idajac"));
+  STEIF_CHECK(alike(s->A, s->E), s->ctx, STEIF_BAD_INPUT,
+              "idajac of problem '%s' filled other entries with c = %g than with c = 0: its "
               "pattern must not depend on c",
-              p->name, (long long)count, (long long)again, c);
+              p->name, c);
+  sunrealtype *e = values(s->E, &count);
   for (sunindextype i = 0; i < count; i++) e[i] = (e[i] - a[i]) / c, a[i] = -a[i];
   return STEIF_OK;
 }
@@ -191,16 +204,25 @@ static void destroy_pencil(void *p)
   steif_pencil_free(&pencil);
 }
 
+static sunindextype larger(sunindextype a, sunindextype b) { return a > b ? a : b; }
+
+/* Entries of a sparse matrix: as stated, and what differences or an IDA Jacobian put there. */
+static sunindextype room(const steif_problem *p, sunindextype stated)
+{
+  if (stated < 1 || p->idajac) stated = larger(stated, p->nnz);
+  if (p->pattern) stated = larger(stated, p->pattern->column[p->n]);
+  return larger(stated, 1);
+}
+
 static int matrix(stf_pool *pool, stf_system *s, sunindextype nnz, SUNMatrix *M)
 {
   const steif_problem *p = s->problem;
   const sunindextype n = s->space.n;
   SUNContext sun = steif_sundials(s->ctx);
-  if (nnz < 1) nnz = p->nnz > 0 ? p->nnz : p->pattern ? p->pattern->column[n] : n;
   switch (s->storage) {
   case STEIF_DENSE: *M = SUNDenseMatrix(n, n, sun); break;
   case STEIF_BAND: *M = SUNBandMatrix(n, p->upper, p->lower, sun); break;
-  default: *M = SUNSparseMatrix(n, n, nnz, CSC_MAT, sun);
+  default: *M = SUNSparseMatrix(n, n, room(p, nnz), CSC_MAT, sun);
   }
   STEIF_CHECK(*M, s->ctx, STEIF_NO_MEMORY, "no memory for a matrix of order %lld",
               (long long)n);
@@ -242,6 +264,9 @@ static int open_operator(stf_pool *pool, stf_system *s)
   STEIF_CHECK(!has_E || s->problem->Ev, s->ctx, STEIF_UNSUPPORTED,
               "problem '%s' of form %s needs the product .Ev for Krylov storage",
               s->problem->name, steif_form_name(s->form));
+  STEIF_CHECK(s->form != STEIF_DESCRIPTOR || s->problem->Av, s->ctx, STEIF_UNSUPPORTED,
+              "problem '%s' of form descriptor needs the product .Av for Krylov storage",
+              s->problem->name);
   if (!(s->at_y = stf_claim_vector(pool, s->space.like)) ||
       !(s->at_yp = stf_claim_vector(pool, s->space.like)) ||
       !(s->at_f = stf_claim_vector(pool, s->space.like)))
@@ -258,9 +283,15 @@ static int open_matrices(stf_pool *pool, stf_system *s)
   STEIF_CHECK(s->space.serial || N_VGetArrayPointer(s->space.like), s->ctx, STEIF_UNSUPPORTED,
               "vectors of problem '%s' have no host array: only Krylov storage can serve them",
               p->name);
-  STEIF_TRY(matrix(pool, s, 0, &s->A));
-  if (s->form != STEIF_ODE) STEIF_TRY(matrix(pool, s, p->nnz_E, &s->E));
-  return stf_groups_open(pool, s);
+  const bool fills = s->form == STEIF_DESCRIPTOR ? p->E && p->A : s->form != STEIF_MASS || p->E;
+  STEIF_CHECK(
+    fills, s->ctx, STEIF_UNSUPPORTED,
+    "problem '%s' of form %s gives products without matrices: fill .E%s, or take Krylov "
+    "storage",
+    p->name, steif_form_name(s->form), s->form == STEIF_MASS ? "" : " and .A");
+  STEIF_TRY(stf_groups_open(pool, s));
+  STEIF_TRY(matrix(pool, s, p->nnz, &s->A));
+  return s->form == STEIF_ODE ? STEIF_OK : matrix(pool, s, p->nnz_E, &s->E);
 }
 
 static int open_pencil(stf_pool *pool, stf_system *s)
@@ -281,6 +312,7 @@ int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *pro
   for (int i = 0; i < 6; i++)
     if (!(s->work[i] = stf_claim_vector(pool, y))) return STEIF_NO_MEMORY;
   const bool matrices = storage != STEIF_KRYLOV;
+  STEIF_TRY(stf_storage_check(ctx, problem, storage));
   STEIF_TRY(matrices ? open_matrices(pool, s) : open_operator(pool, s));
   const int code = stf_system_linearise(s, problem->t0, y, yp);
   if (code) return code > 0 ? STEIF_CALLBACK : code;
