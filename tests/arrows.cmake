@@ -8,6 +8,7 @@ cmake_minimum_required(VERSION 3.19)
 # options and the statistics of solver.h, whose functions are those of march.
 set(room_of_solver method)
 set(room_of_impulse descriptor)
+set(room_of_energy stability)
 set(room_of_phi matfun)
 
 file(READ ${SOURCE}/CMakeLists.txt text)

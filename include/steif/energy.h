@@ -1,0 +1,63 @@
+/* steif/energy.h: what a method keeps: drift of invariants over a run, and the map of one step.
+ *
+ * A symplectic method with a constant step keeps a modified energy: the energy itself stays in a band
+ * whose width shrinks with the step, for a very long time. Other methods drift: the energy leaves along
+ * a line. Which of the two a run shows is judged by the slope of the line through the means of PARTS
+ * equal parts of the run, against the scatter of the means about it; oscillations within a part cancel.
+ *
+ * The map of one step y -> Phi(y) of a Hamiltonian system is symplectic if its Jacobian satisfies
+ * J^T Omega J = Omega with Omega = [0 I; -I 0] for (q, p). det J = 1 is less than that as soon as there
+ * are two positions.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_ENERGY_H
+#define STEIF_ENERGY_H
+
+#include <steif/solver.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Of one invariant I: max, min, final and mean of I(t) - I(t0) over all steps, start included. */
+typedef struct steif_drift {
+  sunrealtype start;               /* I(t0) */
+  sunrealtype max, min, final, mean;
+  sunrealtype slope, slope_error;  /* per unit of time, and its standard error */
+  sunrealtype per_period;          /* slope times the period; NaN where there is none */
+  int drifts;                      /* 1: the slope is no accident (above 5 standard errors) */
+} steif_drift;
+
+typedef struct steif_energy {
+  sunrealtype period;  /* in: the period if known, 0: the mean distance of the maxima of the first
+                          component; out: the one used, NaN for fewer than two maxima */
+  steif_drift *drift;  /* in: room for problem.invariants */
+  size_t rows;         /* in: room in `row`; out: rows filled */
+  sunrealtype *row;    /* rows of 1 + invariants numbers: t and the drifts, evenly chosen steps */
+  long steps;          /* out */
+} steif_energy;
+
+/* Integrate to options.t1 (0: the problem's) and watch. options.observe is called as ever. */
+STEIF_EXPORT int steif_energy_watch(steif_context *ctx, const steif_problem *problem,
+                                    const char *method, const steif_options *options,
+                                    steif_energy *energy);
+
+typedef struct steif_step_map {
+  sunrealtype determinant; /* of J */
+  sunrealtype symplectic;  /* largest entry of |J^T Omega J - Omega|; NaN without positions */
+  sunrealtype reversal;    /* largest component of R Phi R Phi(y) - y with R (q, p) = (q, -p), for
+                              systems that R reverses; NaN without positions */
+} steif_step_map;
+
+/* One step of length h from the start of the problem, and its Jacobian by differences of order four
+ * (exact but for rounding where problem.linear). Omega: n x n by rows, NULL: canonical, which needs
+ * positions = n/2. J: n x n by rows, NULL: not wanted. */
+STEIF_EXPORT int steif_step_map_find(steif_context *ctx, const steif_problem *problem,
+                                     const char *method, sunrealtype h,
+                                     const sunrealtype *Omega, sunrealtype *J,
+                                     steif_step_map *map);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
