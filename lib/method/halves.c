@@ -3,39 +3,87 @@
 #include "halves.h"
 #include <math.h>
 
-/* -- kernels on arrays ------------------------------------------------------------------------- */
+/* -- kernels on arrays -------------------------------------------------------------------------
+ *
+ * What is written is summed on the way: a sum that is finite has finite terms. LANES components are
+ * taken together, so that they fit vector registers; `to` may be `from`. */
 
-/* Blocks stay in the first cache while sums, and the test of what was written, pass over them. */
-enum { BLOCK = 512, LANES = 8 };
+enum { LANES = 8 };
 
-static bool finite(const sunrealtype *x, sunindextype count)
+typedef struct lanes {
+  sunrealtype sum[LANES];
+} lanes;
+
+/* All terms finite? Where the sum of finite terms overflowed, by one more look at y. */
+static bool finite(const lanes *s, sunindextype count, const sunrealtype *y)
 {
-  sunrealtype sum[LANES] = {0};
-  sunindextype i = 0;
-  for (; i + LANES <= count; i += LANES)
-    for (int k = 0; k < LANES; k++) sum[k] += x[i + k] * 0;
-  for (; i < count; i++) sum[0] += x[i] * 0;
-  for (int k = 1; k < LANES; k++) sum[0] += sum[k];
-  return sum[0] == 0;
+  sunrealtype sum = 0;
+  for (int k = 0; k < LANES; k++) sum += s->sum[k];
+  for (sunindextype i = 0; !isfinite(sum) && i < count; i++)
+    if (!isfinite(y[i])) return false;
+  return true;
 }
 
 /* y = x + c v. */
-static void add(sunindextype count, sunrealtype c, const sunrealtype *v, const sunrealtype *x,
+static bool add(sunindextype count, sunrealtype c, const sunrealtype *v, const sunrealtype *x,
                 sunrealtype *y)
 {
-  for (sunindextype i = 0; i < count; i++) y[i] = x[i] + c * v[i];
+  lanes s = {{0}};
+  sunindextype i = 0;
+  for (; i + LANES <= count; i += LANES) {
+    sunrealtype u[LANES];
+    for (int k = 0; k < LANES; k++) u[k] = x[i + k] + c * v[i + k];
+    for (int k = 0; k < LANES; k++) y[i + k] = u[k];
+    for (int k = 0; k < LANES; k++) s.sum[k] += u[k];
+  }
+  for (; i < count; i++) s.sum[0] += y[i] = x[i] + c * v[i];
+  return finite(&s, count, y);
+}
+
+/* P = p + a F, Q = q + b P; what is not finite in P shows in Q. */
+static bool add_twice(sunindextype count, sunrealtype a, const sunrealtype *F, sunrealtype b,
+                      const sunrealtype *p, const sunrealtype *q, sunrealtype *P,
+                      sunrealtype *Q)
+{
+  lanes s = {{0}};
+  sunindextype i = 0;
+  for (; i + LANES <= count; i += LANES) {
+    sunrealtype u[LANES], v[LANES];
+    for (int k = 0; k < LANES; k++) u[k] = p[i + k] + a * F[i + k];
+    for (int k = 0; k < LANES; k++) v[k] = q[i + k] + b * u[k];
+    for (int k = 0; k < LANES; k++) P[i + k] = u[k];
+    for (int k = 0; k < LANES; k++) Q[i + k] = v[k];
+    for (int k = 0; k < LANES; k++) s.sum[k] += v[k];
+  }
+  for (; i < count; i++) {
+    P[i] = p[i] + a * F[i];
+    s.sum[0] += Q[i] = q[i] + b * P[i];
+  }
+  return finite(&s, count, Q);
 }
 
 /* (y, f) = (x, e) + c v, compensated. */
-static void add_exactly(sunindextype count, sunrealtype c, const sunrealtype *v,
+static bool add_exactly(sunindextype count, sunrealtype c, const sunrealtype *v,
                         const sunrealtype *x, const sunrealtype *e, sunrealtype *y,
                         sunrealtype *f)
 {
-  for (sunindextype i = 0; i < count; i++) {
+  lanes s = {{0}};
+  sunindextype i = 0;
+  for (; i + LANES <= count; i += LANES) {
+    sunrealtype d[LANES], u[LANES];
+    for (int k = 0; k < LANES; k++) d[k] = c * v[i + k] + e[i + k];
+    for (int k = 0; k < LANES; k++) u[k] = x[i + k] + d[k];
+    for (int k = 0; k < LANES; k++) d[k] -= u[k] - x[i + k];
+    for (int k = 0; k < LANES; k++) f[i + k] = d[k];
+    for (int k = 0; k < LANES; k++) y[i + k] = u[k];
+    for (int k = 0; k < LANES; k++) s.sum[k] += u[k];
+  }
+  for (; i < count; i++) {
     const sunrealtype d = c * v[i] + e[i], sum = x[i] + d;
     f[i] = d - (sum - x[i]);
-    y[i] = sum;
+    s.sum[0] += y[i] = sum;
   }
+  return finite(&s, count, y);
 }
 
 static void copy(sunindextype count, const sunrealtype *x, sunrealtype *y)
@@ -52,16 +100,10 @@ static bool half(sunindextype count, sunindextype at, sunrealtype c, const sunre
 {
   const sunrealtype *x = part(from.y, at), *e = part(from.e, at);
   sunrealtype *y = part(to.y, at), *f = part(to.e, at);
-  if (c == 0) {
-    copy(count, x, y);
-    if (f) copy(count, e, f);
-    return true;
-  }
-  if (f)
-    add_exactly(count, c, v, x, e, y, f);
-  else
-    add(count, c, v, x, y);
-  return finite(y, count);
+  if (c != 0) return f ? add_exactly(count, c, v, x, e, y, f) : add(count, c, v, x, y);
+  copy(count, x, y);
+  if (f) copy(count, e, f);
+  return true;
 }
 
 /* -- halves -------------------------------------------------------------------------------------- */
@@ -106,15 +148,22 @@ static int overflowed(const stf_halves *h, sunrealtype t)
                        h->system->problem->name, t);
 }
 
-/* Kick and drift of a block together: the momenta are still in the cache when q' = p is added. */
+/* With q' = p a kick and the drift after it are one loop. Compensated sums go block by block, so that
+ * the momenta are still in the cache when the positions need them. */
 static int serial_unit(stf_halves *h, sunrealtype a, N_Vector force, sunrealtype b,
                        sunrealtype t, stf_point from, stf_point to)
 {
-  const sunrealtype *F = part(force, h->m), *p = part(to.y, h->m);
+  enum { BLOCK = 512 };
+  const sunindextype m = h->m;
+  const sunrealtype *F = part(force, m), *p = part(to.y, m);
+  if (a != 0 && b != 0 && !to.e)
+    return add_twice(m, a, F, b, part(from.y, m), part(from.y, 0), part(to.y, m), part(to.y, 0))
+             ? STEIF_OK
+             : overflowed(h, t);
   bool good = true;
-  for (sunindextype at = 0; at < h->m; at += BLOCK) {
-    const sunindextype size = h->m - at < BLOCK ? h->m - at : BLOCK;
-    good &= half(size, h->m + at, a, F ? F + at : NULL, from, to);
+  for (sunindextype at = 0; at < m; at += BLOCK) {
+    const sunindextype size = m - at < BLOCK ? m - at : BLOCK;
+    good &= half(size, m + at, a, a != 0 ? F + at : NULL, from, to);
     good &= half(size, at, b, p + at, from, to);
   }
   return good ? STEIF_OK : overflowed(h, t);

@@ -67,7 +67,7 @@ int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vecto
   if (!same || newton->h != h)
     for (int i = 0; i < split->s * split->s; i++) newton->B_over_h[i] = split->B[i] / h;
   newton->h = h;
-  if (!jacobian && same) return STEIF_OK;
+  if (!jacobian && same) return newton->relax = 1, STEIF_OK;
   if (!jacobian && newton->factored && serves(newton, shift)) return STEIF_OK;
   if (!jacobian) jacobian = newton->join && !newton->fresh;
   if (jacobian && !(newton->system->linear && newton->factored)) {
@@ -131,7 +131,6 @@ static int solve_lanes(stf_newton *newton)
     STEIF_TRY(
       steif_pencil_solve(newton->system->pencil, k, 1, at, split->im[k] != 0 ? at + 1 : NULL));
   }
-  newton->solves += split->lanes;
   return STEIF_OK;
 }
 
@@ -162,7 +161,9 @@ static int refuse(stf_newton *newton, const stf_stages *g, int iterations, sunre
   steif_context *ctx = newton->system->ctx;
   newton->fails++, newton->wanted = true, newton->eta = 1;
   if (!isfinite(norm)) {
-    const sunindextype i = stf_not_finite(newton->system->linear ? g->Z[0] : newton->dZ[0]);
+    N_Vector *v = newton->system->linear ? g->Z : newton->dZ;
+    sunindextype i = -1;
+    for (int j = 0; j < newton->split.s && i < 0; j++) i = stf_not_finite(v[j]);
     return STEIF_RECOVER(
       ctx, STEIF_NOT_FINITE,
       "a stage of problem '%s' is not finite (component %lld) in the step from "
@@ -178,8 +179,11 @@ static int refuse(stf_newton *newton, const stf_stages *g, int iterations, sunre
     newton->system->problem->name, g->t, g->h, iterations, norm / newton->tolerance, theta);
 }
 
-/* Corrections that no longer shrink though tiny are rounding: accept within this factor. */
-static const sunrealtype stagnation = 100;
+/* Corrections that are this small and no longer shrink cannot be made smaller. */
+static bool stalled(const stf_newton *newton, sunrealtype norm, sunrealtype quotient)
+{
+  return quotient >= 0.5 && norm <= fmax(newton->tolerance, newton->rounding);
+}
 
 /* A linear system is solved by one sweep from Z = 0: Z = -T omega. */
 static int solve_linear(stf_newton *newton, const stf_stages *g)
@@ -213,7 +217,7 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
       const sunrealtype quotient = norm / last;
       theta = m == 2 ? quotient : sqrt(theta * quotient);
       newton->theta = theta;
-      if (quotient >= 0.5 && norm <= stagnation * newton->tolerance) break;
+      if (stalled(newton, norm, quotient)) break;
       if (theta >= 1 || m >= newton->iterations) return refuse(newton, g, m, norm, theta);
       newton->eta = theta / (1 - theta);
     }
@@ -228,8 +232,8 @@ int stf_newton_full(stf_newton *newton, const stf_stages *g)
 {
   const stf_space *space = &newton->system->space;
   const int end = newton->split.s - 1;
-  sunrealtype norm = 0, last = 0;
-  for (int m = 1; m <= newton->iterations; m++) {
+  sunrealtype norm = 0, last = 0, rate = 0;
+  for (int m = 1; m <= newton->iterations; m++, last = norm) {
     STEIF_TRY(residuals(newton, g)); /* leaves Zp at Z */
     stf_copy(space, g->Z[end], newton->Y);
     if (g->base) stf_axpy(space, 1, g->base[end], newton->Y);
@@ -239,12 +243,21 @@ int stf_newton_full(stf_newton *newton, const stf_stages *g)
     newton->wanted = true; /* the Jacobian is that of another point */
     newton->count = m;
     if (!(norm <= 1e300)) break;
-    if (norm <= newton->tolerance ||
-        (norm >= last / 2 && m > 1 && norm <= stagnation * newton->tolerance))
-      return STEIF_OK;
+    if (m > 1) rate = norm / last;
+    if (norm <= newton->tolerance || stalled(newton, norm, rate)) return STEIF_OK;
+  }
+  return refuse(newton, g, newton->count, norm, rate);
+}
+
+int stf_newton_polish(stf_newton *newton, const stf_stages *g)
+{
+  sunrealtype norm = 0, last = INFINITY;
+  for (int m = 0; m < newton->iterations; m++) {
+    STEIF_TRY(sweep(newton, g, &norm));
+    if (!(norm < last / 2) || norm == 0) break;
     last = norm;
   }
-  return refuse(newton, g, newton->count, norm, last > 0 ? norm / last : 0);
+  return STEIF_OK;
 }
 
 void stf_newton_single(stf_newton *newton, sunrealtype b)

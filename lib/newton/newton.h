@@ -22,6 +22,7 @@ typedef struct stf_newton {
   stf_split split;
   int iterations;        /* most in one solve */
   sunrealtype tolerance; /* on the weighted norm of the error of Z */
+  sunrealtype rounding;  /* corrections below this may be rounding: accepted when they stall */
   sunrealtype stale;     /* a rate above this asks for a new Jacobian next time */
   N_Vector weights;      /* reciprocal weights; the caller keeps them current */
   N_Vector *residual, *omega, *dZ, *Zp, Y; /* s, s, s, s, 1 vectors */
@@ -36,7 +37,7 @@ typedef struct stf_newton {
   sunrealtype theta, eta;     /* of the last solve */
   sunrealtype eta_least;      /* floor of the eta that a first correction is judged by */
   int count;                  /* iterations of the last solve */
-  long solves, sweeps, fails; /* lane solves, iterations, refusals */
+  long sweeps, fails;         /* iterations, refusals */
 } stf_newton;
 
 /* Where the stages are. */
@@ -68,6 +69,10 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *stages);
 /* The same with a new Jacobian in every iteration, made at the last stage: for steps that must not
  * be made smaller. */
 int stf_newton_full(stf_newton *newton, const stf_stages *stages);
+
+/* After either: sweeps until the corrections no longer shrink, so that what is left is the rounding of
+ * the residuals and not that of the factors, which is the same in every step. */
+int stf_newton_polish(stf_newton *newton, const stf_stages *stages);
 
 /* Convergence was slow or refused: the next prepare should renew the Jacobian. */
 bool stf_newton_stale(const stf_newton *newton);

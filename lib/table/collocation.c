@@ -6,7 +6,7 @@
 int stf_family_stages(steif_context *ctx, const steif_spec *spec, int lowest, int fallback,
                       int *s)
 {
-  STEIF_TRY(stf_spec_only(ctx, spec, (const char *const[]){"s", NULL}));
+  STEIF_TRY(stf_spec_only(ctx, spec, (const char *const[]){"s", "compensated", NULL}));
   return stf_spec_int(ctx, spec, "s", lowest, STEIF_STAGES, fallback, s);
 }
 

@@ -6,9 +6,11 @@
  * gives the end value (w(1) = b^T B), the start of the next iteration and dense output.
  * Error estimate (c_1 > 0): the shifted solve of -F(t_n, y_n, u'(t_n)) with the collocation
  * polynomial through (0, y_n) and all stages; order s (Hairer and Wanner II, IV.8).
+ * compensated=1: stages solved until rounding stops it, and the end value a sum that remembers its
+ * rounding (E. Hairer, R. I. McLachlan and A. Razakarivony, BIT 48 (2008)).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "method.h"
+#include "halves.h"
 #include <math.h>
 
 typedef struct state {
@@ -23,6 +25,7 @@ typedef struct state {
   N_Vector *base, *offset, *X;
   N_Vector before; /* y_n of the last step */
   N_Vector work, imaginary;
+  N_Vector lost, next_lost; /* what rounding took from y and from the trial; NULL: not kept */
   bool history;
 } state;
 
@@ -96,15 +99,29 @@ static int claim(stf_step *s, state *e)
            : STEIF_NO_MEMORY;
 }
 
+static int open_sums(stf_step *s, const steif_spec *spec)
+{
+  state *e = s->state;
+  int compensated;
+  STEIF_TRY(stf_spec_int(s->ctx, spec, "compensated", 0, 1, 0, &compensated));
+  if (!compensated) return STEIF_OK;
+  STEIF_CHECK(!s->absolute, s->ctx, STEIF_UNSUPPORTED,
+              "compensated=1 of '%s' is for problems that are not of form descriptor",
+              spec->name);
+  e->lost = stf_claim_vector(s->pool, s->y);
+  e->next_lost = stf_claim_vector(s->pool, s->y);
+  return e->lost && e->next_lost ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 {
-  (void)spec;
   state *e = s->state;
   stf_split split;
   e->table = table, e->s = table->s;
   STEIF_TRY(stf_split_build(s->pool, s->ctx, table, &split));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
   STEIF_TRY(claim(s, e));
+  STEIF_TRY(open_sums(s, spec));
   e->row_sum = e->end + e->s, e->slope = e->end + 2 * e->s;
   fill_w(e, split.B);
   for (int j = 0; j < e->s; j++) {
@@ -197,7 +214,8 @@ static int solve(stf_step *s, sunrealtype h)
   if (!s->absolute) {
     for (int j = 0; j < e->s; j++) e->base[j] = s->y;
     g.base = e->base;
-    return stf_solve_stages(s, &g);
+    STEIF_TRY(stf_solve_stages(s, &g));
+    return e->lost ? stf_newton_polish(&s->newton, &g) : STEIF_OK;
   }
   for (int j = 0; j < e->s; j++) stf_scale(space, -e->row_sum[j] / h, s->y, e->offset[j]);
   g.offset = e->offset;
@@ -213,7 +231,11 @@ static int attempt(stf_step *s, sunrealtype h)
   const stf_space *space = &s->system.space;
   predict(s, h);
   STEIF_TRY(solve(s, h));
-  if (!(e->table->claims & STEIF_STIFFLY_ACCURATE)) {
+  if (e->lost) {
+    stf_combine(space, e->s, e->end, e->trial, e->work);
+    stf_add_compensated(space, e->work, (stf_point){s->y, e->lost},
+                        (stf_point){s->next, e->next_lost});
+  } else if (!(e->table->claims & STEIF_STIFFLY_ACCURATE)) {
     stf_combine(space, e->s, e->end, e->trial, s->next);
     stf_axpy(space, 1, s->y, s->next);
   } else if (!s->absolute)
@@ -227,6 +249,8 @@ static void commit(stf_step *s)
   N_Vector *Z = e->Z, y = e->before;
   e->Z = e->trial, e->trial = Z;
   e->before = s->y, s->y = s->next, s->next = y;
+  N_Vector lost = e->lost;
+  e->lost = e->next_lost, e->next_lost = lost;
   e->history = true;
   if (s->system.form == STEIF_IMPLICIT)
     stf_copy(&s->system.space, s->newton.Zp[e->s - 1], s->yp);
@@ -264,7 +288,8 @@ static int propagator(steif_context *ctx, const steif_spec *spec, const steif_ta
 static int describe(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                     steif_method_info *info)
 {
-  (void)ctx, (void)spec;
+  int compensated;
+  STEIF_TRY(stf_spec_int(ctx, spec, "compensated", 0, 1, 0, &compensated));
   info->family = "irk", info->about = table->about;
   info->order = table->order, info->stages = table->s, info->claims = table->claims;
   info->adaptive = table->c[0] > 0;

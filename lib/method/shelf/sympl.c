@@ -17,10 +17,9 @@ enum { LONG = 10000 };
 typedef struct state {
   stf_passes passes;
   stf_halves halves;
-  N_Vector force, kept;                     /* p' of the trial; at y, for the first kick */
-  bool known;                               /* kept is filled */
-  N_Vector before;                          /* y at the start of the last step */
-  N_Vector error, next_error, error_before; /* what rounding took; NULL: not kept */
+  N_Vector force;             /* p' at the positions last looked at ... */
+  bool known;                 /* ... which are those of y */
+  N_Vector error, next_error; /* what rounding took from y, from the trial; NULL: not kept */
 } state;
 
 static int parameters(steif_context *ctx, const steif_spec *spec, const stf_splitting **scheme,
@@ -49,19 +48,6 @@ static bool is_long(const stf_step *s)
   return (o->t1 - s->t0) / s->h_equal >= LONG;
 }
 
-static int claim(stf_step *s, state *e, bool compensated)
-{
-  e->force = stf_claim_vector(s->pool, s->y);
-  e->before = stf_claim_vector(s->pool, s->y);
-  if (!e->force || !e->before) return STEIF_NO_MEMORY;
-  if (e->passes.reuses && !(e->kept = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
-  if (!compensated) return STEIF_OK;
-  e->error = stf_claim_vector(s->pool, s->y);
-  e->next_error = stf_claim_vector(s->pool, s->y);
-  e->error_before = stf_claim_vector(s->pool, s->y);
-  return e->error && e->next_error && e->error_before ? STEIF_OK : STEIF_NO_MEMORY;
-}
-
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 {
   (void)table;
@@ -73,20 +59,25 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(stf_spec_int(s->ctx, spec, "compensated", 0, 1, is_long(s), &compensated));
   stf_splitting_passes(scheme, kick_first, &e->passes);
   STEIF_TRY(stf_halves_open(s->pool, &s->system, spec->name, s->y, s->yp, &e->halves));
-  return claim(s, e, compensated);
+  if (!(e->force = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
+  if (!compensated) return STEIF_OK;
+  e->error = stf_claim_vector(s->pool, s->y);
+  e->next_error = stf_claim_vector(s->pool, s->y);
+  return e->error && e->next_error ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-/* A step of length h from `from` at t; known: `kept` is the force there. */
-static int flow(state *e, sunrealtype t, sunrealtype h, bool known, stf_point from,
-                stf_point to)
+/* A step of length h from the accepted solution. */
+static int flow(const stf_step *s, sunrealtype h, stf_point to)
 {
+  state *e = s->state;
   const stf_passes *P = &e->passes;
+  stf_point from = {s->y, e->error};
   for (int i = 0; i < P->count; i++) {
-    N_Vector force = i == 0 && known ? e->kept : e->force;
-    if (P->kick[i] != 0 && force == e->force)
-      STEIF_TRY(stf_halves_force(&e->halves, t + P->kick_at[i] * h, from.y, force));
-    STEIF_TRY(stf_halves_pass(&e->halves, P->kick[i] * h, force, P->drift[i] * h,
-                              t + P->drift_at[i] * h, from, to));
+    if (P->kick[i] != 0 && !(i == 0 && e->known))
+      STEIF_TRY(stf_halves_force(&e->halves, s->t + P->kick_at[i] * h, from.y, e->force));
+    e->known = false;
+    STEIF_TRY(stf_halves_pass(&e->halves, P->kick[i] * h, e->force, P->drift[i] * h,
+                              s->t + P->drift_at[i] * h, from, to));
     from = to;
   }
   return STEIF_OK;
@@ -94,37 +85,24 @@ static int flow(state *e, sunrealtype t, sunrealtype h, bool known, stf_point fr
 
 static int attempt(stf_step *s, sunrealtype h)
 {
-  state *e = s->state;
-  if (e->kept && !e->known) {
-    STEIF_TRY(stf_halves_force(&e->halves, s->t, s->y, e->kept));
-    e->known = true;
-  }
-  return flow(e, s->t, h, e->known, (stf_point){s->y, e->error},
-              (stf_point){s->next, e->next_error});
-}
-
-static void rotate(N_Vector *now, N_Vector *next, N_Vector *before)
-{
-  N_Vector oldest = *before;
-  *before = *now, *now = *next, *next = oldest;
+  const state *e = s->state;
+  return flow(s, h, (stf_point){s->next, e->next_error});
 }
 
 static void commit(stf_step *s)
 {
   state *e = s->state;
-  rotate(&s->y, &s->next, &e->before);
-  rotate(&e->error, &e->next_error, &e->error_before);
-  if (!e->kept) return;
-  N_Vector used = e->kept;
-  e->kept = e->force, e->force = used;
+  N_Vector error = e->error;
+  stf_swap(s);
+  e->error = e->next_error, e->next_error = error;
+  e->known = e->passes.reuses;
 }
 
-/* The same method with a step that ends at t: as accurate as the steps themselves. */
+/* The same method back from the end of the step to t: as accurate as the steps themselves. */
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
-  state *e = s->state;
-  return flow(e, s->t - s->h, t - (s->t - s->h), false, (stf_point){e->before, e->error_before},
-              (stf_point){y, e->next_error});
+  const state *e = s->state;
+  return flow(s, t - s->t, (stf_point){y, e->next_error});
 }
 
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
