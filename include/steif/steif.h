@@ -11,6 +11,7 @@
 #include <steif/energy.h>
 #include <steif/impulse.h>
 #include <steif/input.h>
+#include <steif/lyapunov.h>
 #include <steif/method.h>
 #include <steif/pencil.h>
 #include <steif/phi.h>

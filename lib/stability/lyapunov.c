@@ -1,0 +1,149 @@
+/* lyapunov.c: exponents and spectral intervals by discrete QR of the computed recurrence.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "variation.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct spectrum {
+  stf_variation v;
+  long steps, transient, window; /* averaged; before; of an interval */
+  sunrealtype *w, *R;
+  sunrealtype *sum, *rest; /* of ln R_ii, compensated */
+  sunrealtype *ring;       /* the last window + 1 sums */
+  sunrealtype *low, *high;
+  sunrealtype trace, mu;
+} spectrum;
+
+static int plan(steif_context *ctx, const steif_problem *p, const steif_lyapunov_options *o,
+                spectrum *s, sunrealtype *h)
+{
+  long all;
+  const sunrealtype t1 = o->t1 != 0 ? o->t1 : p->t1, span = t1 - p->t0;
+  STEIF_TRY(stf_equal_steps(ctx, o->h, span, &all));
+  *h = span / (sunrealtype)all;
+  STEIF_CHECK(o->transient >= 0 && o->transient < span, ctx, STEIF_BAD_INPUT,
+              "the transient of %g must be shorter than the run of %g", o->transient, span);
+  s->transient = (long)ceil(o->transient / *h * (1 - 1e-12));
+  s->steps = all - s->transient;
+  STEIF_CHECK(s->steps >= 1, ctx, STEIF_BAD_INPUT,
+              "no step of h = %g is left behind the transient of %g", *h, o->transient);
+  const sunrealtype averaged = (sunrealtype)s->steps * *h;
+  STEIF_CHECK(
+    o->window >= 0 && o->window <= averaged * (1 + 1e-12), ctx, STEIF_BAD_INPUT,
+    "a window of %g is longer than the %g that are averaged: shorten it or end the run "
+    "later",
+    o->window, averaged);
+  s->window = o->window > 0 ? lround(o->window / *h) : s->steps / 10;
+  if (s->window < 1) s->window = 1;
+  return STEIF_OK;
+}
+
+static int room(stf_pool *pool, spectrum *s)
+{
+  const size_t d = (size_t)s->v.d, m = (size_t)s->v.m;
+  s->w = stf_claim(pool, d * m, sizeof *s->w);
+  s->R = stf_claim(pool, m * m, sizeof *s->w);
+  s->sum = stf_claim(pool, 2 * m, sizeof *s->w);
+  s->ring = stf_claim(pool, ((size_t)s->window + 1) * m, sizeof *s->w);
+  s->low = stf_claim(pool, 2 * m, sizeof *s->w);
+  if (!s->w || !s->R || !s->sum || !s->ring || !s->low) return STEIF_NO_MEMORY;
+  s->rest = s->sum + m, s->high = s->low + m;
+  for (size_t i = 0; i < m; i++) s->low[i] = INFINITY, s->high[i] = -INFINITY;
+  s->mu = -INFINITY;
+  return STEIF_OK;
+}
+
+/* A step, and X made orthonormal in the principal coordinate; ln R_ii are left on R's diagonal. */
+static int turn(spectrum *s)
+{
+  stf_variation *v = &s->v;
+  STEIF_TRY(stf_variation_step(v));
+  stf_variation_principal(v, s->w);
+  STEIF_CHECK(
+    stf_triangle(v->d, v->m, s->w, s->R), v->ctx, STEIF_NOT_FINITE,
+    "a direction of the variational equation of '%s' vanished or overflowed in the step "
+    "of %s to t = %.12g: take a smaller h, or fewer exponents",
+    v->problem->name, v->method, v->t);
+  stf_renormalise(v->formula.k * v->d, v->m, s->R, v->X);
+  return STEIF_OK;
+}
+
+static sunrealtype trace(const stf_variation *v)
+{
+  sunrealtype sum = 0;
+  for (int i = 0; i < v->formula.r; i++)
+    for (int a = 0; a < v->d; a++)
+      sum += v->formula.weight[i] * v->J[(i * v->d + a) * v->d + a];
+  return sum;
+}
+
+/* Neumaier's sum: millions of logarithms. */
+static void add(sunrealtype *sum, sunrealtype *rest, sunrealtype x)
+{
+  const sunrealtype total = *sum + x;
+  *rest += fabs(*sum) >= fabs(x) ? (*sum - total) + x : (x - total) + *sum;
+  *sum = total;
+}
+
+/* Step n = 1, 2, ... of the average. */
+static void record(spectrum *s, long n)
+{
+  const int m = s->v.m;
+  const sunrealtype h = s->v.h;
+  const long slots = s->window + 1;
+  sunrealtype *now = s->ring + (n % slots) * m, *then = s->ring + ((n + 1) % slots) * m;
+  for (int i = 0; i < m; i++) {
+    add(&s->sum[i], &s->rest[i], log(s->R[i * m + i]));
+    now[i] = s->sum[i] + s->rest[i];
+    if (n < s->window) continue;
+    const sunrealtype rate = (now[i] - then[i]) / ((sunrealtype)s->window * h);
+    s->low[i] = fmin(s->low[i], rate), s->high[i] = fmax(s->high[i], rate);
+  }
+  if (2 * n >= s->steps) s->mu = fmax(s->mu, now[0] / ((sunrealtype)n * h));
+  s->trace += (trace(&s->v) - s->trace) / (sunrealtype)n;
+}
+
+static void tell(const spectrum *s, sunrealtype *exponent, sunrealtype *interval,
+                 steif_lyapunov_facts *facts)
+{
+  steif_lyapunov_facts out = {.steps = s->steps, .linear = s->v.linear, .h = s->v.h};
+  out.time = (sunrealtype)s->steps * s->v.h, out.trace = s->trace, out.mu = s->mu;
+  for (int i = 0; i < s->v.m; i++) {
+    exponent[i] = (s->sum[i] + s->rest[i]) / out.time;
+    out.sum += exponent[i];
+    if (interval) interval[2 * i] = s->low[i], interval[2 * i + 1] = s->high[i];
+  }
+  if (facts) *facts = out;
+}
+
+static int run(stf_pool *pool, steif_context *ctx, const steif_problem *p, const char *method,
+               const steif_lyapunov_options *o, spectrum *s)
+{
+  sunrealtype h;
+  STEIF_TRY(plan(ctx, p, o, s, &h));
+  const int count = o->count != 0 ? o->count : (int)p->n;
+  STEIF_TRY(stf_variation_open(pool, ctx, p, method, h, o->t1 != 0 ? o->t1 : p->t1, count,
+                               o->linear, &s->v));
+  STEIF_TRY(room(pool, s));
+  for (long n = 0; n < s->transient; n++) STEIF_TRY(turn(s));
+  for (long n = 1; n <= s->steps; n++) {
+    STEIF_TRY(turn(s));
+    record(s, n);
+  }
+  return STEIF_OK;
+}
+
+int steif_lyapunov(steif_context *ctx, const steif_problem *problem, const char *method,
+                   const steif_lyapunov_options *options, sunrealtype *exponent,
+                   sunrealtype *interval, steif_lyapunov_facts *facts)
+{
+  spectrum s = {0};
+  STEIF_CHECK(problem && method && options && exponent, ctx, STEIF_BAD_INPUT,
+              "a problem, a method, options and room for the exponents are needed");
+  stf_pool *pool = stf_pool_new(ctx);
+  if (!pool) return STEIF_NO_MEMORY;
+  const int code = run(pool, ctx, problem, method, options, &s);
+  if (code == STEIF_OK) tell(&s, exponent, interval, facts);
+  stf_pool_free(&pool);
+  return code > 0 ? steif_status(ctx) : code;
+}

@@ -1,0 +1,209 @@
+/* variation.c: the variational equation along the solution that a method computes.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "variation.h"
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_band.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+/* ---- J ---- */
+
+static int answer(const stf_variation *v, int returned, const char *what, sunrealtype t)
+{
+  STEIF_CHECK(returned == 0, v->ctx, STEIF_CALLBACK,
+              "%s of problem '%s' returned %d at t = %.12g", what, v->problem->name, returned,
+              t);
+  return STEIF_OK;
+}
+
+static int slope(stf_variation *v, sunrealtype t, N_Vector y, N_Vector out)
+{
+  return answer(v, v->problem->f(t, y, out, v->problem->user), "f", t);
+}
+
+/* By rows, from any storage. */
+static void spread(SUNMatrix M, int d, sunrealtype *J)
+{
+  memset(J, 0, (size_t)d * (size_t)d * sizeof *J);
+  if (SUNMatGetID(M) == SUNMATRIX_DENSE) {
+    for (int j = 0; j < d; j++)
+      for (int i = 0; i < d; i++) J[i * d + j] = SM_ELEMENT_D(M, i, j);
+  } else if (SUNMatGetID(M) == SUNMATRIX_BAND) {
+    for (int j = 0; j < d; j++)
+      for (int i = 0; i < d; i++)
+        if (j - i <= SM_UBAND_B(M) && i - j <= SM_LBAND_B(M))
+          J[i * d + j] = SM_ELEMENT_B(M, i, j);
+  } else {
+    const sunindextype *column = SM_INDEXPTRS_S(M), *row = SM_INDEXVALS_S(M);
+    for (int j = 0; j < d; j++)
+      for (sunindextype e = column[j]; e < column[j + 1]; e++)
+        J[(int)row[e] * d + j] += SM_DATA_S(M)[e];
+  }
+}
+
+int stf_variation_matrix(stf_variation *v, int at, sunrealtype t, N_Vector y)
+{
+  const steif_problem *p = v->problem;
+  STEIF_TRY(slope(v, t, y, v->fy));
+  if (SUNMatGetID(v->M) != SUNMATRIX_SPARSE) SUNMatZero(v->M);
+  STEIF_TRY(answer(v, p->jac(t, y, v->fy, v->M, p->user, v->slope[0], v->slope[1], v->slope[2]),
+                   "jac", t));
+  spread(v->M, v->d, v->J + (size_t)at * (size_t)v->d * (size_t)v->d);
+  return STEIF_OK;
+}
+
+/* ---- trajectories ---- */
+
+static int linear_matrices(stf_variation *v)
+{
+  if (v->filled && v->problem->linear) return STEIF_OK;
+  for (int i = 0; i < v->formula.r; i++)
+    STEIF_TRY(stf_variation_matrix(v, i, v->t + v->formula.xi[i] * v->h, v->y));
+  v->filled = true;
+  return STEIF_OK;
+}
+
+static int explicit_matrices(stf_variation *v)
+{
+  const stf_formula *g = &v->formula;
+  sunrealtype *y = N_VGetArrayPointer(v->y), *Y = N_VGetArrayPointer(v->stage);
+  for (int i = 0; i < g->r; i++) {
+    const sunrealtype t = v->t + g->xi[i] * v->h;
+    memcpy(Y, y, (size_t)v->d * sizeof *y);
+    for (int l = 0; l < i; l++)
+      for (int e = 0; e < v->d; e++)
+        Y[e] += v->h * g->C[i * g->r + l] * N_VGetArrayPointer(v->f[l])[e];
+    STEIF_TRY(slope(v, t, v->stage, v->f[i]));
+    STEIF_TRY(stf_variation_matrix(v, i, t, v->stage));
+  }
+  for (int l = 0; l < g->r; l++)
+    for (int e = 0; e < v->d; e++) y[e] += v->h * g->D[l] * N_VGetArrayPointer(v->f[l])[e];
+  return STEIF_OK;
+}
+
+static int implicit_matrices(stf_variation *v)
+{
+  int count;
+  const sunrealtype *b, *c;
+  N_Vector *Y;
+  const stf_formula *g = &v->formula;
+  STEIF_TRY(steif_solve_step(v->solver));
+  const sunrealtype made = steif_time(v->solver) - v->t;
+  STEIF_CHECK(
+    fabs(made - v->h) <= 1e-6 * v->h, v->ctx, STEIF_UNSUPPORTED,
+    "%s made a step of %g at t = %g where %g was asked for; exponents need equal steps",
+    v->method, made, v->t, v->h);
+  STEIF_TRY(steif_stages(v->solver, &count, &c, &b, &Y));
+  if (count == 0) return stf_variation_matrix(v, 0, v->t + v->h, steif_solution(v->solver));
+  for (int i = 0; i < g->r; i++)
+    STEIF_TRY(stf_variation_matrix(v, i, v->t + g->xi[i] * v->h, Y[i]));
+  return STEIF_OK;
+}
+
+/* ---- one step ---- */
+
+/* base = sum_j U_ij X_j + sum_{l < last} C_il K_l */
+static void stage_base(stf_variation *v, int i, int last)
+{
+  const stf_formula *g = &v->formula;
+  const int size = v->d * v->m;
+  memset(v->base, 0, (size_t)size * sizeof *v->base);
+  for (int j = 0; j < g->k; j++)
+    for (int e = 0; e < size; e++) v->base[e] += g->U[i * g->k + j] * v->X[j * size + e];
+  for (int l = 0; l < last; l++) {
+    const sunrealtype c = g->C[i * g->r + l];
+    if (c == 0) continue;
+    for (int e = 0; e < size; e++) v->base[e] += c * v->K[l * size + e];
+  }
+}
+
+/* K_i = h J_i base */
+static void stage_slope(stf_variation *v, int i)
+{
+  const int d = v->d, m = v->m;
+  const sunrealtype *J = v->J + (size_t)i * (size_t)d * (size_t)d;
+  for (int a = 0; a < d; a++)
+    for (int j = 0; j < m; j++) {
+      sunrealtype sum = 0;
+      for (int l = 0; l < d; l++) sum += J[a * d + l] * v->base[l * m + j];
+      v->K[(i * d + a) * m + j] = v->h * sum;
+    }
+}
+
+/* Block (i, l) of I - h J C at (row, column) of the matrix of order n. */
+static void block(stf_variation *v, int i, int l, int n, int row, int column)
+{
+  const int d = v->d;
+  const sunrealtype c = v->h * v->formula.C[i * v->formula.r + l];
+  const sunrealtype *J = v->J + (size_t)i * (size_t)d * (size_t)d;
+  for (int a = 0; a < d; a++)
+    for (int b = 0; b < d; b++)
+      v->matrix[(row + a) * n + column + b] = (i == l && a == b) - c * J[a * d + b];
+}
+
+static bool stage_by_stage(stf_variation *v)
+{
+  const stf_formula *g = &v->formula;
+  for (int i = 0; i < g->r; i++) {
+    stage_base(v, i, i);
+    stage_slope(v, i);
+    if (g->C[i * g->r + i] == 0) continue;
+    block(v, i, i, v->d, 0, 0);
+    if (!stf_eliminate(v->d, v->m, v->matrix, v->K + i * v->d * v->m)) return false;
+  }
+  return true;
+}
+
+static bool all_stages(stf_variation *v)
+{
+  const int d = v->d, r = v->formula.r;
+  for (int i = 0; i < r; i++) {
+    stage_base(v, i, 0);
+    stage_slope(v, i);
+    for (int l = 0; l < r; l++) block(v, i, l, r * d, i * d, l * d);
+  }
+  return stf_eliminate(r * d, v->m, v->matrix, v->K);
+}
+
+static void advance(stf_variation *v)
+{
+  const stf_formula *g = &v->formula;
+  const int size = v->d * v->m;
+  for (int i = 0; i < g->k; i++) {
+    sunrealtype *out = v->next + i * size;
+    memset(out, 0, (size_t)size * sizeof *out);
+    for (int j = 0; j < g->k; j++)
+      for (int e = 0; e < size && g->V[i * g->k + j] != 0; e++)
+        out[e] += g->V[i * g->k + j] * v->X[j * size + e];
+    for (int l = 0; l < g->r; l++)
+      for (int e = 0; e < size && g->D[i * g->r + l] != 0; e++)
+        out[e] += g->D[i * g->r + l] * v->K[l * size + e];
+  }
+  sunrealtype *kept = v->X;
+  v->X = v->next, v->next = kept;
+}
+
+int stf_variation_step(stf_variation *v)
+{
+  STEIF_TRY(v->linear   ? linear_matrices(v)
+            : v->solver ? implicit_matrices(v)
+                        : explicit_matrices(v));
+  STEIF_CHECK(
+    v->formula.lower ? stage_by_stage(v) : all_stages(v), v->ctx, STEIF_SINGULAR,
+    "the stages of %s on the variational equation of '%s' are singular at t = %.12g with "
+    "h = %g: 1/h meets the spectrum of J; change h a little",
+    v->method, v->problem->name, v->t, v->h);
+  advance(v);
+  v->t = v->t0 + (sunrealtype)++v->count * v->h;
+  return STEIF_OK;
+}
+
+void stf_variation_principal(const stf_variation *v, sunrealtype *w)
+{
+  const int size = v->d * v->m;
+  memset(w, 0, (size_t)size * sizeof *w);
+  for (int j = 0; j < v->formula.k; j++)
+    for (int e = 0; e < size; e++) w[e] += v->formula.ell[j] * v->X[j * size + e];
+}

@@ -1,0 +1,132 @@
+/* variation_open.c: preparing the variational equation: checks, room, is the problem linear.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "variation.h"
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_band.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+enum { LARGEST = 1000 };
+
+int stf_equal_steps(steif_context *ctx, sunrealtype h, sunrealtype span, long *steps)
+{
+  STEIF_CHECK(span > 0 && isfinite(span), ctx, STEIF_BAD_INPUT,
+              "the run is %g long: its end must lie after its start", span);
+  STEIF_CHECK(h > 0 && h <= span * (1 + 1e-12), ctx, STEIF_BAD_INPUT,
+              "the step h = %g must be positive and at most the length of the run, %g", h,
+              span);
+  STEIF_CHECK(span / h < 1e15, ctx, STEIF_BAD_INPUT,
+              "%g steps of h = %g fill the run: take a larger h", span / h, h);
+  *steps = (long)ceil(span / h * (1 - 1e-12));
+  return STEIF_OK;
+}
+
+static int suits(steif_context *ctx, const steif_problem *p)
+{
+  const int form = steif_problem_form(ctx, p);
+  if (!form) return steif_status(ctx);
+  STEIF_CHECK(form == STEIF_ODE, ctx, STEIF_UNSUPPORTED,
+              "problem '%s' has the form %s: exponents are computed of y' = f(t, y)", p->name,
+              steif_form_name(form));
+  STEIF_CHECK(p->jac, ctx, STEIF_UNSUPPORTED,
+              "problem '%s' has no Jacobian: the variational equation needs .jac", p->name);
+  STEIF_CHECK(p->y0 && p->storage != STEIF_KRYLOV && p->n <= LARGEST, ctx, STEIF_UNSUPPORTED,
+              "problem '%s' with n = %lld needs .y0, a storage with a matrix and n <= %d",
+              p->name, (long long)p->n, LARGEST);
+  return STEIF_OK;
+}
+
+static void destroy_matrix(void *M) { SUNMatDestroy(M); }
+static void destroy_vector(void *y) { N_VDestroy(y); }
+
+static void destroy_solver(void *s)
+{
+  steif_solver *solver = s;
+  steif_solver_free(&solver);
+}
+
+static int open_vectors(stf_pool *pool, stf_variation *v)
+{
+  const steif_problem *p = v->problem;
+  SUNContext sun = steif_sundials(v->ctx);
+  v->y = N_VNew_Serial(p->n, sun);
+  STEIF_CHECK(v->y, v->ctx, STEIF_NO_MEMORY, "no memory for a vector of %d", v->d);
+  STEIF_TRY(stf_claim_owner(pool, v->y, destroy_vector));
+  memcpy(N_VGetArrayPointer(v->y), p->y0, (size_t)p->n * sizeof *p->y0);
+  N_Vector *more = stf_claim_vectors(pool, 5, v->y);
+  v->f = stf_claim_vectors(pool, v->formula.r, v->y);
+  if (!more || !v->f) return STEIF_NO_MEMORY;
+  v->fy = more[0], v->stage = more[1];
+  for (int i = 0; i < 3; i++) v->slope[i] = more[2 + i];
+  v->M = p->storage == STEIF_DENSE  ? SUNDenseMatrix(p->n, p->n, sun)
+         : p->storage == STEIF_BAND ? SUNBandMatrix(p->n, p->upper, p->lower, sun)
+                                    : SUNSparseMatrix(p->n, p->n, p->nnz, CSC_MAT, sun);
+  STEIF_CHECK(v->M, v->ctx, STEIF_NO_MEMORY, "no memory for a matrix of order %d", v->d);
+  return stf_claim_owner(pool, v->M, destroy_matrix);
+}
+
+static int open_blocks(stf_pool *pool, stf_variation *v)
+{
+  const stf_formula *g = &v->formula;
+  const size_t d = (size_t)v->d, m = (size_t)v->m, k = (size_t)g->k, r = (size_t)g->r;
+  const size_t order = g->lower ? d : r * d;
+  v->X = stf_claim(pool, k * d * m, sizeof *v->X);
+  v->next = stf_claim(pool, k * d * m, sizeof *v->X);
+  v->K = stf_claim(pool, r * d * m, sizeof *v->X);
+  v->base = stf_claim(pool, d * m, sizeof *v->X);
+  v->J = stf_claim(pool, (r > 2 ? r : 2) * d * d, sizeof *v->X);
+  v->matrix = stf_claim(pool, order * order, sizeof *v->X);
+  const bool all = v->X && v->next && v->K && v->base && v->J && v->matrix;
+  return all ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+/* J at y0 and at y0 + (1 + |y0|) times two irrational directions is the same, entry by entry. */
+static int probe(stf_variation *v)
+{
+  const size_t size = (size_t)v->d * (size_t)v->d;
+  const sunrealtype t = v->t;
+  STEIF_TRY(stf_variation_matrix(v, 0, t, v->y));
+  v->linear = true;
+  for (int k = 1; k <= 2 && v->linear; k++) {
+    sunrealtype *y = N_VGetArrayPointer(v->stage);
+    for (int i = 0; i < v->d; i++) {
+      const sunrealtype y0 = v->problem->y0[i];
+      y[i] = y0 + (1 + fabs(y0)) * 0.1 * sin(k + sqrt(2 + (sunrealtype)i));
+    }
+    STEIF_TRY(stf_variation_matrix(v, 1, t, v->stage));
+    for (size_t e = 0; e < size; e++) v->linear = v->linear && v->J[e] == v->J[size + e];
+  }
+  return STEIF_OK;
+}
+
+static int open_trajectory(stf_pool *pool, stf_variation *v, sunrealtype t1)
+{
+  if (v->linear || v->formula.explicit_) return STEIF_OK;
+  steif_options o = steif_defaults();
+  o.h = v->h, o.t1 = t1, o.max_steps = 1L << 50;
+  v->solver = steif_solver_new(v->ctx, v->problem, v->method, &o);
+  if (!v->solver) return steif_status(v->ctx);
+  return stf_claim_owner(pool, v->solver, destroy_solver);
+}
+
+int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem,
+                       const char *method, sunrealtype h, sunrealtype t1, int m, int linear,
+                       stf_variation *v)
+{
+  STEIF_CHECK(problem && method, ctx, STEIF_BAD_INPUT, "a problem and a method are needed");
+  *v = (stf_variation){.ctx = ctx, .problem = problem, .method = method, .h = h, .m = m};
+  STEIF_TRY(suits(ctx, problem));
+  STEIF_TRY(stf_formula_find(ctx, method, &v->formula));
+  v->d = (int)problem->n, v->t = v->t0 = problem->t0;
+  STEIF_CHECK(m >= 1 && m <= v->d, ctx, STEIF_BAD_INPUT,
+              "%d exponents were asked for: '%s' has 1 to %d", m, problem->name, v->d);
+  STEIF_TRY(open_vectors(pool, v));
+  STEIF_TRY(open_blocks(pool, v));
+  v->linear = linear > 0 || problem->linear;
+  if (linear == 0 && !v->linear) STEIF_TRY(probe(v));
+  for (int j = 0; j < v->formula.k; j++)
+    for (int i = 0; i < m; i++) v->X[(j * v->d + i) * m + i] = 1;
+  return open_trajectory(pool, v, t1);
+}

@@ -1,0 +1,78 @@
+/* test_growth.c: BDF2 on the problem of Steyer and Van Vleck: growth, defects, residuals.
+ *
+ * Reference values: the recurrence in double with the closed fundamental matrix, and a second time in
+ * 40 digits with LU solves and Gauss quadrature; x_1 by the classical Runge-Kutta method. mu_last of
+ * h = 0.00075: the recurrence in 30 digits.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "stability.h"
+#include "suite.h"
+#include <nvector/nvector_serial.h>
+#include <stdlib.h>
+#include <steif/collection.h>
+#include <steif/lyapunov.h>
+#include <string.h>
+
+static int measure(const char *problem, const char *method, double h, double t1,
+                   steif_growth_facts *facts, char *message)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  const steif_lyapunov_options o = {.h = h, .t1 = t1};
+  steif_problem p;
+  int code = steif_problem_find(ctx, problem, &p);
+  if (code == STEIF_OK) {
+    code = steif_growth_measure(ctx, &p, method, &o, facts);
+    steif_problem_clear(ctx, &p);
+  }
+  snprintf(message, 400, "%s", steif_message(ctx));
+  steif_context_free(&ctx);
+  return code;
+}
+
+static const struct row {
+  const char *problem;
+  double h;
+  int steps;
+  double mean, max, mu, mu_last, residual, residual_max, tau, norm, end;
+} rows[] = {
+  {"steyer", 0.75, 53, 4.128571e5, 3.812720e6, .4829992, .3638650, 9.582e-2, .8402, 62.1,
+   1.2491e6, 1.06237e6},
+  {"steyer", 0.075, 533, 4.700390e-4, 2.088722e-3, .01433958, .002206331, 1.2549e-4, 1.1567e-3,
+   1.1511, 2.6578, 1.1242},
+  {"steyer", 0.0075, 5333, 1.901443e-7, 1.741899e-6, -.07961949, -.1143704, 1.2600e-7,
+   1.1607e-6, 1.0104, 2.6862, 1.0356e-2},
+  {"steyer", 0.00075, 53333, 1.890493e-10, 1.738487e-9, -.08115292, -.1176177838691, 1.2602e-10,
+   1.1607e-9, 1.0010, 2.6866, 9.05678e-3},
+  {"steyer:a=1.15,b1=-0.05,b2=-0.055,beta=1", 0.05, 2000, 6.589222e-5, 5.383358e-4, -.01409366,
+   -.03629600, 3.5397e-5, 3.6100e-4, 1.0685, 2.9095, .0259481},
+  {"steyer:a=1.45,b1=-0.05,b2=-0.055,beta=1", 0.05, 2000, 1.428557e-4, 8.841968e-4, .004440235,
+   -.02421237, 5.4225e-5, 5.9022e-4, 1.0857, 3.9270, .0862852},
+  {"steyer:a=1.75,b1=-0.05,b2=-0.055,beta=1", 0.05, 2000, 3.450986e-4, 1.420003e-3, .02232313,
+   -.01336907, 8.1448e-5, 9.4420e-4, 1.1057, 5.3027, .253506},
+  {"steyer:a=2.05,b1=-0.05,b2=-0.055,beta=1", 0.05, 2000, 9.333316e-4, 4.570511e-3, .03981980,
+   -.003074688, 1.2072e-4, 1.4860e-3, 1.1261, 14.606, .705120},
+};
+
+static void published_tables(void)
+{
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    const struct row *r = &rows[i];
+    steif_growth_facts g = {0};
+    char message[400];
+    CHECK(measure(r->problem, "bdf:p=2", r->h, r->steps * r->h, &g, message) == STEIF_OK);
+    CHECK(g.steps == r->steps);
+    CLOSE(g.lte_mean, r->mean, 1e-6);
+    CLOSE(g.lte_max, r->max, 1e-6);
+    CLOSE(g.mu, r->mu, 1e-6);
+    CLOSE(g.mu_last, r->mu_last, 1e-6);
+    CLOSE(g.residual_mean, r->residual, 1e-4);
+    CLOSE(g.residual_max, r->residual_max, 1e-4);
+    CLOSE(g.tau_max, r->tau, 1e-3);
+    CLOSE(g.norm_max, r->norm, 1e-4);
+    CLOSE(g.norm_end, r->end, 1e-4);
+  }
+}
+
+CU_TestInfo tests_of_growth[] = {
+  {"the tables of Steyer and Van Vleck, computed with a correct start", published_tables},
+  CU_TEST_INFO_NULL};
