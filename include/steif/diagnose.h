@@ -108,6 +108,57 @@ STEIF_EXPORT int steif_consistent(steif_context *ctx, const steif_problem *probl
                                   steif_start *start);
 STEIF_EXPORT void steif_start_clear(steif_start *start);
 
+/* Causes of a failure in the order in which they are looked for. */
+enum steif_cause_kind {
+  STEIF_CAUSE_UNKNOWN,
+  STEIF_CAUSE_NOT_FINITE,
+  STEIF_CAUSE_BLOW_UP,
+  STEIF_CAUSE_IMPASSE,
+  STEIF_CAUSE_JUMP,
+  STEIF_CAUSE_JACOBIAN,
+  STEIF_CAUSE_SINGULAR,
+  STEIF_CAUSE_ACCURACY,
+  STEIF_CAUSE_START,
+  STEIF_CAUSE_RINGING,
+  STEIF_CAUSE_INDEX
+};
+
+/* What the stepper knows. The point of the inquiry is the last accepted one. */
+typedef struct steif_scene {
+  sunrealtype h;                /* the step that failed */
+  size_t count;                 /* accepted points kept, oldest first, the last one included; */
+  const sunrealtype *t;         /* count times; the last dozen steps unthinned, some hundred in all */
+  const sunrealtype *y, *yp;    /* count x n by rows */
+  long steps;                   /* accepted in all; 0 or 1: the start is under suspicion */
+  sunrealtype t0;
+  sunrealtype rtol, atol;
+  const sunrealtype *atols;     /* n instead of atol; NULL: none */
+  const sunrealtype *error;     /* n: last error estimate; NULL: not known */
+  int weighted;                 /* norms scale component j by h^(number_j - 1) */
+  const char *method;           /* for the sentence; NULL: "the method" */
+} steif_scene;
+
+typedef struct steif_cause {
+  enum steif_cause_kind kind;
+  sunrealtype t;                   /* of the event; NaN when there is none */
+  sunindextype equation, unknown;  /* 0-based, -1: none named */
+  sunrealtype value[2];            /* blow-up: exponent, growth; impasse: growth, misfit; jump: size,
+                                      median; Jacobian: given, measured; singular: reciprocal
+                                      condition, rank lost; accuracy: noise, in weights; start:
+                                      move, in weights; ringing: share of sign changes, amplitude
+                                      in weights; index: index, number of the unknown */
+  char message[STEIF_SENTENCE];
+} steif_cause;
+
+/* 0 also when the cause is unknown: the sentence then holds the numbers. */
+STEIF_EXPORT int steif_explain(steif_context *ctx, const steif_problem *problem,
+                               const steif_inquiry *inquiry, const steif_scene *scene,
+                               steif_cause *cause);
+/* The same for the Jacobian alone, before the first step: STEIF_CAUSE_JACOBIAN or
+ * STEIF_CAUSE_UNKNOWN (nothing wrong found). */
+STEIF_EXPORT int steif_check_jacobian(steif_context *ctx, const steif_problem *problem,
+                                      const steif_inquiry *inquiry, steif_cause *cause);
+
 #ifdef __cplusplus
 }
 #endif

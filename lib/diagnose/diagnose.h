@@ -239,4 +239,31 @@ bool stf_evidence_certified(const stf_evidence *evidence);
 int stf_verdict(const stf_evidence *evidence, steif_diagnosis *d);
 int stf_diagnosis_claim(steif_context *ctx, size_t n, steif_diagnosis *d);
 
+/* -- causes of a failure --------------------------------------------------------------------------- */
+
+typedef struct stf_case {
+  stf_lens *lens;           /* at the last accepted point */
+  const steif_scene *scene; /* NULL: the Jacobian alone is looked at */
+  steif_cause *cause;
+  sunrealtype *scale, *noise, *weight; /* n each: terms and noise of equations, error weights */
+  stf_evidence evidence;               /* gathered when first needed */
+  steif_diagnosis diagnosis;
+  bool gathered;
+} stf_case;
+/* Each looks for one cause and fills *cause if it is there. */
+int stf_case_blow_up(stf_case *c);
+int stf_case_impasse(stf_case *c);
+int stf_case_jump(stf_case *c);
+int stf_case_jacobian(stf_case *c);
+int stf_case_singular(stf_case *c);
+int stf_case_accuracy(stf_case *c);
+int stf_case_start(stf_case *c);
+int stf_case_ringing(stf_case *c);
+int stf_case_index(stf_case *c);
+/* The diagnosis at the last accepted point. */
+int stf_case_diagnose(stf_case *c);
+/* Noise of F around the point (J. J. More and S. M. Wild, SIAM J. Sci. Comput. 33, 2011); 0 where
+ * none is seen. */
+int stf_case_noise(stf_case *c);
+
 #endif

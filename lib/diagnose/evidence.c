@@ -64,6 +64,7 @@ static int visit_all(stf_evidence *e)
   STEIF_TRY(code);
   stf_view_rates(s, &e->view, &slow, &fast);
   e->points = 1;
+  if (s->system.linear) return STEIF_OK; /* all points are alike */
   for (int k = 2; k < STF_POINTS; k++) {
     STEIF_TRY(open_point(e, e->points));
     code = beside(e, e->points, sqrt(slow * fast));
@@ -156,7 +157,7 @@ int stf_evidence_gather(stf_lens *lens, stf_evidence *e)
   STEIF_TRY(stf_structure_find(lens, &e->view, &e->structure));
   STEIF_TRY(stf_factor_open(lens, &e->view, &e->factor));
   STEIF_TRY(survey(e));
-  if (lens->n <= STEIF_DIAGNOSE_LARGEST && stf_evidence_certified(e)) {
+  if (lens->n <= STEIF_DIAGNOSE_LARGEST && !lens->system.linear && stf_evidence_certified(e)) {
     const int before = e->points;
     const sunindextype entries = e->view.column[lens->n];
     STEIF_TRY(consistent_point(e));

@@ -123,8 +123,8 @@ static int find(stf_lens *lens, stf_pool *pool, const stf_view *v, stf_factor *f
   STEIF_TRY(claim(pool, &w));
   stf_view_rates(lens, v, &slowest, &base);
   weigh(lens, v, base, &w);
-  g->found = false, g->index = -1;
-  STEIF_TRY(check_shifts(v, f, base, g));
+  g->found = g->singular = false, g->index = -1;
+  if (!bound) STEIF_TRY(check_shifts(v, f, base, g)); /* else the pencil is regular */
   if (g->singular) return STEIF_OK;
   STEIF_TRY(settle(v, f, base, &w, g));
   if (!g->found) return STEIF_OK;

@@ -7,7 +7,9 @@
 #include <string.h>
 
 static const sunrealtype proximal = 1e-3; /* weight of derivatives, which have no guess */
-static const sunrealtype violated = 1e-6; /* residual over the terms of its equation */
+/* Residuals over the terms of their equations: not fulfilled; fulfilled so well that an unfinished
+ * search for the nearest point is good enough. */
+static const sunrealtype violated = 1e-6, fulfilled = 1e-10;
 
 typedef struct stage_work {
   stf_task *task;
@@ -219,7 +221,8 @@ static int judge(stage_work *w, stf_move *m)
   w->task->start->residual = fmax(w->task->start->residual, part);
   if (part > violated && m->rank < m->rows && fixed) return conflict(w, m, fabs(m->r[worst]));
   if (m->rank < m->rows && !fixed) return singular(w, m, worst);
-  if (!m->converged || part > violated) return stalled(w, m, worst, fabs(m->r[worst]));
+  if (part > (m->converged ? violated : fulfilled))
+    return stalled(w, m, worst, fabs(m->r[worst]));
   return STEIF_OK;
 }
 

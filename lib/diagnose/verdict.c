@@ -130,7 +130,8 @@ static void decide_by_array(const summary *s, steif_diagnosis *d)
     set(d, STEIF_VARIES, STEIF_PROBABLE, s->high[1]);
   else if (s->found[1] > 0 && array_everywhere(s)) {
     const bool grown = s->found[0] == 0 || (s->low[0] <= s->low[1] && s->high[0] >= s->low[1]);
-    const bool sure = s->gap >= certain_gap && s->e->arrays >= 3 && grown;
+    const bool enough = s->e->arrays >= 3 || s->e->lens->system.linear;
+    const bool sure = s->gap >= certain_gap && enough && grown;
     set(d, STEIF_REGULAR, sure ? STEIF_SURE : STEIF_PROBABLE, s->low[1]);
   } else if (s->stalls)
     set(d, s->singular ? STEIF_NO_SOLUTION : STEIF_NOT_UNIQUE,

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-static const sunrealtype proximal = 1e-3, violated = 1e-6;
+static const sunrealtype proximal = 1e-3, violated = 1e-6, fulfilled = 1e-10;
 
 typedef struct whole {
   stf_task *task;
@@ -87,7 +87,7 @@ static int judge(whole *w, const stf_move *m)
     if (!(part <= most)) most = part, worst = k;
   }
   w->task->start->residual = fmax(w->task->start->residual, most);
-  STEIF_CHECK(m->converged && most <= violated, s->ctx, STEIF_NO_CONVERGENCE,
+  STEIF_CHECK(most <= (m->converged ? violated : fulfilled), s->ctx, STEIF_NO_CONVERGENCE,
               "no consistent point found within %d iterations of the array of %d derivatives; "
               "residual %.3g in %s%s: give better values",
               m->iterations, w->K, fabs(m->r[worst]), stf_diagnose_equation(s, worst, room),

@@ -7,9 +7,11 @@
 
 const model *model_find(const char *name)
 {
-  const model *m = models;
-  while (m->name && strcmp(m->name, name)) m++;
-  return m->name ? m : NULL;
+  const model *const all[] = {models, troubles};
+  for (int k = 0; k < 2; k++)
+    for (const model *m = all[k]; m->name; m++)
+      if (!strcmp(m->name, name)) return m;
+  return NULL;
 }
 
 static void widen(N_Vector v, sunindextype n, cplx *x)

@@ -20,7 +20,7 @@ typedef struct model {
   double size[MODEL_LARGEST];                                   /* 0: not given */
 } model;
 
-extern const model models[];
+extern const model models[], troubles[]; /* ended by a NULL name */
 const model *model_find(const char *name);
 /* With exact E and A, or without any Jacobian. */
 steif_problem model_problem(const model *m, int jacobian);

@@ -1,0 +1,216 @@
+/* cause.c: the list of causes in its order, and the limit of accuracy.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "diagnose.h"
+#include <math.h>
+#include <string.h>
+
+/* -- accuracy ---------------------------------------------------------------------------------- */
+
+static void blame_tolerance(stf_case *c, size_t j)
+{
+  char y[STEIF_SPEC_WORD];
+  steif_cause *cause = c->cause;
+  cause->kind = STEIF_CAUSE_ACCURACY, cause->unknown = (sunindextype)j;
+  cause->value[0] = STF_EPS * fabs(c->lens->y0[j]);
+  cause->value[1] = cause->value[0] / c->weight[j];
+  stf_diagnose_say(
+    cause->message,
+    "Tolerance cannot be met: the weight %.2g of %s is below 8 units of rounding of "
+    "its value %.4g; smallest useful rtol about 1e-14.",
+    c->weight[j], stf_diagnose_unknown(c->lens, j, y), c->lens->y0[j]);
+}
+
+static void blame_noise(stf_case *c, size_t i, size_t j, sunrealtype noise, sunrealtype part)
+{
+  char e[STEIF_SPEC_WORD], y[STEIF_SPEC_WORD];
+  steif_cause *cause = c->cause;
+  cause->kind = STEIF_CAUSE_ACCURACY;
+  cause->equation = (sunindextype)i, cause->unknown = (sunindextype)j;
+  cause->value[0] = noise, cause->value[1] = part;
+  stf_diagnose_say(
+    cause->message,
+    "Tolerance cannot be met: %s %.2g in %s makes an uncertainty of %.2g weights in "
+    "%s; smallest useful rtol about %.0e.",
+    noise > 1e3 * STF_EPS * c->scale[i] ? "noise" : "rounding", noise,
+    stf_diagnose_equation(c->lens, i, e), part, stf_diagnose_unknown(c->lens, j, y),
+    10 * part * c->scene->rtol);
+}
+
+/* |(E/h - A)^{-1}| noise against the weights, numbers taken off: h^(number - 1). */
+static int uncertainty(stf_case *c, stf_factor *f, const stf_view *v, sunrealtype rate,
+                       bool noisy)
+{
+  const size_t n = c->lens->n;
+  const sunrealtype h = fabs(c->scene->h);
+  sunrealtype *x = c->lens->scratch + 5 * n, most = 0.1;
+  size_t at = n, from = 0;
+  STEIF_TRY(stf_factor_shift(f, v, 1 / h));
+  for (size_t i = 0; i < n; i++) {
+    const sunrealtype rounding = STF_EPS * c->scale[i];
+    const bool loud = c->noise[i] > 1e3 * rounding;
+    if (loud != noisy) continue;
+    memset(x, 0, n * sizeof *x);
+    x[i] = fmax(c->noise[i], rounding);
+    STEIF_TRY(stf_factor_solve(f, false, x));
+    for (size_t j = 0; j < n; j++) {
+      const sunrealtype order = c->diagnosis.number[j] - 1;
+      const sunrealtype part = fabs(x[j]) * pow(fmin(1, h * rate), order) / c->weight[j];
+      if (part > most) most = part, at = j, from = i;
+    }
+  }
+  if (at < n) blame_noise(c, from, at, fmax(c->noise[from], STF_EPS * c->scale[from]), most);
+  return STEIF_OK;
+}
+
+int stf_case_accuracy(stf_case *c)
+{
+  stf_lens *s = c->lens;
+  for (size_t j = 0; j < s->n; j++)
+    if (8 * STF_EPS * fabs(s->y0[j]) > c->weight[j]) {
+      blame_tolerance(c, j);
+      return STEIF_OK;
+    }
+  if (!(fabs(c->scene->h) > 0)) return STEIF_OK;
+  STEIF_TRY(stf_case_diagnose(c));
+  stf_view v = {0};
+  stf_factor *f = NULL;
+  sunrealtype slow, fast;
+  int code = stf_view_take(s, s->t, s->y0, s->yp0, &v);
+  if (!code) code = stf_factor_open(s, &v, &f);
+  if (!code) stf_view_rates(s, &v, &slow, &fast);
+  for (int noisy = 1; noisy >= 0 && !code && c->cause->kind == STEIF_CAUSE_UNKNOWN; noisy--)
+    code = uncertainty(c, f, &v, fast, noisy);
+  stf_factor_free(&f);
+  stf_view_free(s, &v);
+  return code > 0 || code == STEIF_SINGULAR ? STEIF_OK : code;
+}
+
+/* -- order ----------------------------------------------------------------------------------------- */
+
+/* F at the point and along the attempted step. */
+static int not_finite(stf_case *c)
+{
+  static const sunrealtype part[] = {0, 0.25, 0.5, 1, 8, 64, 512};
+  stf_lens *s = c->lens;
+  sunrealtype *y = s->scratch, *r = s->scratch + s->n;
+  char e[STEIF_SPEC_WORD];
+  const bool tiny = fabs(c->scene->h) < 1e-9 * fabs(s->t - c->scene->t0);
+  for (int k = 0; k < (tiny ? 7 : 4); k++) { /* tiny: longer steps were refused before */
+    const sunrealtype dt = part[k] * c->scene->h;
+    for (size_t j = 0; j < s->n; j++) y[j] = s->y0[j] + dt * s->yp0[j], r[j] = 0;
+    const int code = stf_diagnose_residual(s, s->t + dt, y, s->yp0, r);
+    if (code < 0) return code;
+    if (!code) continue;
+    steif_cause *cause = c->cause;
+    cause->kind = STEIF_CAUSE_NOT_FINITE, cause->t = s->t + dt;
+    for (size_t i = s->n; i-- > 0;)
+      if (!isfinite(r[i])) cause->equation = (sunindextype)i;
+    if (cause->equation >= 0)
+      stf_diagnose_say(cause->message, "Equation %s is %g",
+                       stf_diagnose_equation(s, (size_t)cause->equation, e),
+                       r[cause->equation]);
+    else
+      stf_diagnose_say(cause->message, "The equations cannot be evaluated");
+    stf_diagnose_say(
+      cause->message,
+      " at t = %.12g, %s: the solution leaves the domain of its functions there.", cause->t,
+      k ? "along the attempted step" : "the last accepted point");
+    return STEIF_OK;
+  }
+  return STEIF_OK;
+}
+
+static int open_case(stf_case *c)
+{
+  stf_lens *s = c->lens;
+  const size_t n = s->n;
+  c->scale = stf_claim(s->pool, 3 * n, sizeof *c->scale);
+  if (!c->scale) return STEIF_NO_MEMORY;
+  c->noise = c->scale + n, c->weight = c->scale + 2 * n;
+  for (size_t j = 0; c->scene && j < n; j++)
+    c->weight[j] =
+      c->scene->rtol * fabs(s->y0[j]) + (c->scene->atols ? c->scene->atols[j] : c->scene->atol);
+  stf_view v = {0};
+  stf_task task = {.lens = s, .view = &v, .scale = c->scale};
+  int code = stf_view_take(s, s->t, s->y0, s->yp0, &v);
+  if (!code) code = stf_start_scale(&task);
+  stf_view_free(s, &v);
+  return code;
+}
+
+static int nothing(stf_case *c)
+{
+  STEIF_TRY(stf_case_diagnose(c));
+  stf_diagnose_say(
+    c->cause->message,
+    "No cause was found at t = %.9g with step %.3g: F is finite and smooth there, "
+    "its Jacobian is right (or not given); %s",
+    c->lens->t, c->scene->h, c->diagnosis.message);
+  return STEIF_OK;
+}
+
+static int look(stf_case *c)
+{
+  static int (*const tests[])(stf_case *) = {
+    not_finite,        stf_case_blow_up,  stf_case_impasse, stf_case_jump,    stf_case_jacobian,
+    stf_case_singular, stf_case_accuracy, stf_case_start,   stf_case_ringing, stf_case_index};
+  const size_t count = c->scene ? sizeof tests / sizeof *tests : 0;
+  const int code = open_case(c);
+  if (code < 0) return code;
+  STEIF_TRY(stf_case_noise(c));
+  if (!c->scene) return stf_case_jacobian(c);
+  for (size_t k = 0; k < count && c->cause->kind == STEIF_CAUSE_UNKNOWN; k++)
+    STEIF_TRY(tests[k](c));
+  return c->cause->kind == STEIF_CAUSE_UNKNOWN ? nothing(c) : STEIF_OK;
+}
+
+/* A point where F or its derivatives are not finite cannot even be opened: that is the cause. */
+static int examine(steif_context *ctx, const steif_problem *problem,
+                   const steif_inquiry *inquiry, const steif_scene *scene, steif_cause *cause)
+{
+  stf_lens lens;
+  STEIF_CHECK(cause, ctx, STEIF_BAD_INPUT, "a place for the cause is needed, got NULL");
+  *cause = (steif_cause){.t = NAN, .equation = -1, .unknown = -1};
+  int code = stf_diagnose_open(ctx, problem, inquiry, &lens);
+  if (code == STEIF_CALLBACK || (code == STEIF_NOT_FINITE && scene)) {
+    cause->kind = STEIF_CAUSE_NOT_FINITE;
+    stf_diagnose_say(cause->message, "Not finite: %s", steif_message(ctx));
+    steif_forget(ctx);
+    return STEIF_OK;
+  }
+  STEIF_TRY(code);
+  stf_case c = {.lens = &lens, .scene = scene, .cause = cause};
+  c.evidence.lens = &lens;
+  if (lens.n > STEIF_DIAGNOSE_LARGEST)
+    code = STEIF_FAIL(ctx, STEIF_UNSUPPORTED,
+                      "'%s' has %zu unknowns: causes are looked for up to %d", problem->name,
+                      lens.n, STEIF_DIAGNOSE_LARGEST);
+  else
+    code = look(&c);
+  steif_diagnosis_clear(&c.diagnosis);
+  stf_evidence_free(&c.evidence);
+  stf_diagnose_close(&lens);
+  if (!code) steif_forget(ctx);
+  return code;
+}
+
+int steif_explain(steif_context *ctx, const steif_problem *problem,
+                  const steif_inquiry *inquiry, const steif_scene *scene, steif_cause *cause)
+{
+  STEIF_CHECK(scene && (scene->count == 0 || (scene->t && scene->y && scene->yp)), ctx,
+              STEIF_BAD_INPUT,
+              "a scene with its accepted points is needed to explain a failure");
+  STEIF_CHECK(scene->rtol >= 0 && (scene->rtol > 0 || scene->atol > 0 || scene->atols), ctx,
+              STEIF_BAD_INPUT, "the tolerances of the failed run are needed, got rtol = %g",
+              scene->rtol);
+  return examine(ctx, problem, inquiry, scene, cause);
+}
+
+int steif_check_jacobian(steif_context *ctx, const steif_problem *problem,
+                         const steif_inquiry *inquiry, steif_cause *cause)
+{
+  STEIF_TRY(examine(ctx, problem, inquiry, NULL, cause));
+  if (cause->kind == STEIF_CAUSE_UNKNOWN)
+    stf_diagnose_say(cause->message, "E and A agree with differences of F");
+  return STEIF_OK;
+}
