@@ -103,10 +103,10 @@ static int pattern(steif_context *ctx, SUNMatrix E, SUNMatrix F, steif_structure
 {
   sunindextype rank;
   steif_structure found = {.degree = -1};
-  STEIF_TRY(stf_matching(ctx, E, F, &rank, &found));
+  const int code = stf_matching(ctx, E, F, &rank, &found);
   structure->degree = found.degree;
   steif_structure_clear(ctx, &found);
-  return STEIF_OK;
+  return code;
 }
 
 static int find(steif_context *ctx, stf_pool *pool, SUNMatrix E, SUNMatrix F,
