@@ -78,8 +78,16 @@ static int explicit_matrices(stf_variation *v)
     STEIF_TRY(slope(v, t, v->stage, v->f[i]));
     STEIF_TRY(stf_variation_matrix(v, i, t, v->stage));
   }
-  for (int l = 0; l < g->r; l++)
-    for (int e = 0; e < v->d; e++) y[e] += v->h * g->D[l] * N_VGetArrayPointer(v->f[l])[e];
+  bool finite = true;
+  for (int e = 0; e < v->d; e++) {
+    for (int l = 0; l < g->r; l++) y[e] += v->h * g->D[l] * N_VGetArrayPointer(v->f[l])[e];
+    finite = finite && isfinite(y[e]);
+  }
+  STEIF_CHECK(
+    finite, v->ctx, STEIF_NOT_FINITE,
+    "the solution of '%s' by %s overflows in the step to t = %.12g: take a smaller h than "
+    "%g, or an implicit method",
+    v->problem->name, v->method, v->t + v->h, v->h);
   return STEIF_OK;
 }
 

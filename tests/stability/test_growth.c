@@ -73,6 +73,64 @@ static void published_tables(void)
   }
 }
 
+/* Both columns of the closed fundamental matrix: what is left of a method of order 6 with small steps,
+ * and one-step defects of Gauss (s = 3) that shrink like h^7. */
+static void accurate_steps_follow_the_fundamental_matrix(void)
+{
+  for (int column = 1; column <= 2; column++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_growth_facts fine = {0}, coarse = {0};
+    steif_problem p;
+    char message[400], name[80];
+    snprintf(name, sizeof name, "steyer:a=0.7,b1=-0.31,b2=-0.57,beta=3,omega=1.3,column=%d",
+             column);
+    CHECK(measure(name, "gauss:s=3", 0.02, 6.4, &fine, message) == STEIF_OK);
+    CHECK(measure(name, "gauss:s=3", 0.1, 6.4, &coarse, message) == STEIF_OK);
+    CHECK(steif_problem_find(ctx, name, &p) == STEIF_OK);
+    N_Vector y = N_VNew_Serial(2, steif_sundials(ctx));
+    CHECK(p.exact(6.4, y, NULL, p.user) == 0);
+    CLOSE(fine.norm_end, hypot(NV_Ith_S(y, 0), NV_Ith_S(y, 1)), 1e-10);
+    CLOSE(log(coarse.lte_max / fine.lte_max) / log(5), 7, 0.03);
+    CHECK(isnan(fine.residual_max));
+    N_VDestroy(y);
+    steif_problem_clear(ctx, &p);
+    steif_context_free(&ctx);
+  }
+}
+
+/* beta -> 0 leaves two scalar equations: |x| = e^{a sin t + b1 t}, growth per time from closed form. */
+static void growth_of_a_scalar_equation_is_the_closed_one(void)
+{
+  steif_growth_facts g = {0};
+  char message[400];
+  const double a = 0.83, b = -0.27, t = 11.7, half = 5.85;
+  CHECK(measure("steyer:a=0.83,b1=-0.27,b2=-0.9,beta=0,omega=0", "gauss:s=4", 0.05, t, &g,
+                message) == STEIF_OK);
+  CLOSE(g.mu_last, (a * sin(t) + b * t) / t, 1e-10);
+  CLOSE(g.mu_window, (a * sin(t) - a * sin(half)) / (t - half) + b, 1e-10);
+}
+
+static void bad_questions_are_refused(void)
+{
+  steif_growth_facts g = {0};
+  char message[400];
+  CHECK(measure("lorenz", "rk4", 0.1, 3, &g, message) == STEIF_UNSUPPORTED);
+  CHECK(strstr(message, "depends on y") != NULL);
+  CHECK(measure("steyer", "bdf:p=6", 10, 40, &g, message) == STEIF_BAD_INPUT);
+  CHECK(strstr(message, "4 steps") != NULL);
+  CHECK(measure("steyer", "rk4", 0.5, -3, &g, message) == STEIF_BAD_INPUT);
+  CHECK(measure("steyer:b1=90", "rk4", 0.01, 40, &g, message) == STEIF_NOT_FINITE);
+  CHECK(strstr(message, "overflows") != NULL);
+  CHECK(measure("steyer:a=0,b1=10,b2=20,beta=0,omega=0", "be", 0.1, 4, &g, message) ==
+        STEIF_SINGULAR);
+  CHECK(strstr(message, "change h") != NULL);
+}
+
 CU_TestInfo tests_of_growth[] = {
   {"the tables of Steyer and Van Vleck, computed with a correct start", published_tables},
+  {"accurate steps follow the closed fundamental matrix",
+   accurate_steps_follow_the_fundamental_matrix},
+  {"the growth of a scalar equation is the closed one",
+   growth_of_a_scalar_equation_is_the_closed_one},
+  {"bad questions are refused with a sentence", bad_questions_are_refused},
   CU_TEST_INFO_NULL};
