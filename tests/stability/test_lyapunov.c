@@ -3,6 +3,7 @@
 #include "stability.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
+#include <stdlib.h>
 #include <steif/collection.h>
 #include <steif/lyapunov.h>
 #include <string.h>
@@ -107,7 +108,7 @@ static void windows_give_the_spectral_intervals(void)
   }
 }
 
-/* x' = [[-1, 2], [0, -3]] x, and its rotation by a non-orthogonal change of basis. */
+/* x' = [[-1, 2], [0, -3]] x. */
 static int f(sunrealtype t, N_Vector y, N_Vector r, void *user)
 {
   (void)t, (void)user;
@@ -190,7 +191,6 @@ static void lorenz_has_its_exponents(void)
   }
 }
 
-/* A step of n equations costs the same wherever it stands, so the leading exponent alone agrees. */
 static void the_first_exponents_are_those_of_all(void)
 {
   const steif_lyapunov_options o = {.h = 0.01, .t1 = 31.7, .transient = 3.1};
@@ -254,6 +254,48 @@ static void bad_questions_are_refused(void)
   CHECK(refused(&p, "gauss:s=2", good, "t =") < 0);
 }
 
+/* An allocator that fails at the k-th call. */
+typedef struct meter {
+  long calls, fail_at, open;
+} meter;
+
+static void *allocate(size_t bytes, void *user)
+{
+  meter *m = user;
+  if (++m->calls == m->fail_at) return NULL;
+  m->open++;
+  return malloc(bytes);
+}
+
+static void release(void *block, void *user)
+{
+  if (block) ((meter *)user)->open--;
+  free(block);
+}
+
+static void hunger_is_reported(void)
+{
+  const steif_lyapunov_options o = {.h = 0.1, .t1 = 1.3, .linear = -1};
+  steif_growth_facts g;
+  double exponent[2];
+  int code = STEIF_NO_MEMORY;
+  long k = 0, failures = 0;
+  while (code != STEIF_OK && k < 1000) {
+    meter m = {0};
+    steif_context *ctx = steif_context_new(&(steif_setup){allocate, release, &m, 1});
+    m.fail_at = m.calls + ++k;
+    code = steif_lyapunov(ctx, &constant, "radau:s=2", &o, exponent, NULL, NULL);
+    const steif_lyapunov_options linear = {.h = 0.1, .t1 = 1.3};
+    if (code == STEIF_OK) code = steif_growth_measure(ctx, &constant, "bdf:p=2", &linear, &g);
+    CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
+    CHECK(code == STEIF_OK || strlen(steif_message(ctx)) > 10);
+    failures += code == STEIF_NO_MEMORY;
+    steif_context_free(&ctx);
+    CHECK(m.open == 0);
+  }
+  CHECK(code == STEIF_OK && failures > 20);
+}
+
 CU_TestInfo tests_of_lyapunov[] = {
   {"the exponents of periodic problems are Floquet's", floquet_exponents_are_found},
   {"BDF2 loses stability between 88 and 87 steps a period",
@@ -264,4 +306,5 @@ CU_TestInfo tests_of_lyapunov[] = {
   {"the Lorenz attractor has its published exponents", lorenz_has_its_exponents},
   {"the first exponents alone are those of all", the_first_exponents_are_those_of_all},
   {"bad questions are refused with a sentence", bad_questions_are_refused},
+  {"a failing allocation is reported and leaves nothing behind", hunger_is_reported},
   CU_TEST_INFO_NULL};
