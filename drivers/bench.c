@@ -1,6 +1,6 @@
 /* bench.c: costs as ratios in one run.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "face.h"
+#include "bench.h"
 #include <string.h>
 
 static void add(steif_report *r, const steif_bench_row *row)
@@ -16,13 +16,11 @@ static void add(steif_report *r, const steif_bench_row *row)
   steif_report_real(r, "rows.limit", row->limit);
 }
 
-static int run(struct call *call)
+int bench_step(struct call *call)
 {
-  const char *name = call->words ? call->word[0] : "step";
-  if (strcmp(name, "step")) return refuse(call, "no benchmark '%s'; there is 'step'", name);
   steif_report *r = steif_report_new(call->ctx);
   steif_bench_row row;
-  steif_report_text(r, "benchmark", name);
+  steif_report_text(r, "benchmark", "step");
   for (size_t i = 0; !steif_bench_step(call->ctx, i, &row); i++) {
     progress(call, "%s %s %s", row.kind, row.problem, row.method);
     add(r, &row);
@@ -33,13 +31,41 @@ static int run(struct call *call)
   return shown;
 }
 
-static const struct option options[] = {{NULL, FLAG, NULL, NULL}};
+static const struct {
+  const char *name;
+  int (*run)(struct call *call);
+} benchmarks[] = {{"step", bench_step}, {"workprec", bench_workprec}};
+enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
-const struct verb verb_bench = {"bench",
-                                "Measure a step against the kernels it needs, as ratios",
-                                "[step]",
-                                0,
-                                1,
-                                options,
-                                NULL,
-                                run};
+static const char *name_at(const void *list, size_t i)
+{
+  (void)list;
+  return i < BENCHMARKS ? benchmarks[i].name : NULL;
+}
+
+static int run(struct call *call)
+{
+  const char *name = call->words ? call->word[0] : "step";
+  for (size_t i = 0; i < BENCHMARKS; i++)
+    if (!strcmp(name, benchmarks[i].name)) return benchmarks[i].run(call);
+  return refuse(call, "no benchmark '%s'; the nearest is '%s'", name,
+                nearest(name, name_at, NULL));
+}
+
+static const struct option options[] = {
+  {"--problems", WORD, "a,b,c", "workprec: instead of the usual ones"},
+  {"--methods", WORD, "a,b,c", "workprec: instead of the usual ones; baselines among them"},
+  {"--rtols", REALS, "a,b,c", "workprec: relative tolerances (default 1e-3, 1e-4 ... 1e-11)"},
+  {"--longest", POSITIVE, "S", "workprec: a solve ends after S processor seconds (default 2)"},
+  {"--runs", FLAG, NULL, "workprec: every run as well, not the best ones alone"},
+  {NULL, FLAG, NULL, NULL}};
+
+const struct verb verb_bench = {
+  "bench",
+  "Measure steps against their kernels, solves against CVODE, IDA, ARKODE",
+  "[step|workprec]",
+  0,
+  1,
+  options,
+  NULL,
+  run};

@@ -3,7 +3,7 @@
 #include "bench.h"
 #include <time.h>
 
-static sunrealtype now(void)
+sunrealtype stf_now(void)
 {
   struct timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -12,9 +12,9 @@ static sunrealtype now(void)
 
 static sunrealtype batch(void (*work)(void *), void *data, long count)
 {
-  const sunrealtype from = now();
+  const sunrealtype from = stf_now();
   for (long i = 0; i < count; i++) work(data);
-  return now() - from;
+  return stf_now() - from;
 }
 
 sunrealtype stf_time(void (*work)(void *data), void *data)

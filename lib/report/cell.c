@@ -11,13 +11,14 @@ static const struct {
   char conversion;
   int precision;
 } rules[] = {
-  {"error", 'e', 4},      {"residual", 'e', 3}, {"drift", 'e', 4},
-  {"defect", 'e', 3},     {"order", 'f', 2},    {"scd", 'f', 2},
-  {"mescd", 'f', 2},      {"digits", 'f', 2},   {"ratio", 'f', 2},
-  {"geomean", 'f', 2},    {"y", 'g', 12},       {"t", 'g', 10},
-  {"value", 'g', 15},     {"exact", 'g', 15},   {"x_plus", 'g', 12},
-  {"reference", 'g', 15}, {"cpu_s", 'g', 3},    {"baseline_cpu_s", 'g', 3},
-  {"alpha_deg", 'g', 10},
+  {"error", 'e', 4},      {"residual", 'e', 3},     {"drift", 'e', 4},
+  {"defect", 'e', 3},     {"order", 'f', 2},        {"scd", 'f', 2},
+  {"mescd", 'f', 2},      {"digits", 'f', 2},       {"ratio", 'f', 2},
+  {"geomean", 'f', 2},    {"y", 'g', 12},           {"t", 'g', 10},
+  {"value", 'g', 15},     {"exact", 'g', 15},       {"x_plus", 'g', 12},
+  {"reference", 'g', 15}, {"cpu_s", 'g', 3},        {"baseline_cpu_s", 'g', 3},
+  {"alpha_deg", 'g', 10}, {"auto_cpu_s", 'g', 3},   {"auto_ratio", 'f', 2},
+  {"peer_cpu_s", 'g', 3}, {"auto_geomean", 'f', 2}, {"peer_geomean", 'f', 2},
 };
 
 static void locate(const char *key, char *conversion, int *precision)
