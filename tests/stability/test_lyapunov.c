@@ -254,6 +254,43 @@ static void bad_questions_are_refused(void)
   CHECK(refused(&p, "gauss:s=2", good, "t =") < 0);
 }
 
+/* lambda(t) = L + D cos(2 pi m t / h) has the mean -1 and decays; with h = 0.1 the numbers grow or decay
+ * by where the stages see it. Rates by M(h lambda(t_n + c h)); 1/h ln R of the constant lambda = 1
+ * where all stages see 1. For m = 1 the claim of theorem 3.4 fails for nodes c that are not whole. */
+static void sampled_at_its_crests_a_decay_grows(void)
+{
+  static const struct {
+    const char *method;
+    double D;
+    int m;
+    double exponent, tolerance;
+  } row[] = {
+    {"be", 2, 1, 1.053605, 1e-6},
+    {"dirk:cranknicolson", 2, 1, 1.000835, 1e-6},
+    {"bdf:p=2", 2, 1, 1.003123, 1e-6},
+    {"bdf:p=6", 2, 1, 1.000000, 1e-6},
+    {"gauss:s=1", 2, 1, -3.0228, 1e-4},
+    {"gauss:s=1", 2, 2, 1.000835, 1e-6},
+    {"rk4", 2, 1, -1.7451, 1e-4},
+    {"rk4", 2, 2, 0.999999, 1e-6},
+    {"gauss:s=2", 2, 1, -0.5188, 1e-4},
+    {"gauss:s=2", 8.311912, 1, 1.000000, 1e-6},
+    {"radau:s=2", 2, 1, -1.2253, 1e-4},
+    {"radau:s=2", 2, 3, 0.999986, 1e-6},
+    {"dirk:alexander2", 2, 1, -0.7976, 1e-4},
+    {"dirk:alexander2", 2, 17, 0.9885, 1e-4},
+    {"dirk:alexander2", 2, 41, 0.9983, 1e-4},
+  };
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    const steif_lyapunov_options o = {.h = 0.1, .t1 = 60, .transient = 30};
+    char name[80];
+    double exponent = NAN;
+    snprintf(name, sizeof name, "aliased:D=%.17g,period=%.17g", row[i].D, 0.1 / row[i].m);
+    CHECK(exponents(name, row[i].method, &o, &exponent, NULL, NULL) == STEIF_OK);
+    CLOSE_FLOOR(exponent, row[i].exponent, row[i].tolerance, 1);
+  }
+}
+
 /* An allocator that fails at the k-th call. */
 typedef struct meter {
   long calls, fail_at, open;
@@ -305,6 +342,7 @@ CU_TestInfo tests_of_lyapunov[] = {
   {"an oscillator has the exponents 0 and 0", an_oscillator_has_the_exponents_zero},
   {"the Lorenz attractor has its published exponents", lorenz_has_its_exponents},
   {"the first exponents alone are those of all", the_first_exponents_are_those_of_all},
+  {"a decay sampled at its crests grows", sampled_at_its_crests_a_decay_grows},
   {"bad questions are refused with a sentence", bad_questions_are_refused},
   {"a failing allocation is reported and leaves nothing behind", hunger_is_reported},
   CU_TEST_INFO_NULL};
