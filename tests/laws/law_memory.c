@@ -18,20 +18,27 @@
 #define REPLACED 0
 #endif
 
-static long asked, fail_at; /* fail_at > 0: that allocation of the C library fails */
-
 #if REPLACED
+static long asked, fail_at; /* fail_at > 0: that allocation of the C library fails */
 void *__libc_malloc(size_t);
 void *__libc_calloc(size_t, size_t);
 void *__libc_realloc(void *, size_t);
 static int granted(void) { return ++asked != fail_at; }
 STEIF_EXPORT void *malloc(size_t size) { return granted() ? __libc_malloc(size) : NULL; }
-STEIF_EXPORT void *calloc(size_t n, size_t size) { return granted() ? __libc_calloc(n, size) : NULL; }
-STEIF_EXPORT void *realloc(void *p, size_t size) { return granted() ? __libc_realloc(p, size) : NULL; }
+STEIF_EXPORT void *calloc(size_t n, size_t size)
+{
+  return granted() ? __libc_calloc(n, size) : NULL;
+}
+STEIF_EXPORT void *realloc(void *p, size_t size)
+{
+  return granted() ? __libc_realloc(p, size) : NULL;
+}
 #endif
 
+#if REPLACED
 static const char *const problems[] = {"hires", "transamp", "heat:n=40", "medakzo",
                                        "jordan:k=3"};
+#endif
 
 static void stepping_allocates_nothing(void)
 {
