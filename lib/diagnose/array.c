@@ -1,10 +1,11 @@
-/* array.c: test D: the derivative array F_0 = ... = F_K = 0 in the Taylor coefficients z_0 .. z_{K+1}
- * of y, its Jacobian dF_k/dz_j = [F_y]_{k-j} + (j/tau) [F_y']_{k-j+1}.
+/* array.c: test D: the derivative array F_0 = ... = F_K = 0 in the Taylor coefficients z_0
+ * .. z_{K+1} of y, its Jacobian dF_k/dz_j = [F_y]_{k-j} + (j/tau) [F_y']_{k-j+1}.
  *
- * With M the columns of z_1 .. z_{K+1} and N those of z_0: y' is determined by K differentiations
- * when every null vector of M vanishes in z_1, and Z^T N with Z the left null space of M holds all
- * constraints on y. S. L. Campbell and C. W. Gear, Numer. Math. 72 (1995) 173-196; P. Kunkel and V.
- * Mehrmann, Differential-Algebraic Equations, EMS (2006).
+ * With M the columns of z_1 .. z_{K+1} and N those of z_0: y' is determined by K
+ * differentiations when every null vector of M vanishes in z_1, and Z^T N with Z the left
+ * null space of M holds all constraints on y. S. L. Campbell and C. W. Gear, Numer. Math.
+ * 72 (1995) 173-196; P. Kunkel and V. Mehrmann, Differential-Algebraic Equations, EMS
+ * (2006).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
@@ -215,7 +216,7 @@ int stf_array_find(stf_lens *lens, const stf_curve *curve, int deepest, stf_arra
   return code;
 }
 
-/* -- over tau ------------------------------------------------------------------------------------ */
+/* -- over tau ---------------------------------------------------------------------------- */
 
 static void copy(size_t n, const stf_array *from, stf_array *to)
 {

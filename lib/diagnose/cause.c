@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* -- accuracy ---------------------------------------------------------------------------------- */
+/* -- accuracy ---------------------------------------------------------------------------- */
 
 static void blame_tolerance(stf_case *c, size_t j)
 {
@@ -85,7 +85,7 @@ int stf_case_accuracy(stf_case *c)
   return code > 0 || code == STEIF_SINGULAR ? STEIF_OK : code;
 }
 
-/* -- order ----------------------------------------------------------------------------------------- */
+/* -- order ------------------------------------------------------------------------------- */
 
 /* F at the point and along the attempted step. */
 static int not_finite(stf_case *c)
@@ -164,7 +164,8 @@ static int look(stf_case *c)
   return c->cause->kind == STEIF_CAUSE_UNKNOWN ? nothing(c) : STEIF_OK;
 }
 
-/* A point where F or its derivatives are not finite cannot even be opened: that is the cause. */
+/* A point where F or its derivatives are not finite cannot even be opened: that is the
+ * cause. */
 static int examine(steif_context *ctx, const steif_problem *problem,
                    const steif_inquiry *inquiry, const steif_scene *scene, steif_cause *cause)
 {

@@ -1,8 +1,8 @@
-/* diagnose.h: what the diagnoses of nonlinear DAEs share: the problem seen in dense or sparse
- * matrices, Taylor coefficients along curves, and the three tests of the index.
+/* diagnose.h: what the diagnoses of nonlinear DAEs share: the problem seen in dense or
+ * sparse matrices, Taylor coefficients along curves, and the three tests of the index.
  *
- * Derivatives are kept as Taylor coefficients in sigma = (t - t*)/tau: y(sigma) = sum z_k sigma^k,
- * z_k = tau^k y^(k)/k!, F(sigma) = sum F_k sigma^k along that curve.
+ * Derivatives are kept as Taylor coefficients in sigma = (t - t*)/tau: y(sigma) = sum z_k
+ * sigma^k, z_k = tau^k y^(k)/k!, F(sigma) = sum F_k sigma^k along that curve.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_DIAGNOSE_H
@@ -54,11 +54,11 @@ int stf_diagnose_column(stf_lens *lens, char which, sunrealtype t, const sunreal
 /* Reproducible numbers in (-1, 1). */
 sunrealtype stf_diagnose_random(unsigned *state);
 
-/* -- sparse view (any n) -------------------------------------------------------------------- */
+/* -- sparse view (any n) ----------------------------------------------------------------- */
 
-/* E and B on the union of their patterns by columns; entries at rounding level are dropped. Each
- * call has the values of its point on the pattern of all points so far, for one of them may be a
- * zero of an entry. */
+/* E and B on the union of their patterns by columns; entries at rounding level are
+ * dropped. Each call has the values of its point on the pattern of all points so far, for
+ * one of them may be a zero of an entry. */
 typedef struct stf_view {
   size_t n;
   sunindextype *column, *row; /* n + 1, column[n] */
@@ -69,8 +69,8 @@ typedef struct stf_view {
 int stf_view_take(stf_lens *lens, sunrealtype t, const sunrealtype *y, const sunrealtype *yp,
                   stf_view *view);
 void stf_view_free(stf_lens *lens, stf_view *view);
-/* Rates |B|/|E| of the rows that have both, columns weighted by size: the smallest and the largest;
- * 1 without any. */
+/* Rates |B|/|E| of the rows that have both, columns weighted by size: the smallest and the
+ * largest; 1 without any. */
 void stf_view_rates(stf_lens *lens, const stf_view *view, sunrealtype *slowest,
                     sunrealtype *fastest);
 
@@ -78,14 +78,15 @@ void stf_view_rates(stf_lens *lens, const stf_view *view, sunrealtype *slowest,
 typedef struct stf_factor stf_factor;
 int stf_factor_open(stf_lens *lens, const stf_view *view, stf_factor **factor);
 void stf_factor_free(stf_factor **factor);
-/* P = s E + B, or with offsets c and d the system Jacobian, equilibrated. STEIF_SINGULAR is usual. */
+/* P = s E + B, or with offsets c and d the system Jacobian, equilibrated. STEIF_SINGULAR
+ * is usual. */
 int stf_factor_shift(stf_factor *f, const stf_view *view, sunrealtype s);
 int stf_factor_jacobian(stf_factor *f, const stf_view *view, const int *c, const int *d);
 int stf_factor_solve(stf_factor *f, bool transposed, sunrealtype *x);
 /* Reciprocal condition of the equilibrated matrix in the 1-norm (W. W. Hager 1984). */
 int stf_factor_rcond(stf_factor *f, sunrealtype *rcond);
 
-/* -- test S ------------------------------------------------------------------------------------ */
+/* -- test S ------------------------------------------------------------------------------ */
 
 typedef struct stf_structure {
   bool matched;
@@ -97,7 +98,7 @@ typedef struct stf_structure {
 } stf_structure;
 int stf_structure_find(stf_lens *lens, const stf_view *view, stf_structure *s);
 
-/* -- test G ------------------------------------------------------------------------------------ */
+/* -- test G ------------------------------------------------------------------------------ */
 
 typedef struct stf_growth {
   bool found, singular;     /* singular: at three shifts */
@@ -108,7 +109,7 @@ typedef struct stf_growth {
 int stf_growth_find(stf_lens *lens, const stf_view *view, stf_factor *f, const int *bound,
                     stf_growth *g);
 
-/* -- Taylor coefficients and test D ------------------------------------------------------------ */
+/* -- Taylor coefficients and test D ------------------------------------------------------ */
 
 /* Functionals of a fit through m nodes: weight[q * m + i] gives coefficient q <= order. */
 typedef struct stf_fit {
@@ -125,8 +126,8 @@ typedef struct stf_curve {
 } stf_curve;
 void stf_curve_at(const stf_curve *curve, size_t n, sunrealtype sigma, sunrealtype *y,
                   sunrealtype *yp);
-/* Coefficients F_0 .. F_order (rows of out) over nodes delta * node; tail (n, or NULL): size of the
- * last two Chebyshev coefficients. `values`: m n. */
+/* Coefficients F_0 .. F_order (rows of out) over nodes delta * node; tail (n, or NULL):
+ * size of the last two Chebyshev coefficients. `values`: m n. */
 int stf_curve_residual(stf_lens *lens, const stf_curve *curve, const stf_fit *fit,
                        sunrealtype delta, sunrealtype *values, sunrealtype *out,
                        sunrealtype *tail);
@@ -146,25 +147,28 @@ typedef struct stf_array {
 int stf_array_open(stf_lens *lens, stf_array *a);
 /* At the curve's point and tau, up to `deepest` differentiations. */
 int stf_array_find(stf_lens *lens, const stf_curve *curve, int deepest, stf_array *a);
-/* Over several tau between the time scales of the view; the one with the largest gap is kept. */
+/* Over several tau between the time scales of the view; the one with the largest gap is
+ * kept. */
 int stf_array_scan(stf_lens *lens, const stf_view *view, sunrealtype t, const sunrealtype *y,
                    const sunrealtype *yp, const sunrealtype *ypp, stf_array *a);
 /* The whole array: rows (K+1) n, columns (K+2) n for z_0 .. z_{K+1}. */
 void stf_array_fill(size_t n, int K, sunrealtype tau, const sunrealtype *E,
                     const sunrealtype *B, sunrealtype *D);
 
-/* -- dense algebra ------------------------------------------------------------------------------- */
+/* -- dense algebra ----------------------------------------------------------------------- */
 
-/* A = U diag(s) VT, all of U (m x m) and VT (n x n); A is destroyed. Workspace from the context. */
+/* A = U diag(s) VT, all of U (m x m) and VT (n x n); A is destroyed. Workspace from the
+ * context. */
 int stf_diagnose_svd(steif_context *ctx, size_t m, size_t n, sunrealtype *A, sunrealtype *s,
                      sunrealtype *U, sunrealtype *VT);
 /* Rank by the widest gap of s_0 >= s_1 >= ..., with `top` above and rounding of it below. */
 size_t stf_diagnose_rank(const sunrealtype *s, size_t count, sunrealtype top, sunrealtype *gap);
 
-/* -- start --------------------------------------------------------------------------------------- */
+/* -- start ------------------------------------------------------------------------------- */
 
-/* Least movement: minimise sum (weight_j (z_j - target_j))^2 subject to r(z) = 0 by Gauss-Newton with
- * damping; target NaN: stay near the current value. Rows need not be independent. */
+/* Least movement: minimise sum (weight_j (z_j - target_j))^2 subject to r(z) = 0 by Gauss-
+ * Newton with damping; target NaN: stay near the current value. Rows need not be
+ * independent. */
 typedef struct stf_move {
   steif_context *ctx;
   size_t rows, columns;
@@ -183,7 +187,8 @@ typedef struct stf_move {
 int stf_move_open(stf_pool *pool, stf_move *move);
 int stf_move_solve(stf_move *move);
 
-/* F and its derivatives along a curve, each order with the node distance that serves it best. */
+/* F and its derivatives along a curve, each order with the node distance that serves it
+ * best. */
 typedef struct stf_ladder {
   stf_lens *lens;
   stf_fit fit;
@@ -193,8 +198,8 @@ typedef struct stf_ladder {
   sunrealtype *values, *rows, *tail;
 } stf_ladder;
 int stf_ladder_open(stf_pool *pool, stf_lens *lens, int order, stf_ladder *ladder);
-/* Choose delta on this curve; scale: sizes of the terms of the equations; order[i] of equation i, or
- * NULL: all. */
+/* Choose delta on this curve; scale: sizes of the terms of the equations; order[i] of
+ * equation i, or NULL: all. */
 int stf_ladder_choose(stf_ladder *ladder, const stf_curve *curve, const sunrealtype *scale,
                       const int *order);
 /* out: (order + 1) x n Taylor coefficients by rows. */
@@ -217,7 +222,7 @@ sunrealtype stf_start_weight(const stf_task *task, size_t j);
 /* Claims the lists of *start from the pool in start->memory. */
 int stf_start_claim(steif_context *ctx, size_t n, steif_start *start);
 
-/* -- verdict ------------------------------------------------------------------------------------- */
+/* -- verdict ----------------------------------------------------------------------------- */
 
 /* What the tests said at the points looked at; lists are of the lens. */
 enum { STF_POINTS = 4 };
@@ -239,7 +244,7 @@ bool stf_evidence_certified(const stf_evidence *evidence);
 int stf_verdict(const stf_evidence *evidence, steif_diagnosis *d);
 int stf_diagnosis_claim(steif_context *ctx, size_t n, steif_diagnosis *d);
 
-/* -- causes of a failure --------------------------------------------------------------------------- */
+/* -- causes of a failure ----------------------------------------------------------------- */
 
 typedef struct stf_case {
   stf_lens *lens;           /* at the last accepted point */
@@ -262,8 +267,8 @@ int stf_case_ringing(stf_case *c);
 int stf_case_index(stf_case *c);
 /* The diagnosis at the last accepted point. */
 int stf_case_diagnose(stf_case *c);
-/* Noise of F around the point (J. J. More and S. M. Wild, SIAM J. Sci. Comput. 33, 2011); 0 where
- * none is seen. */
+/* Noise of F around the point (J. J. More and S. M. Wild, SIAM J. Sci. Comput. 33, 2011);
+ * 0 where none is seen. */
 int stf_case_noise(stf_case *c);
 
 #endif

@@ -1,5 +1,6 @@
-/* evidence.c: the three tests of the index at several points: the one given, a consistent one where
- * the structure offers it, and two moved by about a percent of each component, the last in time too.
+/* evidence.c: the three tests of the index at several points: the one given, a consistent
+ * one where the structure offers it, and two moved by about a percent of each component,
+ * the last in time too.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
 #include <math.h>
@@ -18,7 +19,8 @@ static int open_point(stf_evidence *e, int k)
   return stf_array_open(e->lens, &e->at[k].array);
 }
 
-/* Move y, y' and y'' by `part` of their sizes; zeros move by a tenth of that, of their floor. */
+/* Move y, y' and y'' by `part` of their sizes; zeros move by a tenth of that, of their
+ * floor. */
 static void move(const stf_lens *s, sunrealtype part, sunrealtype rate, unsigned *seed,
                  sunrealtype *y, sunrealtype *yp, sunrealtype *ypp)
 {

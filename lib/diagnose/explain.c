@@ -1,5 +1,5 @@
-/* explain.c: why did a run fail. Each test assumes that those before it found nothing: a jump looks
- * like a wrong Jacobian, and noise looks like either.
+/* explain.c: why did a run fail. Each test assumes that those before it found nothing: a
+ * jump looks like a wrong Jacobian, and noise looks like either.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
 #include <math.h>
@@ -14,7 +14,7 @@ int stf_case_diagnose(stf_case *c)
   return stf_verdict(&c->evidence, &c->diagnosis);
 }
 
-/* -- Jacobian -------------------------------------------------------------------------------------- */
+/* -- Jacobian ---------------------------------------------------------------------------- */
 
 static const sunrealtype wrong = 1e-3; /* relative defect of an entry */
 
@@ -102,7 +102,7 @@ int stf_case_jacobian(stf_case *c)
   return code < 0 ? code : STEIF_OK;
 }
 
-/* -- singular, start, index -------------------------------------------------------------------------- */
+/* -- singular, start, index -------------------------------------------------------------- */
 
 int stf_case_singular(stf_case *c)
 {

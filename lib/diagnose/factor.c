@@ -1,6 +1,6 @@
-/* factor.c: s E + F_y or the system Jacobian, equilibrated by powers of two and factored with its
- * transpose; solutions are refined twice, the condition is estimated from a few of them.
- * W. W. Hager, SIAM J. Sci. Stat. Comput. 5 (1984) 311-316.
+/* factor.c: s E + F_y or the system Jacobian, equilibrated by powers of two and factored
+ * with its transpose; solutions are refined twice, the condition is estimated from a few
+ * of them. W. W. Hager, SIAM J. Sci. Stat. Comput. 5 (1984) 311-316.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
 #include <math.h>
@@ -110,7 +110,8 @@ void stf_factor_free(stf_factor **f)
   stf_pool_free(&pool);
 }
 
-/* Three sweeps of rows, then columns, towards largest entries in [1/2, 1]. False: an empty one. */
+/* Three sweeps of rows, then columns, towards largest entries in [1/2, 1]. False: an empty
+ * one. */
 static bool equilibrate(stf_factor *f)
 {
   const sunindextype *ptr = SM_INDEXPTRS_S(f->P[0]), *row = SM_INDEXVALS_S(f->P[0]);

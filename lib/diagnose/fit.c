@@ -1,6 +1,6 @@
-/* fit.c: Taylor coefficients of F, E and F_y along a polynomial curve, from values at Chebyshev
- * nodes: interpolate in T_0 .. T_{m-1} and read off the powers of sigma. The last coefficients of
- * the T_k tell how far the interpolant is from F.
+/* fit.c: Taylor coefficients of F, E and F_y along a polynomial curve, from values at
+ * Chebyshev nodes: interpolate in T_0 .. T_{m-1} and read off the powers of sigma. The
+ * last coefficients of the T_k tell how far the interpolant is from F.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
 #include <math.h>
@@ -65,7 +65,7 @@ int stf_curve_residual(stf_lens *s, const stf_curve *c, const stf_fit *fit, sunr
   return STEIF_OK;
 }
 
-/* -- matrices -------------------------------------------------------------------------------- */
+/* -- matrices ---------------------------------------------------------------------------- */
 
 /* E and F_y at the nodes: m matrices E, then m matrices F_y. */
 static int sample(stf_lens *s, const stf_curve *c, const stf_fit *fit, sunrealtype delta,

@@ -1,9 +1,9 @@
 /* growth.c: test G: with which powers of s do rows and columns of (s E - A)^{-1} grow.
  *
- * Row j of the inverse applied to random vectors at s and 4 s: log_4 of the ratio is the degree r_j
- * once s is beyond the finite eigenvalues. 1 + max r_j is the Kronecker index, 1 + r_j the number
- * of unknown j, and a column of degree q_i >= 1 belongs to an equation that is differentiated q_i
- * times on the way to the solution.
+ * Row j of the inverse applied to random vectors at s and 4 s: log_4 of the ratio is the
+ * degree r_j once s is beyond the finite eigenvalues. 1 + max r_j is the Kronecker index,
+ * 1 + r_j the number of unknown j, and a column of degree q_i >= 1 belongs to an equation
+ * that is differentiated q_i times on the way to the solution.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"

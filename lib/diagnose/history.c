@@ -23,7 +23,7 @@ static sunrealtype misfit(size_t count, const sunrealtype *t, const sunrealtype 
   return high > low && slope < 0 ? worst / (high - low) : INFINITY;
 }
 
-/* -- blow-up ----------------------------------------------------------------------------------- */
+/* -- blow-up ----------------------------------------------------------------------------- */
 
 static const sunrealtype spacing = 1.5, least_growth = 20, blow_up_misfit = 0.05,
                          blow_up_distance = 1e-6;
@@ -79,7 +79,7 @@ int stf_case_blow_up(stf_case *c)
   return STEIF_OK;
 }
 
-/* -- impasse ------------------------------------------------------------------------------------- */
+/* -- impasse ----------------------------------------------------------------------------- */
 
 static const sunrealtype beyond = 1e9, impasse_spacing = 1.3, impasse_growth = 30,
                          impasse_misfit = 0.2;
@@ -108,7 +108,8 @@ typedef struct track {
   sunrealtype t[POINTS], N[POINTS];
 } track;
 
-/* Follow N backward through the history, keeping points where it fell by `impasse_spacing`. */
+/* Follow N backward through the history, keeping points where it fell by
+ * `impasse_spacing`. */
 static int follow(stf_case *c, stf_view *v, stf_factor *f, sunrealtype s,
                   const sunrealtype *unit, track *p)
 {
@@ -189,10 +190,10 @@ int stf_case_impasse(stf_case *c)
   return code > 0 ? STEIF_OK : code;
 }
 
-/* -- ringing ------------------------------------------------------------------------------------- */
+/* -- ringing ----------------------------------------------------------------------------- */
 
-/* Share of sign changes among the differences of y_j' of the last steps; *size: their mean times the
- * step, in weights. */
+/* Share of sign changes among the differences of y_j' of the last steps; *size: their mean
+ * times the step, in weights. */
 static sunrealtype alternation(const stf_case *c, size_t j, sunrealtype *size)
 {
   const steif_scene *s = c->scene;

@@ -1,6 +1,6 @@
-/* ladder.c: F and its derivatives along a curve. Order 0 is F itself; the others are fitted through
- * nodes whose distance is chosen, for each order, to balance what the interpolant misses against
- * rounding: (tail + eps scale) / delta^order is made small.
+/* ladder.c: F and its derivatives along a curve. Order 0 is F itself; the others are
+ * fitted through nodes whose distance is chosen, for each order, to balance what the
+ * interpolant misses against rounding: (tail + eps scale) / delta^order is made small.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
 #include <math.h>
@@ -19,7 +19,8 @@ int stf_ladder_open(stf_pool *pool, stf_lens *lens, int order, stf_ladder *l)
   return l->values && l->rows && l->tail ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-/* The largest error of an equation of this order, relative to its terms; negative: none has it. */
+/* The largest error of an equation of this order, relative to its terms; negative: none
+ * has it. */
 static sunrealtype error(const stf_ladder *l, const sunrealtype *scale, const int *order, int p,
                          sunrealtype delta)
 {

@@ -1,7 +1,7 @@
 /* lens.c: a problem at a point: residual, dense E = F_y' and B = F_y, names, sentences.
  *
- * Without Jacobian callbacks: differences of order 4, (8 (F(x+h) - F(x-h)) - F(x+2h) + F(x-2h))/12h,
- * with h and h/16 compared.
+ * Without Jacobian callbacks: differences of order 4, (8 (F(x+h) - F(x-h)) - F(x+2h) +
+ * F(x-2h))/12h, with h and h/16 compared.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
@@ -13,7 +13,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-/* -- opening --------------------------------------------------------------------------------- */
+/* -- opening ----------------------------------------------------------------------------- */
 
 static int check_inquiry(steif_context *ctx, const steif_problem *p, const steif_inquiry *q)
 {
@@ -105,7 +105,7 @@ int stf_diagnose_open(steif_context *ctx, const steif_problem *problem, const st
 
 void stf_diagnose_close(stf_lens *s) { stf_pool_free(&s->pool); }
 
-/* -- words ----------------------------------------------------------------------------------- */
+/* -- words ------------------------------------------------------------------------------- */
 
 const char *stf_diagnose_equation(const stf_lens *s, size_t i, char *room)
 {
@@ -155,7 +155,7 @@ sunrealtype stf_diagnose_random(unsigned *state)
   return ((sunrealtype)(*state >> 8) + 0.5) / 8388608 - 1;
 }
 
-/* -- values ---------------------------------------------------------------------------------- */
+/* -- values ------------------------------------------------------------------------------ */
 
 static bool finite(const sunrealtype *x, size_t n)
 {

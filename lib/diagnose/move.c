@@ -2,8 +2,9 @@
  *
  *   minimise ||W (z - target)||  subject to  J dz = -r,
  *
- * each step by the singular value decomposition of the row-scaled J W^{-1}, damped while r does
- * not fall. P. Deuflhard, Newton Methods for Nonlinear Problems, Springer (2004), 4.4.
+ * each step by the singular value decomposition of the row-scaled J W^{-1}, damped while r
+ * does not fall. P. Deuflhard, Newton Methods for Nonlinear Problems, Springer (2004),
+ * 4.4.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"

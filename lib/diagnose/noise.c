@@ -1,6 +1,5 @@
-/* noise.c: noise of F from difference tables along a random line, and jumps of F along the predicted
- * path.
- * J. J. More and S. M. Wild, SIAM J. Sci. Comput. 33 (2011) 1292-1314.
+/* noise.c: noise of F from difference tables along a random line, and jumps of F along the
+ * predicted path. J. J. More and S. M. Wild, SIAM J. Sci. Comput. 33 (2011) 1292-1314.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
 #include <math.h>
@@ -26,7 +25,8 @@ static bool one_jump(const sunrealtype *F)
   return d[LINE - 2] > 10 * d[LINE / 2];
 }
 
-/* sigma_k^2 = gamma_k mean (k-th differences)^2, gamma_k = k!^2/(2k)!; levels 4 .. 6 must agree. */
+/* sigma_k^2 = gamma_k mean (k-th differences)^2, gamma_k = k!^2/(2k)!; levels 4 .. 6 must
+ * agree. */
 static sunrealtype level_noise(const sunrealtype *F, size_t n)
 {
   sunrealtype d[LINE], gamma = 1, low = INFINITY, high = 0, middle = 0;
@@ -70,7 +70,7 @@ int stf_case_noise(stf_case *c)
   return code < 0 ? code : STEIF_OK;
 }
 
-/* -- jumps ----------------------------------------------------------------------------------------- */
+/* -- jumps ------------------------------------------------------------------------------- */
 
 typedef struct path {
   stf_case *c;
@@ -110,7 +110,8 @@ static size_t outstanding(const path *p, size_t *at, sunrealtype *middle)
   return equation;
 }
 
-/* Halve [a, b] around the larger increment of equation i, down to neighbouring times; its size. */
+/* Halve [a, b] around the larger increment of equation i, down to neighbouring times; its
+ * size. */
 static int bisect(path *p, size_t i, sunrealtype *a, sunrealtype *b, sunrealtype *size)
 {
   const size_t n = p->c->lens->n;

@@ -7,8 +7,8 @@
 #include <string.h>
 
 static const sunrealtype proximal = 1e-3; /* weight of derivatives, which have no guess */
-/* Residuals over the terms of their equations: not fulfilled; fulfilled so well that an unfinished
- * search for the nearest point is good enough. */
+/* Residuals over the terms of their equations: not fulfilled; fulfilled so well that an
+ * unfinished search for the nearest point is good enough. */
 static const sunrealtype violated = 1e-6, fulfilled = 1e-10;
 
 typedef struct stage_work {
@@ -116,15 +116,15 @@ static void prepare(stage_work *w, stf_move *m)
   }
 }
 
-/* -- what went wrong ------------------------------------------------------------------------------- */
+/* -- what went wrong --------------------------------------------------------------------- */
 
 static bool occurs(const stage_work *w, size_t i, size_t j)
 {
   return w->E[j * w->n + i] != 0 || w->B[j * w->n + i] != 0;
 }
 
-/* Equations that the fixed values contradict: those with a part in a combination of rows that no
- * unknown of the stage can change and that is not zero. */
+/* Equations that the fixed values contradict: those with a part in a combination of rows
+ * that no unknown of the stage can change and that is not zero. */
 static int conflict(stage_work *w, const stf_move *m, sunrealtype size)
 {
   stf_lens *lens = w->task->lens;
@@ -195,7 +195,7 @@ static int singular(stage_work *w, const stf_move *m, size_t worst)
     shown ? text : "more values");
 }
 
-/* -- one stage --------------------------------------------------------------------------------------- */
+/* -- one stage --------------------------------------------------------------------------- */
 
 /* Largest residual against the terms of its equation; *worst names the row. */
 static sunrealtype leftover(const stage_work *w, const stf_move *m, size_t *worst)

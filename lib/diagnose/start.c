@@ -1,5 +1,5 @@
-/* start.c: consistent start values: by stages where the structure is certified, else from the whole
- * derivative array, in passes over the numbers of the unknowns.
+/* start.c: consistent start values: by stages where the structure is certified, else from
+ * the whole derivative array, in passes over the numbers of the unknowns.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
 #include <math.h>
@@ -55,7 +55,7 @@ int stf_start_scale(stf_task *task)
   return STEIF_OK;
 }
 
-/* -- report ------------------------------------------------------------------------------------ */
+/* -- report ------------------------------------------------------------------------------ */
 
 static void list_moved(const stf_task *task, char *text)
 {
@@ -114,7 +114,7 @@ static void report(const stf_task *task, const sunrealtype *residual)
   }
 }
 
-/* -- choice of the way --------------------------------------------------------------------------- */
+/* -- choice of the way ------------------------------------------------------------------- */
 
 /* The best array that closes, with numbers by growth or else its own. */
 static int by_array(stf_task *task, const stf_evidence *e)

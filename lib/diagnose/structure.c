@@ -1,13 +1,14 @@
 /* structure.c: test S: offsets of equations and unknowns from where y and y' occur.
  *
- * sigma_ij = 1 where y_j' occurs in F_i, 0 where only y_j does. A perfect matching T of largest
- * weight by the primal-dual method, with integer duals c_i, d_j >= 0, d_j - c_i >= sigma_ij and
- * equality on T; then the smallest such duals by sweeps from c = 0. If J_ij = dF_i/dy_j^(d_j - c_i)
- * is regular, y_j^(d_j) follows from equations differentiated c_i times. The index is at most the
- * largest c_i + (1 if d_j = 0) over the pairs where y_j depends on equation i at all. From
- * s^c (s E - A) s^-d = J + O(1/s) the number of unknown j is at most 1 + c_i - d_j where it depends
- * on i through J, and c_i - d_j where it does otherwise.
- * J. D. Pryce, BIT 41 (2001) 364-394; A. L. Dulmage and N. S. Mendelsohn, Canad. J. Math. 10 (1958).
+ * sigma_ij = 1 where y_j' occurs in F_i, 0 where only y_j does. A perfect matching T of
+ * largest weight by the primal-dual method, with integer duals c_i, d_j >= 0, d_j - c_i >=
+ * sigma_ij and equality on T; then the smallest such duals by sweeps from c = 0. If J_ij =
+ * dF_i/dy_j^(d_j - c_i) is regular, y_j^(d_j) follows from equations differentiated c_i
+ * times. The index is at most the largest c_i + (1 if d_j = 0) over the pairs where y_j
+ * depends on equation i at all. From s^c (s E - A) s^-d = J + O(1/s) the number of unknown
+ * j is at most 1 + c_i - d_j where it depends on i through J, and c_i - d_j where it does
+ * otherwise. J. D. Pryce, BIT 41 (2001) 364-394; A. L. Dulmage and N. S. Mendelsohn,
+ * Canad. J. Math. 10 (1958).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
@@ -112,7 +113,8 @@ static void forget(graph *g, size_t count)
   }
 }
 
-/* Match as many equations as open edges allow; with duals, all of them. Rows that are left keep -1. */
+/* Match as many equations as open edges allow; with duals, all of them. Rows that are left
+ * keep -1. */
 static size_t match(graph *g)
 {
   size_t matched = 0;
@@ -132,8 +134,8 @@ static size_t match(graph *g)
   return matched;
 }
 
-/* Equations reached from unmatched ones hold fewer unknowns than they are; unknowns reached from
- * unmatched ones occur in fewer equations. */
+/* Equations reached from unmatched ones hold fewer unknowns than they are; unknowns
+ * reached from unmatched ones occur in fewer equations. */
 static void name_violators(graph *g, stf_structure *s)
 {
   size_t count = 0, from = 0;
@@ -171,7 +173,7 @@ static void smallest_offsets(graph *g)
   }
 }
 
-/* -- dependence: strongly connected components in reverse topological order (Tarjan) -------------- */
+/* -- dependence: strongly connected components in reverse topological order (Tarjan) ----- */
 
 typedef struct walk {
   sunindextype *low, *order, *stack, *path, *edge;

@@ -1,4 +1,5 @@
-/* verdict.c: one verdict out of structure, growth and array at all points, and how sure it is.
+/* verdict.c: one verdict out of structure, growth and array at all points, and how sure it
+ * is.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
 #include <math.h>
@@ -40,14 +41,15 @@ static summary summarise(const stf_evidence *e)
   return s;
 }
 
-/* -- lists ------------------------------------------------------------------------------------- */
+/* -- lists ------------------------------------------------------------------------------- */
 
 static void raise(int *to, int value)
 {
   if (value > *to) *to = value;
 }
 
-/* Numbers and differentiations: from the growth, else from the array, else from the structure. */
+/* Numbers and differentiations: from the growth, else from the array, else from the
+ * structure. */
 static void fill_lists(const summary *s, steif_diagnosis *d)
 {
   const stf_evidence *e = s->e;
@@ -91,7 +93,7 @@ static void fill_freedom(const summary *s, steif_diagnosis *d)
   }
 }
 
-/* -- decisions --------------------------------------------------------------------------------- */
+/* -- decisions --------------------------------------------------------------------------- */
 
 static void set(steif_diagnosis *d, enum steif_verdict verdict,
                 enum steif_confidence confidence, int index)
@@ -157,7 +159,7 @@ static void decide(const summary *s, steif_diagnosis *d)
     set(d, STEIF_RANGE, STEIF_UNDECIDED, -1);
 }
 
-/* -- sentence ------------------------------------------------------------------------------------ */
+/* -- sentence ---------------------------------------------------------------------------- */
 
 static bool any(const int *flag, size_t n, int least)
 {

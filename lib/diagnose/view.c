@@ -33,7 +33,7 @@ static int claim(stf_lens *s, stf_view *v, size_t room)
   return STEIF_NO_MEMORY;
 }
 
-/* -- one column at a time, from matrices or from the old view ------------------------------------ */
+/* -- one column at a time, from matrices or from the old view ---------------------------- */
 
 typedef struct accumulator {
   size_t n, count;
@@ -71,7 +71,8 @@ static void add(accumulator *a, SUNMatrix M, size_t j, int which, sunrealtype si
   }
 }
 
-/* Sources of columns: dense arrays for small problems, the system's matrices for large ones. */
+/* Sources of columns: dense arrays for small problems, the system's matrices for large
+ * ones. */
 typedef struct source {
   stf_lens *lens;
   const sunrealtype *E, *B;
@@ -174,7 +175,7 @@ static void assemble(const source *from, accumulator *a, const stf_view *old, st
   v->column[a->n] = used;
 }
 
-/* -- taking -------------------------------------------------------------------------------------- */
+/* -- taking ------------------------------------------------------------------------------ */
 
 static int take(stf_lens *s, const source *from, accumulator *a, stf_view *v)
 {

@@ -1,6 +1,6 @@
-/* whole.c: consistent start values from the whole derivative array F_0 = ... = F_K = 0, K the index,
- * where the structure cannot order the equations. Components of number 1 move least; with them
- * fixed those of number 2, and so on.
+/* whole.c: consistent start values from the whole derivative array F_0 = ... = F_K = 0, K
+ * the index, where the structure cannot order the equations. Components of number 1 move
+ * least; with them fixed those of number 2, and so on.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "diagnose.h"
 #include <math.h>

@@ -1,8 +1,8 @@
-/* models.c: definitions of the small DAEs. Sources: Hessenberg forms, circuits and reactors of usual
- * shape; Jay: L. Jay, BIT 33 (1993); Gear and Petzold, SIAM J. Numer. Anal. 21 (1984); the pair ltva
- * and ltvb: Kunkel and Mehrmann, Differential-Algebraic Equations (2006), examples 3.1 and 3.2;
- * over4, over5: 0/1 instances in the manner of Reissig, Martinson and Barton, SIAM J. Sci. Comput. 21
- * (2000).
+/* models.c: definitions of the small DAEs. Sources: Hessenberg forms, circuits and
+ * reactors of usual shape; Jay: L. Jay, BIT 33 (1993); Gear and Petzold, SIAM J. Numer.
+ * Anal. 21 (1984); the pair ltva and ltvb: Kunkel and Mehrmann, Differential-Algebraic
+ * Equations (2006), examples 3.1 and 3.2; over4, over5: 0/1 instances in the manner of
+ * Reissig, Martinson and Barton, SIAM J. Sci. Comput. 21 (2000).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "models.h"
 #include <math.h>

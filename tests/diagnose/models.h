@@ -1,5 +1,6 @@
-/* models.h: small DAEs F(t, y, y') = 0 written once in complex arithmetic; E and F_y follow exactly
- * by complex steps (J. N. Lyness and C. B. Moler, SIAM J. Numer. Anal. 4, 1967).
+/* models.h: small DAEs F(t, y, y') = 0 written once in complex arithmetic; E and F_y
+ * follow exactly by complex steps (J. N. Lyness and C. B. Moler, SIAM J. Numer. Anal. 4,
+ * 1967).
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef MODELS_H
 #define MODELS_H

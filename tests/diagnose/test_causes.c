@@ -1,4 +1,5 @@
-/* test_causes.c: constructed failures of a toy stepper, and healthy runs, each with its cause.
+/* test_causes.c: constructed failures of a toy stepper, and healthy runs, each with its
+ * cause.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "models.h"
 #include "suite.h"

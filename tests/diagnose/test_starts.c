@@ -82,8 +82,8 @@ static void published_starts(void)
   end(&r);
 }
 
-/* Closed solutions of the models at their start; guesses wrong by some percent where the start is
- * determined anyway. */
+/* Closed solutions of the models at their start; guesses wrong by some percent where the
+ * start is determined anyway. */
 static void closed_starts(void)
 {
   static const char *const names[] = {"hess2", "jay3", "cstr", "reactors"};
@@ -129,7 +129,7 @@ static void circuits(void)
   end(&r);
 }
 
-/* -- moved guesses ------------------------------------------------------------------------------- */
+/* -- moved guesses ----------------------------------------------------------------------- */
 
 /* Radial projection of the position, then tangential of the velocity [closed form]. */
 static void pendulum_moves_least(void)
@@ -225,7 +225,7 @@ static void two_branches(void)
   }
 }
 
-/* -- fixed ----------------------------------------------------------------------------------------- */
+/* -- fixed ------------------------------------------------------------------------------- */
 
 static void fixed_values(void)
 {

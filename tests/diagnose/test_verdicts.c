@@ -1,4 +1,5 @@
-/* test_verdicts.c: index, degrees of freedom, numbers and offending equations of known problems.
+/* test_verdicts.c: index, degrees of freedom, numbers and offending equations of known
+ * problems.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "models.h"
 #include "suite.h"
@@ -51,8 +52,9 @@ static void compare(steif_context *ctx, const steif_problem *p, const steif_inqu
   steif_diagnosis_clear(&d);
 }
 
-/* Differentiation index, degrees of freedom, perturbation numbers: closed forms or Hessenberg
- * theory (Hairer, Lubich and Roche 1989); pendulum, caraxis, transamp, chemakzo: IVP Test Set. */
+/* Differentiation index, degrees of freedom, perturbation numbers: closed forms or
+ * Hessenberg theory (Hairer, Lubich and Roche 1989); pendulum, caraxis, transamp,
+ * chemakzo: IVP Test Set. */
 static const expected local[] = {
   {"ode4", 0, 4, "1111", "0000"},    {"hess2", 2, 1, "112", "001"},
   {"jay3", 3, 2, "11223", "11002"},  {"cstr", 3, 0, "1223", "1012"},
@@ -124,7 +126,8 @@ static void structure_over_and_under_estimates(void)
   steif_context_free(&ctx);
 }
 
-/* Where y_j' is determined at once: all but lambda of the pendulum; U3 and U6 of the amplifier. */
+/* Where y_j' is determined at once: all but lambda of the pendulum; U3 and U6 of the
+ * amplifier. */
 static void differentiations_of_each_unknown(void)
 {
   static const struct {

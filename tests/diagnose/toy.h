@@ -18,7 +18,8 @@ typedef struct toy {
   double error[TOY_LARGEST];
 } toy;
 
-/* From y, yp at the start of the problem (NULL: its own). 0, or < 0 when it could not begin. */
+/* From y, yp at the start of the problem (NULL: its own). 0, or < 0 when it could not
+ * begin. */
 int toy_run(steif_context *ctx, const steif_problem *p, const double *y, const double *yp,
             toy *r);
 /* The cause of its end; the inquiry is completed with the last point. */

@@ -17,6 +17,7 @@ static double scatter(double x)
 }
 
 RESIDUAL(square) { (void)t, r[0] = yp[0] - y[0] * y[0]; }
+
 RESIDUAL(exponential) { (void)t, r[0] = yp[0] - cexp(y[0]); }
 
 RESIDUAL(coupled)
@@ -45,7 +46,8 @@ RESIDUAL(algebraic_jump)
   r[1] = y[1] + y[0] - (t < .4371 ? cos(t) : cos(t) + .7);
 }
 
-RESIDUAL(voltage_step) /* e1, e2, jV as in the circuit with a loop, units of 1 */
+/* e1, e2, jV as in the circuit with a loop, units of 1 */
+RESIDUAL(voltage_step)
 {
   r[0] = yp[0] + y[0] - y[1] + y[2];
   r[1] = y[1] - y[0] + yp[1];
@@ -103,13 +105,15 @@ RESIDUAL(wrong_by_four)
   r[1] = y[1] + y[1] * y[1] * y[1] - 2 * y[0] - sin(t);
 }
 
-RESIDUAL(ungrounded) /* a current between two nodes that nothing ties to the ground */
+/* a current between two nodes that nothing ties to the ground */
+RESIDUAL(ungrounded)
 {
   r[0] = yp[0] - yp[1] + y[0] - y[1] - sin(t);
   r[1] = yp[1] - yp[0] + y[1] - y[0] + sin(t);
 }
 
-RESIDUAL(amplifier) /* node 1 of the amplifier with its coupling capacitor */
+/* node 1 of the amplifier with its coupling capacitor */
+RESIDUAL(amplifier)
 {
   r[0] = 1e-6 * (yp[0] - yp[1]) + (y[0] - .1 * sin(628 * t)) / 1e3;
   r[1] = 1e-6 * (yp[1] - yp[0]) + y[1] / 9e3 + 1e-6 * (cexp(y[1] / .3) - 1);
@@ -124,6 +128,7 @@ RESIDUAL(root)
 }
 
 RESIDUAL(growing) { (void)t, r[0] = yp[0] - 5 * y[0]; }
+
 RESIDUAL(oscillator) { (void)t, r[0] = yp[0] - y[1], r[1] = yp[1] + 25 * y[0]; }
 
 RESIDUAL(front)

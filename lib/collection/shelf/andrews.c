@@ -1,11 +1,11 @@
-/* andrews.c: Andrews' squeezing mechanism, seven rigid bodies that move in a plane without friction
- * under a motor and a spring. Angles q = (beta, Theta, gamma, Phi, delta, Omega, epsilon), velocities
- * v, accelerations w and six multipliers, index 3:
+/* andrews.c: Andrews' squeezing mechanism, seven rigid bodies that move in a plane without
+ * friction under a motor and a spring. Angles q = (beta, Theta, gamma, Phi, delta, Omega,
+ * epsilon), velocities v, accelerations w and six multipliers, index 3:
  *
  *   q' = v,  v' = w,  0 = M(q) w + G(q)^T lambda - F(q, v),  0 = g(q),  G = dg/dq
  *
- * W. Schiehlen (ed.), Multibody Systems Handbook, Springer (1990); Hairer and Wanner (1996), VII.7;
- * IVP Test Set.
+ * W. Schiehlen (ed.), Multibody Systems Handbook, Springer (1990); Hairer and Wanner
+ * (1996), VII.7; IVP Test Set.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"

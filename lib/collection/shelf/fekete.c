@@ -1,12 +1,13 @@
-/* fekete.c: elliptic Fekete points: 20 bodies on the unit sphere that repel each other with the force
- * d/|d|^2 and are damped come to rest where the product of their distances is largest. Positions p,
- * velocities q, multipliers lambda of the sphere and mu of its tangent (stabilised, index 2):
+/* fekete.c: elliptic Fekete points: 20 bodies on the unit sphere that repel each other
+ * with the force d/|d|^2 and are damped come to rest where the product of their distances
+ * is largest. Positions p, velocities q, multipliers lambda of the sphere and mu of its
+ * tangent (stabilised, index 2):
  *
  *   p_i' = q_i + 2 mu_i p_i,  q_i' = -q_i/2 + 2 lambda_i p_i + sum_j (p_i - p_j)/|p_i - p_j|^2,
  *   0 = |p_i|^2 - 1,  0 = 2 p_i . q_i
  *
- * W. J. H. Stortelder, J. J. B. de Swart, J. D. Pinter, J. Comput. Appl. Math. 130 (2001); IVP Test
- * Set.
+ * W. J. H. Stortelder, J. J. B. de Swart, J. D. Pinter, J. Comput. Appl. Math. 130 (2001);
+ * IVP Test Set.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"
