@@ -96,6 +96,7 @@ static void open_newton(steif_solver *s)
   const steif_options *o = &s->options;
   const bool adaptive = s->step.adaptive;
   newton->tolerance = o->newton > 0 ? o->newton : adaptive ? 1e-2 : 1e-3;
+  newton->rounding = adaptive ? 10 * STF_EPS / o->rtol : 100 * newton->tolerance;
   newton->iterations = o->iterations ? o->iterations : adaptive ? 10 : 30;
   newton->stale = adaptive ? 1e-3 : 0.1;
   newton->eta_least = adaptive ? 0 : 1e-2;

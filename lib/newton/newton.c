@@ -155,15 +155,22 @@ static int sweep(stf_newton *newton, const stf_stages *g, sunrealtype *norm)
   return STEIF_OK;
 }
 
+/* The first component of s vectors that is not finite, or -1. */
+static sunindextype not_finite(const stf_newton *newton, N_Vector *v)
+{
+  sunindextype i = -1;
+  for (int j = 0; j < newton->split.s && i < 0; j++) i = stf_not_finite(v[j]);
+  return i;
+}
+
 static int refuse(stf_newton *newton, const stf_stages *g, int iterations, sunrealtype norm,
                   sunrealtype theta)
 {
   steif_context *ctx = newton->system->ctx;
   newton->fails++, newton->wanted = true, newton->eta = 1;
   if (!isfinite(norm)) {
-    N_Vector *v = newton->system->linear ? g->Z : newton->dZ;
-    sunindextype i = -1;
-    for (int j = 0; j < newton->split.s && i < 0; j++) i = stf_not_finite(v[j]);
+    sunindextype i = not_finite(newton, newton->residual);
+    if (i < 0) i = not_finite(newton, newton->system->linear ? g->Z : newton->dZ);
     return STEIF_RECOVER(
       ctx, STEIF_NOT_FINITE,
       "a stage of problem '%s' is not finite (component %lld) in the step from "
