@@ -8,6 +8,7 @@
 #include <steif/collection.h>
 #include <steif/descriptor.h>
 #include <steif/diagnose.h>
+#include <steif/discrete.h>
 #include <steif/energy.h>
 #include <steif/impulse.h>
 #include <steif/input.h>
