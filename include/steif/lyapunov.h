@@ -44,9 +44,10 @@ typedef struct steif_lyapunov_facts {
   sunrealtype mu;        /* largest running average of the first exponent in the second half */
 } steif_lyapunov_facts;
 
-/* exponent: count values, descending by construction. interval (may be NULL): count pairs, the
- * smallest and largest average over a window, estimates of the Sacker-Sell spectrum. Costs of a
- * step are constant. STEIF_NOT_FINITE when the solution blows up or a direction is lost. */
+/* exponent: count values in the order of QR, which descends as the run grows. interval (may be
+ * NULL): count pairs, the smallest and largest average over a window, estimates of the Sacker-Sell
+ * spectrum. Every step costs the same. With a long h the parasitic roots of a BDF may lead before
+ * the exponents of small solutions. STEIF_NOT_FINITE: blow-up, or a direction is lost. */
 STEIF_EXPORT int steif_lyapunov(steif_context *ctx, const steif_problem *problem,
                                 const char *method, const steif_lyapunov_options *options,
                                 sunrealtype *exponent, sunrealtype *interval,

@@ -51,6 +51,8 @@ static int open_vectors(stf_pool *pool, stf_variation *v)
 {
   const steif_problem *p = v->problem;
   SUNContext sun = steif_sundials(v->ctx);
+  const sunindextype stated = p->pattern ? p->pattern->column[p->n] : 1;
+  const sunindextype entries = p->nnz > stated ? p->nnz : stated;
   v->y = N_VNew_Serial(p->n, sun);
   STEIF_CHECK(v->y, v->ctx, STEIF_NO_MEMORY, "no memory for a vector of %d", v->d);
   STEIF_TRY(stf_claim_owner(pool, v->y, destroy_vector));
@@ -62,7 +64,7 @@ static int open_vectors(stf_pool *pool, stf_variation *v)
   for (int i = 0; i < 3; i++) v->slope[i] = more[2 + i];
   v->M = p->storage == STEIF_DENSE  ? SUNDenseMatrix(p->n, p->n, sun)
          : p->storage == STEIF_BAND ? SUNBandMatrix(p->n, p->upper, p->lower, sun)
-                                    : SUNSparseMatrix(p->n, p->n, p->nnz, CSC_MAT, sun);
+                                    : SUNSparseMatrix(p->n, p->n, entries, CSC_MAT, sun);
   STEIF_CHECK(v->M, v->ctx, STEIF_NO_MEMORY, "no memory for a matrix of order %d", v->d);
   return stf_claim_owner(pool, v->M, destroy_matrix);
 }
