@@ -191,6 +191,19 @@ static void lorenz_has_its_exponents(void)
   }
 }
 
+/* BDF2 along its own solution, h = 0.01: the sum -13.8218 of a run 20 times longer. */
+static void multistep_exponents_follow_the_computed_solution(void)
+{
+  const steif_lyapunov_options o = {.h = 0.01, .t1 = 1100, .transient = 100};
+  steif_lyapunov_facts facts = {0};
+  double exponent[3] = {NAN, NAN, NAN};
+  CHECK(exponents("lorenz", "bdf:p=2", &o, exponent, NULL, &facts) == STEIF_OK);
+  CLOSE_FLOOR(exponent[0], 0.9026, 0.02, 1);
+  CLOSE_FLOOR(exponent[1], 0, 0.005, 1);
+  CLOSE_FLOOR(exponent[2], -14.724, 0.02, 1);
+  CLOSE_FLOOR(facts.sum, -13.8218, 2e-3, 1);
+}
+
 static void the_first_exponents_are_those_of_all(void)
 {
   const steif_lyapunov_options o = {.h = 0.01, .t1 = 31.7, .transient = 3.1};
@@ -341,6 +354,8 @@ CU_TestInfo tests_of_lyapunov[] = {
   {"constant systems have ln |R(h lambda)| / h", constant_systems_give_the_logarithms_of_R},
   {"an oscillator has the exponents 0 and 0", an_oscillator_has_the_exponents_zero},
   {"the Lorenz attractor has its published exponents", lorenz_has_its_exponents},
+  {"a multistep method has exponents along its own solution",
+   multistep_exponents_follow_the_computed_solution},
   {"the first exponents alone are those of all", the_first_exponents_are_those_of_all},
   {"a decay sampled at its crests grows", sampled_at_its_crests_a_decay_grows},
   {"bad questions are refused with a sentence", bad_questions_are_refused},
