@@ -110,12 +110,20 @@ static int refused(steif_solver *s, int code, sunrealtype *h, int tries)
   return STEIF_OK;
 }
 
+/* The longest step that does not go beyond t_stop, rounding included. */
+static sunrealtype way(sunrealtype t, sunrealtype t_stop)
+{
+  sunrealtype left = t_stop - t;
+  while (t + left > t_stop) left = nextafter(left, 0);
+  return left;
+}
+
 static int chosen(steif_solver *s, sunrealtype t_stop)
 {
   stf_step *step = &s->step;
+  const sunrealtype left = way(step->t, t_stop);
   sunrealtype h = s->h_next;
   for (int tries = 0;; tries++) {
-    const sunrealtype left = t_stop - step->t;
     if (s->options.h_max > 0) h = fmin(h, s->options.h_max);
     h = fitted(h, left);
     STEIF_CHECK(h > 4 * STF_EPS * fabs(step->t), s->ctx, STEIF_STEP_SIZE,
@@ -148,32 +156,68 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
   }
 }
 
-int stf_advance(steif_solver *s, sunrealtype t_stop)
+/* -- breaks ---------------------------------------------------------------------------------- */
+
+/* f may have its new value at a break already, or only behind it: a step towards it ends at the
+ * last time before, the next one begins at the first time after, and the solution in between is
+ * shown at the break. Breaks too close for a step of their own are passed over. */
+static sunrealtype before(sunrealtype at) { return nextafter(at, -INFINITY); }
+
+static bool passed(const steif_solver *s, sunrealtype at)
+{
+  return before(at) - s->step.t <= 8 * STF_EPS * fabs(s->step.t);
+}
+
+/* Slopes from before the break are of no use; the ode form tells the new ones. */
+static int begin_anew(steif_solver *s)
+{
+  stf_step *step = &s->step;
+  step->t = nextafter(step->t, INFINITY);
+  step->yp_known = false;
+  if (step->system.form == STEIF_ODE) {
+    const int code = stf_system_rhs(&step->system, step->t, step->y, step->yp);
+    if (code < 0) return code;
+    step->yp_known = code == STEIF_OK;
+  }
+  s->h_next = fmin(s->h_next, stf_first_step(s));
+  s->h_old = 0;
+  return STEIF_OK;
+}
+
+/* One chosen step, not beyond t_stop or the next break. */
+static int free_step(steif_solver *s, sunrealtype t_stop)
 {
   const steif_problem *p = s->problem;
   stf_step *step = &s->step;
+  if (step->restart) STEIF_TRY(begin_anew(s));
+  while (s->next_break < p->break_count && passed(s, p->breaks[s->next_break])) s->next_break++;
+  const bool breaks = s->next_break < p->break_count && p->breaks[s->next_break] < t_stop;
+  if (!breaks) return chosen(s, t_stop);
+  const sunrealtype at = p->breaks[s->next_break];
+  STEIF_TRY(chosen(s, before(at)));
+  if (step->t < before(at)) return STEIF_OK;
+  step->t = at, step->restart = true, step->newton.wanted = true;
+  return STEIF_OK;
+}
+
+int stf_advance(steif_solver *s, sunrealtype t_stop)
+{
+  const stf_step *step = &s->step;
   STEIF_CHECK(
     step->count < s->options.max_steps, s->ctx, STEIF_STEP_LIMIT,
     "%ld steps made at t = %.12g of problem '%s', the limit: raise max_steps or loosen the "
     "tolerance",
-    step->count, step->t, p->name);
-  if (!step->adaptive) return given(s);
-  while (s->next_break < p->break_count && p->breaks[s->next_break] <= step->t) s->next_break++;
-  const bool breaks = s->next_break < p->break_count && p->breaks[s->next_break] < t_stop;
-  STEIF_TRY(chosen(s, breaks ? p->breaks[s->next_break] : t_stop));
-  if (breaks && step->t == p->breaks[s->next_break]) {
-    step->restart = true, step->newton.wanted = true;
-    s->h_next = fmin(s->h_next, stf_first_step(s));
-    s->h_old = 0;
-  }
-  return STEIF_OK;
+    step->count, step->t, s->problem->name);
+  return step->adaptive ? free_step(s, t_stop) : given(s);
 }
 
 sunrealtype stf_first_step(const steif_solver *s)
 {
   const stf_step *step = &s->step;
+  const steif_options *o = &s->options;
   const sunrealtype span = s->t1 - step->t;
-  if (s->options.h0 > 0) return fmin(s->options.h0, span);
+  if (o->h0 > 0) return fmin(o->h0, span);
+  stf_weights(&step->system.space, o->rtol, o->atol, s->atols, step->y, step->weights);
   const sunrealtype size = stf_norm(&step->system.space, step->y, step->weights);
   const sunrealtype slope = stf_norm(&step->system.space, step->yp, step->weights);
   const sunrealtype h = slope > 0 && step->yp_known ? 0.01 * size / slope : 1e-6 * span;

@@ -181,7 +181,6 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   STEIF_TRY(step->method->open(step, spec, step->table));
   s->shown = step->y;
   if (!step->adaptive) return STEIF_OK;
-  stf_weights(space, o->rtol, o->atol, s->atols, step->y, step->weights);
   s->h_next = stf_first_step(s);
   return STEIF_OK;
 }

@@ -114,7 +114,8 @@ static int attempt(stf_step *s, sunrealtype h)
   state *e = s->state;
   const stf_space *space = &s->system.space;
   if (e->first) {
-    stf_copy(space, e->stepped ? e->old[e->s - 1] : s->yp, e->K[0]);
+    const bool start = !e->stepped || (s->restart && s->yp_known);
+    stf_copy(space, start ? s->yp : e->old[e->s - 1], e->K[0]);
     stf_copy(space, s->y, e->X[0]);
   }
   for (int i = e->first; i < e->s; i++) STEIF_TRY(stage(s, i, h));
