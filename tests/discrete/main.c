@@ -2,7 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_tables[], tests_of_matrices[];
+extern CU_TestInfo tests_of_tables[], tests_of_matrices[], tests_of_traps[],
+  tests_of_refusals[];
 
 SUITE_MAIN({.pName = "tables", .pTests = tests_of_tables},
-           {.pName = "matrices", .pTests = tests_of_matrices})
+           {.pName = "matrices", .pTests = tests_of_matrices},
+           {.pName = "traps", .pTests = tests_of_traps},
+           {.pName = "refusals", .pTests = tests_of_refusals})
