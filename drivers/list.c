@@ -54,25 +54,39 @@ static int problems(struct call *call, steif_report *r)
   return EXIT_OK;
 }
 
+static void schemes(steif_report *r)
+{
+  const steif_scheme *s;
+  for (size_t i = 0; (s = steif_scheme_at(i)); i++) {
+    steif_report_row(r, "schemes");
+    steif_report_text(r, "schemes.name", s->name);
+    steif_report_whole(r, "schemes.order", s->order);
+    steif_report_text(r, "schemes.about", s->about);
+  }
+}
+
 static int run(struct call *call)
 {
   const char *what = call->words ? call->word[0] : "";
-  if (!strcmp(what, "schemes"))
-    return refuse(call,
-                  "there are no discretisation schemes in this version; ask for methods or "
-                  "problems");
-  if (*what && strcmp(what, "methods") && strcmp(what, "problems"))
-    return refuse(call, "\"%s\" is not listed; ask for methods or problems", what);
+  const bool only_schemes = !strcmp(what, "schemes");
+  if (*what && strcmp(what, "methods") && strcmp(what, "problems") && !only_schemes)
+    return refuse(call, "\"%s\" is not listed; ask for methods, problems or schemes", what);
   steif_report *r = steif_report_new(call->ctx);
   if (!r) return fail(call);
   int code = EXIT_OK;
-  if (strcmp(what, "problems")) methods(call, r);
-  if (strcmp(what, "methods")) code = problems(call, r);
+  if (only_schemes) schemes(r);
+  if (!only_schemes && strcmp(what, "problems")) methods(call, r);
+  if (!only_schemes && strcmp(what, "methods")) code = problems(call, r);
   if (code == EXIT_OK) code = present(call, r);
   steif_report_free(&r);
   return code;
 }
 
-const struct verb verb_list = {
-  "list", "What methods and problems there are", "[methods|problems|schemes]", 0, 1, NULL, NULL,
-  run};
+const struct verb verb_list = {"list",
+                               "What methods, problems and discretisation schemes there are",
+                               "[methods|problems|schemes]",
+                               0,
+                               1,
+                               NULL,
+                               NULL,
+                               run};

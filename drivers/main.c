@@ -5,7 +5,7 @@
 
 #define VERBS(X)                                                                               \
   X(list) X(solve) X(compare) X(order) X(layer) X(weak) X(pencil) X(impulse) X(region)         \
-  X(diagnose) X(energy) X(lyapunov) X(demo) X(bench)
+  X(c2d) X(diagnose) X(energy) X(lyapunov) X(demo) X(bench)
 
 #define DECLARE(name) extern const struct verb verb_##name;
 #define ENTRY(name) &verb_##name,
