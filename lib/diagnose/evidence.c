@@ -25,7 +25,7 @@ static void move(const stf_lens *s, sunrealtype part, sunrealtype rate, unsigned
                  sunrealtype *y, sunrealtype *yp, sunrealtype *ypp)
 {
   for (size_t j = 0; j < s->n; j++) {
-    const sunrealtype size = s->y0[j] != 0 ? fabs(s->y0[j]) : 0.1 * fmin(1, s->floor[j]);
+    const sunrealtype size = s->y0[j] != 0 ? fabs(s->y0[j]) : 0.1 * s->floor[j];
     const sunrealtype u = stf_diagnose_random(seed);
     y[j] = s->y0[j] + part * size * u;
     yp[j] = s->yp0[j] + part * (fabs(s->yp0[j]) + rate * size) * stf_diagnose_random(seed);

@@ -116,7 +116,10 @@ static bool equilibrate(stf_factor *f)
 {
   const sunindextype *ptr = SM_INDEXPTRS_S(f->P[0]), *row = SM_INDEXVALS_S(f->P[0]);
   sunrealtype *x = SM_DATA_S(f->P[0]), *top = f->work;
-  for (size_t i = 0; i < f->n; i++) f->left[i] = f->right[i] = 1;
+  for (size_t j = 0; j < f->n; j++) {
+    f->left[j] = 1;
+    for (sunindextype k = ptr[j]; k < ptr[j + 1]; k++) x[k] *= f->right[j];
+  }
   for (int sweep = 0; sweep < 3; sweep++) {
     memset(top, 0, f->n * sizeof *top);
     for (size_t j = 0; j < f->n; j++)
@@ -155,6 +158,7 @@ static int factor(stf_factor *f)
 
 int stf_factor_shift(stf_factor *f, const stf_view *v, sunrealtype s)
 {
+  memcpy(f->right, f->lens->size, f->n * sizeof *f->right);
   for (sunindextype k = 0; k < v->column[f->n]; k++)
     SM_DATA_S(f->P[0])[k] = s * v->e[k] + v->b[k];
   return factor(f);
@@ -162,11 +166,16 @@ int stf_factor_shift(stf_factor *f, const stf_view *v, sunrealtype s)
 
 int stf_factor_jacobian(stf_factor *f, const stf_view *v, const int *c, const int *d)
 {
-  for (size_t j = 0; j < f->n; j++)
+  sunrealtype slow, fast;
+  stf_view_rates(f->lens, v, &slow, &fast);
+  const sunrealtype rate = exp2(round(0.5 * log2(slow * fast)));
+  for (size_t j = 0; j < f->n; j++) {
+    f->right[j] = f->lens->size[j] * pow(rate, d[j]);
     for (sunindextype k = v->column[j]; k < v->column[j + 1]; k++) {
       const int order = d[j] - c[v->row[k]];
       SM_DATA_S(f->P[0])[k] = order == 1 ? v->e[k] : order == 0 ? v->b[k] : 0;
     }
+  }
   return factor(f);
 }
 

@@ -13,7 +13,7 @@
 
 static const sunrealtype dependent = 1e-10; /* singular values below are zero */
 /* Steps that no longer shrink below this are rounding of r and J. */
-static const sunrealtype rounding = 1e-6;
+static const sunrealtype rounding = 1e-6, noise = 1e-3;
 enum { HALVINGS = 12 };
 
 int stf_move_open(stf_pool *pool, stf_move *m)
@@ -129,7 +129,8 @@ int stf_move_solve(stf_move *m)
     m->iterations++;
     const sunrealtype now = length(m, dz, false);
     stagnant = factor < 0.1 || now >= 0.5 * before ? stagnant + 1 : 0;
-    m->converged = now <= 1e-14 || (now <= rounding && stagnant >= 2);
+    m->converged =
+      now <= 1e-14 || (now <= rounding && stagnant >= 2) || (now <= noise && stagnant >= 4);
     before = now;
   }
   return STEIF_OK;

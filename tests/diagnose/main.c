@@ -2,8 +2,13 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_verdicts[], tests_of_starts[], tests_of_causes[];
+extern CU_TestInfo tests_of_verdicts[], tests_of_starts[], tests_of_causes[],
+  tests_of_jacobians[], tests_of_scales[], tests_of_shelf[], tests_of_misuse[];
 
 SUITE_MAIN({.pName = "verdicts", .pTests = tests_of_verdicts},
            {.pName = "starts", .pTests = tests_of_starts},
-           {.pName = "causes", .pTests = tests_of_causes})
+           {.pName = "causes", .pTests = tests_of_causes},
+           {.pName = "Jacobians", .pTests = tests_of_jacobians},
+           {.pName = "scales", .pTests = tests_of_scales},
+           {.pName = "shelf", .pTests = tests_of_shelf},
+           {.pName = "misuse", .pTests = tests_of_misuse})
