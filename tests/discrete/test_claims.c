@@ -3,7 +3,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "oscillator.h"
 #include "suite.h"
+#include <nvector/nvector_serial.h>
 #include <stdbool.h>
+#include <steif/input.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -125,8 +127,46 @@ static void defective_matrices_have_logarithms(void)
   steif_context_free(&ctx);
 }
 
+/* A forcing function of steif/input.h as input. */
+struct text {
+  steif_function *f;
+  N_Vector g;
+};
+static int expression(double t, double *u, void *user)
+{
+  struct text *x = user;
+  const int code = steif_function_value(t, 0, x->g, x->f);
+  *u = NV_Ith_S(x->g, 0);
+  return code;
+}
+
+static void expressions_drive_runs(void)
+{
+  double A[4], h[2 * 41], e[2];
+  steif_context *ctx = steif_context_new(NULL);
+  const steif_state_space s = oscillator(4, A);
+  steif_discrete d;
+  struct text x = {steif_function_parse(ctx, "3 - 2*ramp(t - 1)", 1, NULL),
+                   N_VNew_Serial(1, steif_sundials(ctx))};
+  CHECK(steif_c2d(ctx, &s, "foh", 0.1, &d) == STEIF_OK);
+  CHECK(steif_discrete_run(ctx, &d, expression, &x, 0, NULL, 40, h) == STEIF_OK);
+  for (int k = 0; k <= 40; k++) {
+    double expected[2], ramp[2] = {0, 0};
+    exact(4, ONE, 0.1 * k, e);
+    if (k > 10) exact(4, RAMP, 0.1 * k - 1, ramp);
+    for (int i = 0; i < 2; i++) expected[i] = 3 * e[i] - 2 * ramp[i];
+    CLOSE_FLOOR(h[2 * k], expected[0], 4e-15, 1);
+    CLOSE_FLOOR(h[2 * k + 1], expected[1], 4e-15, 1);
+  }
+  N_VDestroy(x.g);
+  steif_function_free(&x.f);
+  steif_discrete_clear(ctx, &d);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_claims[] = {
   {"orders are those of the list", orders_are_those_of_the_list},
   {"large systems hold twice and go back", large_systems},
   {"defective matrices have logarithms", defective_matrices_have_logarithms},
+  {"expressions drive runs, exactly where they are linear", expressions_drive_runs},
   CU_TEST_INFO_NULL};
