@@ -78,7 +78,7 @@ static sunrealtype once(task *w, steif_bench_solve *out, bool first)
 /* 5 solves and 20 ms, unless they add up to more than `much`. */
 static void repeat(task *w, steif_bench_solve *out)
 {
-  const sunrealtype enough = 20e-3, much = 0.08;
+  const sunrealtype enough = 20e-3, much = 0.05;
   sunrealtype sum = out->cpu_s = once(w, out, true);
   for (int k = 1; out->code == STEIF_OK && (k < 5 || sum < enough) && sum < much; k++) {
     const sunrealtype took = once(w, out, false);
