@@ -1,10 +1,14 @@
-/* vbdf.c: BDF with chosen steps and orders 1 to 5 (or up to the p of the spec), variable coefficients
- * on the true mesh.
+/* vbdf.c: BDF with chosen steps and orders 1 to 5 (or up to the p of the spec), variable
+ * coefficients on the true mesh.
  *
- *   y'(t_{n+1}) = (1/h) sum_j alpha_j y_{n+1-j};  error_k = h/(t_{n+1} - t_{n-k}) (y_{n+1} - pred_k),
- * pred_k the extrapolation through k + 1 past points. Factors are kept while alpha_0/h stays within
- * a ratio of 1.67; steps grow only by factors above 1.5, and every k + 1 steps the neighbouring
- * orders are compared (biases 6, 6, 10 as in VODE: Brown, Byrne, Hindmarsh, SISC 10, 1989).
+ *   y'(t_{n+1}) = (1/h) sum_j alpha_j y_{n+1-j},
+ *   error_k = h/(t_{n+1} - t_{n-k}) (y_{n+1} - pred_k),
+ * pred_k the extrapolation through k + 1 past points. Factors are kept while alpha_0/h stays
+ * within a ratio of 1.67; steps grow only by factors above 1.5, and every k + 1 steps the
+ * neighbouring orders are compared (biases 6, 6, 10 as in VODE: Brown, Byrne, Hindmarsh, SISC
+ * 10, 1989). Newton stops at a hundredth of the tolerance: what it leaves in the past values is
+ * amplified by up to 2^(k+1) - 1 in the estimate, and more of it would hold the step down where
+ * the solution is smooth.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "method.h"
@@ -158,7 +162,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(stf_split_single(s->pool, 1, &split));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
   s->newton.window = 1.67, s->newton.join = true, s->newton.stale = 0.7;
-  if (!(s->options->newton > 0)) s->newton.tolerance = 0.05;
+  if (!(s->options->newton > 0)) s->newton.tolerance = 0.01;
   e->base = stf_claim_vector(s->pool, s->y);
   e->offset = stf_claim_vector(s->pool, s->y);
   e->Z = stf_claim_vector(s->pool, s->y);
