@@ -1,8 +1,8 @@
 /* control.c: one accepted step: given, or chosen by the error estimate.
  *
- * Chosen steps follow h_new = 0.9 h (tolerance / error)^(1/(q+1)), with Gustafsson's prediction from
- * two errors (Hairer and Wanner II, IV.8), factors within [1/8, 5], and no change for 1 .. 1.2 so
- * that factors are kept.
+ * Chosen steps follow h_new = 0.9 h (tolerance / error)^(1/(q+1)), with Gustafsson's prediction
+ * from two errors (Hairer and Wanner II, IV.8), factors within [1/8, 5], and no change for 1 ..
+ * 1.2 so that factors are kept.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "march.h"

@@ -26,6 +26,7 @@ struct steif_solver {
   sunrealtype h_next, h_old, error_old; /* chosen steps */
   bool after_reject, failed;
   int failure;
+  char why[400]; /* the sentence of the failure */
   sunrealtype cpu_s;
   steif_stats stats;
   char method[160]; /* spec in use; for auto with the reason */

@@ -23,11 +23,11 @@ static int check_mesh(steif_context *ctx, const steif_options *o, sunrealtype t0
 
 int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o)
 {
-  const sunrealtype t1 = o->mesh && o->mesh_size ? o->mesh[o->mesh_size - 1] : o->t1;
   if (o->rtol == 0) o->rtol = 1e-6;
   if (o->atol == 0) o->atol = o->rtol * (p->rtol_scale > 0 ? p->rtol_scale : 1);
   if (o->max_steps == 0) o->max_steps = steif_defaults().max_steps;
-  o->t1 = t1 != 0 ? t1 : p->t1;
+  if (o->t1 == 0) o->t1 = p->t1;
+  if (o->mesh && o->mesh_size > 0) o->t1 = o->mesh[o->mesh_size - 1];
   STEIF_CHECK(o->rtol > 0 && o->rtol < 1, ctx, STEIF_BAD_INPUT,
               "rtol = %g must lie between 0 and 1", o->rtol);
   STEIF_CHECK(o->rtol >= 1e-14, ctx, STEIF_BAD_INPUT,
@@ -46,8 +46,9 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
               ctx, STEIF_BAD_INPUT,
               "max_steps = %ld, iterations = %d, newton = %g must not be negative",
               o->max_steps, o->iterations, o->newton);
+  if (o->mesh) STEIF_TRY(check_mesh(ctx, o, p->t0));
   STEIF_CHECK(isfinite(o->t1) && o->t1 > p->t0, ctx, STEIF_BAD_INPUT,
               "the end t1 = %g must lie after the start t0 = %g of problem '%s'", o->t1, p->t0,
               p->name);
-  return o->mesh ? check_mesh(ctx, o, p->t0) : STEIF_OK;
+  return STEIF_OK;
 }

@@ -75,12 +75,17 @@ static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vect
   return engine->open(&s->run, s->engine_state, spec);
 }
 
-static void equal_steps(steif_solver *s)
+static int equal_steps(steif_solver *s)
 {
   const sunrealtype span = s->t1 - s->problem->t0,
                     count = ceil(span / s->options.h * (1 - 1e-12));
+  STEIF_CHECK(
+    count <= 1 / STF_EPS, s->ctx, STEIF_BAD_INPUT,
+    "h = %g divides the interval of length %g into more steps than a clock can tell apart",
+    s->options.h, span);
   s->total = count < 1 ? 1 : (long)count;
   s->step.h_equal = span / (sunrealtype)s->total;
+  return STEIF_OK;
 }
 
 static void destroy_table(void *step)
@@ -169,7 +174,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   STEIF_CHECK(!step->adaptive || info.adaptive, s->ctx, STEIF_UNSUPPORTED,
               "'%s' has no error estimate: give steps with h", spec->name);
   step->absolute = form == STEIF_DESCRIPTOR;
-  if (!step->adaptive && !o->mesh) equal_steps(s);
+  if (!step->adaptive && !o->mesh) STEIF_TRY(equal_steps(s));
   const stf_space *space = &step->system.space;
   stf_space_open(&step->system.space, y);
   STEIF_TRY(stf_system_start(s->ctx, p, form, space, y, yp, &step->yp_known));
@@ -255,6 +260,7 @@ static int step_once(steif_solver *s)
     s->engine ? s->engine->step(&s->run, s->engine_state, s->t1) : stf_advance(s, s->t1);
   if (code) {
     s->failed = true, s->failure = code > 0 ? steif_status(s->ctx) : code;
+    snprintf(s->why, sizeof s->why, "%s", steif_message(s->ctx));
     return s->failure;
   }
   s->shown = s->engine ? s->run.y : s->step.y;
@@ -269,9 +275,8 @@ static int step_once(steif_solver *s)
 static int ready(steif_solver *s)
 {
   STEIF_CHECK(!s->failed, s->ctx, s->failure,
-              "the run had failed before, at t = %.12g: make a new "
-              "solver",
-              reached(s));
+              "the run had failed before, at t = %.12g (%s): make a new solver", reached(s),
+              s->why);
   return STEIF_OK;
 }
 
