@@ -1,0 +1,15 @@
+/* Tests of the march room.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_steps[], tests_of_run[], tests_of_options[], tests_of_dense[],
+  tests_of_digits[], tests_of_counts[], tests_of_breaks[], tests_of_engines[];
+
+SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
+           {.pName = "run", .pTests = tests_of_run},
+           {.pName = "options", .pTests = tests_of_options},
+           {.pName = "dense output", .pTests = tests_of_dense},
+           {.pName = "digits", .pTests = tests_of_digits},
+           {.pName = "counts", .pTests = tests_of_counts},
+           {.pName = "breaks", .pTests = tests_of_breaks},
+           {.pName = "engines", .pTests = tests_of_engines})
