@@ -1,4 +1,5 @@
-/* bdf.c: backward differentiation formulas of order 1 to 6 on any mesh (be: order 1).
+/* bdf.c: backward differentiation formulas of order 1 to 6 with given steps (be: order 1); vbdf.c
+ * has them with chosen steps.
  *
  *   y'(t_{n+1}) = (1/h) sum_{j=0}^k alpha_j y_{n+1-j}, the slope of the polynomial through the k + 1
  *   points, alpha from Lagrange's basis; with equal steps the classical coefficients.
@@ -9,7 +10,6 @@
  *   cq        zero history, impulse source E x_0 / h and forcing with Gregory's weights at i = 0, so
  *             the value at t0 is solved for: convolution quadrature of Lubich (Numer. Math. 52, 1988)
  *             for K(s) = (s E + F)^{-1}; descriptor form and equal steps only
- * Error estimate: h / (t_{n+1} - t_{n-k}) times solution minus extrapolation.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "method.h"
@@ -96,15 +96,6 @@ static void coefficients(stf_step *s, sunrealtype h, int k)
   e->cached = k, e->guess_points = points;
 }
 
-/* base: the extrapolated solution. */
-static void guess(stf_step *s, sunrealtype h)
-{
-  state *e = s->state;
-  const stf_space *space = &s->system.space;
-  stf_combine(space, e->guess_points, e->guess, e->y, e->base);
-  if (s->adaptive && e->points == 1 && s->yp_known) stf_axpy(space, h, s->yp, e->base);
-}
-
 static int solve(stf_step *s, sunrealtype h)
 {
   static const sunrealtype c[] = {1};
@@ -117,7 +108,7 @@ static int solve(stf_step *s, sunrealtype h)
   if (s->system.linear && !s->absolute) a[0] += e->alpha[0] / h;
   stf_combine(space, e->k, a, e->y, e->offset);
   if (!s->system.linear) {
-    guess(s, h);
+    stf_combine(space, e->guess_points, e->guess, e->y, e->base); /* extrapolated */
     stf_axpy(space, e->alpha[0] / h, e->base, e->offset);
     stf_zero(space, e->Z);
   }
@@ -144,20 +135,13 @@ static int from_exact(stf_step *s, sunrealtype h)
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
-  if (s->restart) e->points = 1;
   if (s->count == 0 && e->start == CONSTANT) past(s, h);
   if (e->start == EXACT && s->count < e->p - 1)
     return e->k = (int)s->count + 1, from_exact(s, h);
   e->k = e->points < e->p ? e->points : e->p;
   if (e->start == CQ) s->system.weight = gregory(e->p, s->count + 1);
   coefficients(s, h, e->k);
-  STEIF_TRY(solve(s, h));
-  if (!s->adaptive) return STEIF_OK;
-  const sunrealtype span = e->points > e->k ? s->t + h - e->t[e->k] : 2 * h;
-  if (s->system.linear) guess(s, h);
-  stf_sum(&s->system.space, h / span, s->next, -h / span, e->base, s->error);
-  s->error_order = e->k;
-  return STEIF_OK;
+  return solve(s, h);
 }
 
 static void commit(stf_step *s)
@@ -214,8 +198,6 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(find_start(s->ctx, s->options->start ? s->options->start : word, &e->start));
   STEIF_CHECK(e->start != EXACT || s->problem->exact, s->ctx, STEIF_UNSUPPORTED,
               "start=exact needs a closed solution, problem '%s' has none", s->problem->name);
-  STEIF_CHECK(e->start == RAMP || !s->adaptive, s->ctx, STEIF_UNSUPPORTED,
-              "starting procedures other than ramp are for given steps: set h");
   STEIF_TRY(stf_split_single(s->pool, 1, &split));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
   e->base = stf_claim_vector(s->pool, s->y);
@@ -227,7 +209,6 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
     if (!(e->y[j] = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
     if (e->start == CONSTANT) stf_copy(&s->system.space, s->y, e->y[j]);
   }
-  s->error_tolerance = 1;
   return e->start == CQ ? open_cq(s) : STEIF_OK;
 }
 
@@ -271,7 +252,7 @@ static int describe(steif_context *ctx, const steif_spec *spec, const steif_tabl
 const steif_method steif_method_bdf = {
   .about = "backward differentiation formulas",
   .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
-  .traits = STF_ADAPTIVE | STF_MULTISTEP,
+  .traits = STF_MULTISTEP,
   .size = sizeof(state),
   .open = open,
   .attempt = attempt,
