@@ -92,8 +92,8 @@ static int run(struct call *call)
     return refuse(call, "--method and --t1 go together: the run after the jump and its end");
   if (!given(call, "--method") && (given(call, "--h") || given(call, "--rtol") || call->plot))
     return refuse(call, "--h, --rtol and --plot belong to a run; add --method and --t1");
-  int code = linear_open(call, &l, true);
-  if (!code && !l.x0) code = refuse(call, "--x0 X.mtx is needed: the values x(0-)");
+  int code = linear_open(call, &l, 0, true);
+  if (!code) code = linear_started(call, &l);
   if (!code && given(call, "--t1") && real_of(call, "--t1", 0) <= l.t0)
     code = refuse(call, "--t1 is %s and must be later than the jump at %g",
                   word_of(call, "--t1", ""), l.t0);

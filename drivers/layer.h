@@ -4,11 +4,13 @@
 #define LAYER_H
 
 #include "curves.h"
+#include "linear.h"
 
 struct layer {
-  size_t k, steps;
+  size_t k, steps; /* k: components, of a Jordan block its index */
   double h;
-  char problem[96];              /* "jordan:k=3,case=N-inc" */
+  char problem[96];              /* "jordan:k=3,case=N-inc", "ut5" */
+  const struct linear *system;   /* instead of the problem; NULL */
   double *t, *error, *x, *exact; /* one block, begins at t; rows 0 .. steps */
   steif_layer_result result;
 };

@@ -9,8 +9,11 @@ int layer_measure(steif_context *ctx, struct layer *l, const char *method, const
   l->t = calloc(rows * (2 + 2 * l->k), sizeof *l->t);
   if (!l->t) return STEIF_NO_MEMORY;
   l->error = l->t + rows, l->x = l->error + rows, l->exact = l->x + rows * l->k;
-  return steif_layer_measure(ctx, method, l->problem, start, l->h, l->steps, l->t, l->x,
-                             l->exact, l->error, &l->result);
+  return l->system
+           ? steif_layer_linear(ctx, method, &l->system->system, l->system->x0, start, l->h,
+                                l->steps, l->t, l->x, l->exact, l->error, &l->result)
+           : steif_layer_measure(ctx, method, l->problem, start, l->h, l->steps, l->t, l->x,
+                                 l->exact, l->error, &l->result);
 }
 
 void layer_free(struct layer *l) { free(l->t); }
@@ -35,9 +38,12 @@ outcome layer_against(steif_context *ctx, const struct layer *l, const char *met
   steif_problem p;
   steif_options options = steif_defaults();
   options.rtol = rtol, options.t1 = l->t[l->steps];
-  outcome o = {.code = steif_problem_find(ctx, l->problem, &p)};
-  const bool found = o.code == STEIF_OK;
-  steif_solver *s = found ? steif_solver_new(ctx, &p, method, &options) : NULL;
+  const struct linear *q = l->system;
+  const bool found = !q && steif_problem_find(ctx, l->problem, &p) == STEIF_OK;
+  const bool made =
+    q && steif_linear_problem(ctx, &q->system, q->x0, 0, options.t1, &p) == STEIF_OK;
+  outcome o = {0};
+  steif_solver *s = found || made ? steif_solver_new(ctx, &p, method, &options) : NULL;
   *error = 0;
   o.code = s ? follow(s, l, error) : steif_status(ctx);
   snprintf(o.message, sizeof o.message, "%s", o.code == STEIF_OK ? "ok" : steif_message(ctx));

@@ -26,8 +26,8 @@ static int bad_file(const struct call *call)
 int linear_fail(const struct call *call)
 {
   const int code = steif_status(call->ctx);
-  const bool file =
-    linear_is_file(call->word[0]) || given(call, "--x0") || given(call, "--forcing");
+  bool file = given(call, "--x0") || given(call, "--forcing");
+  for (int i = 0; i < call->words; i++) file = file || linear_is_file(call->word[i]);
   const bool blamed =
     (code == STEIF_BAD_INPUT && !given(call, "--f")) || code == STEIF_NOT_FINITE;
   return blamed && file ? bad_file(call) : fail(call);
@@ -75,19 +75,18 @@ static void negate(SUNMatrix M)
   for (sunindextype i = 0; i < count; i++) x[i] = -x[i];
 }
 
-static int from_files(struct call *call, struct linear *l)
+static int from_files(struct call *call, struct linear *l, int from)
 {
-  const bool one = ends(call->word[0], ".mat");
-  if (one && call->words > 1)
-    return refuse(call, "%s holds both matrices; leave %s out", call->word[0], call->word[1]);
-  if (!one && call->words < 2)
-    return refuse(call, "%s is E, the second file is missing: steif %s E.mtx F.mtx",
-                  call->word[0], call->verb->name);
+  const char *first = call->word[from],
+             *second = call->words > from + 1 ? call->word[from + 1] : NULL;
+  const bool one = ends(first, ".mat");
+  if (one && second) return refuse(call, "%s holds both matrices; leave %s out", first, second);
+  if (!one && !second)
+    return refuse(call, "%s is E, the second file is missing: E.mtx F.mtx", first);
   if (one && given(call, "--state-space"))
     return refuse(call,
                   "--state-space is for two files; a .mat file tells by the name, F or A");
-  if (steif_system_read(call->ctx, call->word[0], one ? NULL : call->word[1], &l->system.E,
-                        &l->system.F))
+  if (steif_system_read(call->ctx, first, second, &l->system.E, &l->system.F))
     return bad_file(call);
   l->n = rows(l->system.E);
   if (given(call, "--state-space")) negate(l->system.F);
@@ -96,19 +95,19 @@ static int from_files(struct call *call, struct linear *l)
 
 static int no_memory(struct call *call)
 {
-  say(call, "no memory for %s; give the process more", call->word[0]);
+  say(call, "no memory for the start values; give the process more");
   return EXIT_FAILED;
 }
 
-static int from_collection(struct call *call, struct linear *l)
+static int from_collection(struct call *call, struct linear *l, int from)
 {
-  if (call->words > 1)
-    return refuse(call, "\"%s\" is one word too many after the problem %s", call->word[1],
-                  call->word[0]);
+  const char *name = call->word[from];
+  if (call->words > from + 1)
+    return refuse(call, "\"%s\" is one word too many after the problem %s",
+                  call->word[from + 1], name);
   if (given(call, "--state-space"))
-    return refuse(call, "--state-space is for files; leave it out with the problem %s",
-                  call->word[0]);
-  if (steif_problem_find(call->ctx, call->word[0], &l->problem)) return fail(call);
+    return refuse(call, "--state-space is for files; leave it out with the problem %s", name);
+  if (steif_problem_find(call->ctx, name, &l->problem)) return fail(call);
   if (steif_linear_of(call->ctx, &l->problem, &l->system)) return fail(call);
   l->n = (long)l->problem.n, l->t0 = l->problem.t0;
   l->x0 = malloc((size_t)l->n * sizeof *l->x0);
@@ -159,14 +158,25 @@ static int read_forcing(struct call *call, struct linear *l)
   return EXIT_OK;
 }
 
-int linear_open(struct call *call, struct linear *l, bool start)
+int linear_open(struct call *call, struct linear *l, int from, bool start)
 {
   *l = (struct linear){0};
-  int code = linear_is_file(call->word[0]) ? from_files(call, l) : from_collection(call, l);
+  int code = linear_is_file(call->word[from]) ? from_files(call, l, from)
+                                              : from_collection(call, l, from);
   if (!code && start) code = read_x0(call, l);
   if (!code && start) code = read_forcing(call, l);
   l->t0 = real_of(call, "--t0", l->t0);
   return code;
+}
+
+int linear_started(const struct call *call, const struct linear *l)
+{
+  return l->x0 ? EXIT_OK : refuse(call, "--x0 X.mtx is needed: the values x(0-)");
+}
+
+bool linear_as_published(const struct call *call, const struct linear *l)
+{
+  return l->problem.name && !given(call, "--x0") && !l->function;
 }
 
 void linear_close(struct call *call, struct linear *l)

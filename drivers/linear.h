@@ -32,8 +32,13 @@ struct linear {
     "--t0", REAL, "T", "time of the jump (default 0, or the problem's)"                        \
   }
 
-/* EXIT_OK, or the exit code after a sentence; close it in any case. start: x(0-) and f too. */
-int linear_open(struct call *call, struct linear *l, bool start);
+/* The system of words `from` and, of files, from + 1: EXIT_OK, or the exit code after a sentence;
+ * close it in any case. start: x(0-) and f too. */
+int linear_open(struct call *call, struct linear *l, int from, bool start);
+/* EXIT_OK when there is an x(0-), else a sentence and EXIT_USAGE. */
+int linear_started(const struct call *call, const struct linear *l);
+/* Has the collection its own x(0-) and f here, unchanged? */
+bool linear_as_published(const struct call *call, const struct linear *l);
 void linear_close(struct call *call, struct linear *l);
 /* Is the word a file rather than a problem of the collection? */
 bool linear_is_file(const char *word);

@@ -71,7 +71,7 @@ static int run(struct call *call)
 {
   struct linear l;
   if (call->plot) return refuse(call, "a pencil has no picture; leave --plot out");
-  int code = linear_open(call, &l, false);
+  int code = linear_open(call, &l, 0, false);
   if (!code) code = find(call, &l);
   linear_close(call, &l);
   return code;

@@ -1,6 +1,27 @@
-/* weak.c: does a method converge weakly on N x' + x = f?
+/* weak.c: does a method converge weakly on N x' + x = f, or on a system?
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak.h"
+
+struct weak weak_asked(const struct call *call)
+{
+  struct weak w = {.k = whole_of(call, "--index", 0),
+                   .kind = word_of(call, "--case", "N-inc"),
+                   .convention = word_of(call, "--convention", NULL),
+                   .query = {.method = call->word[0],
+                             .start = word_of(call, "--start", NULL),
+                             .h = real_of(call, "--h", 1.0 / 64),
+                             .component = (int)whole_of(call, "--component", 0)}};
+  w.query.rows = (size_t)whole_of(call, "--halvings", given(call, "--h") ? 0 : 4) + 1;
+  return w;
+}
+
+int weak_plot(const struct call *call, size_t rows, const steif_weak_row *row)
+{
+  error_curves errors = {.title = call->word[0], .y_label = "weak error"};
+  errors_open(&errors, call->word[0]);
+  for (size_t i = 0; i < rows; i++) errors_add(&errors, row[i].h, row[i].error);
+  return errors_plot(call, &errors, call->plot);
+}
 
 static void fill(steif_report *r, const struct weak *w)
 {
@@ -19,50 +40,53 @@ static void fill(steif_report *r, const struct weak *w)
   steif_report_text(r, "verdict", w->result.verdict);
 }
 
-static int tell(struct call *call, const struct weak *w)
+static int block(struct call *call)
 {
-  error_curves errors = {.title = call->word[0], .y_label = "weak error"};
-  errors_open(&errors, call->word[0]);
-  for (size_t i = 0; i < w->query.rows; i++) errors_add(&errors, w->row[i].h, w->row[i].error);
+  struct weak w = weak_asked(call);
+  progress(call, "%s on index %ld", w.query.method, w.k);
+  if (weak_measure(call->ctx, &w) != STEIF_OK) return fail(call);
   steif_report *r = steif_report_new(call->ctx);
-  fill(r, w);
+  fill(r, &w);
   const int code = r ? present(call, r) : fail(call);
   steif_report_free(&r);
-  return code ? code : errors_plot(call, &errors, call->plot);
+  return code ? code : weak_plot(call, w.query.rows, w.row);
 }
 
 static int run(struct call *call)
 {
-  struct weak w = {.k = whole_of(call, "--index", 0),
-                   .kind = word_of(call, "--case", "N-inc"),
-                   .convention = word_of(call, "--convention", NULL),
-                   .query = {.method = call->word[0],
-                             .start = word_of(call, "--start", NULL),
-                             .h = real_of(call, "--h", 1.0 / 64)}};
-  w.query.rows = (size_t)whole_of(call, "--halvings", given(call, "--h") ? 0 : 4) + 1;
-  if (w.k < 1) return refuse(call, "--index K is needed: the index of N x' + x = f");
-  if (w.query.rows > HALVINGS)
-    return refuse(call, "--halvings is %zu and must be below %d", w.query.rows - 1, HALVINGS);
-  progress(call, "%s on index %ld", w.query.method, w.k);
-  return weak_measure(call->ctx, &w) == STEIF_OK ? tell(call, &w) : fail(call);
+  const bool system = call->words > 1;
+  if (system && (given(call, "--index") || given(call, "--case")))
+    return refuse(call, "--index and --case name a Jordan block; leave them out with a system");
+  if (!system && !given(call, "--index"))
+    return refuse(call,
+                  "--index K is needed, the index of N x' + x = f, or a system to run on");
+  const long halvings = whole_of(call, "--halvings", 0);
+  if (halvings >= HALVINGS)
+    return refuse(call, "--halvings is %ld and must be below %d", halvings, HALVINGS);
+  return system ? weak_system(call) : block(call);
 }
 
 static const struct option options[] = {
-  {"--index", COUNT, "K", "index of N x' + x = f"},
+  {"--index", COUNT, "K", "index of N x' + x = f, instead of a system"},
   {"--case", WORD, "C", "H-inc, N-inc, N-cons, sin-inc or sin-cons (default N-inc)"},
+  {"--component", NATURAL, "I", "from 0 (default 0 of N x' + x = f, all of a system)"},
   {"--convention", CHOICE, "P|R|C|stage", "how the sequence is read as a function"},
   {"--start", CHOICE, "constant|ramp|cq|exact", "starting procedure of multistep methods"},
   {"--h", POSITIVE, "H", "first step, 1/H a whole number (default 1/64)"},
   {"--halvings", NATURAL, "M", "how often it is halved (default 4; 0 with --h)"},
+  {"--state-space", FLAG, NULL, "the second file is A of E x' = A x + f, so F = -A"},
+  START_ROWS,
   {NULL, FLAG, NULL, NULL},
 };
 
+static const char *const clash[][2] = {{"--forcing", "--f"}, {NULL, NULL}};
+
 const struct verb verb_weak = {
   "weak",
-  "Pair a run on N x' + x = f with the test function, against the exact distribution",
-  "METHOD --index K [--case C] [--convention V] [--start S] [--h H --halvings M]",
+  "Pair a run with the test function, against the exact distribution",
+  "METHOD --index K | E.mtx F.mtx --x0 X.mtx | PROBLEM [--convention V] [--start S] [--h H]",
   1,
-  1,
+  3,
   options,
-  NULL,
+  clash,
   run};

@@ -20,8 +20,10 @@ int weak_measure(steif_context *ctx, struct weak *w)
   steif_method_info m;
   const int code = steif_method_find(ctx, w->query.method, &m);
   if (code != STEIF_OK) return code;
-  snprintf(w->problem, sizeof w->problem, "jordan:k=%ld,case=%s", w->k, w->kind);
-  w->query.problem = w->problem;
+  if (w->k) {
+    snprintf(w->problem, sizeof w->problem, "jordan:k=%ld,case=%s", w->k, w->kind);
+    w->query.problem = w->problem;
+  }
   w->query.convention = usual(w->query.method, w->query.start, &m);
   for (int i = 0; w->convention && i < 4; i++)
     if (!strcmp(w->convention, name[i])) w->query.convention = (enum steif_convention)i;

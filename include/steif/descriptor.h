@@ -15,7 +15,7 @@
 #ifndef STEIF_DESCRIPTOR_H
 #define STEIF_DESCRIPTOR_H
 
-#include <steif/solver.h>
+#include <steif/impulse.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -38,21 +38,34 @@ typedef struct steif_weak_row {
 } steif_weak_row;
 
 typedef struct steif_weak_result {
-  sunrealtype exact;      /* <x_1, g> of the distributional solution */
+  sunrealtype exact;      /* <x, g> of the distributional solution */
   sunrealtype first;      /* closed first-order constant of backward Euler (P, R), else NaN */
   char verdict[160];      /* "converges weakly, order 1.00", "does not converge weakly: ..." */
   int converges;          /* 1, 0, or -1: undecided */
+  sunrealtype accuracy;   /* of exact, as far as seen; 0: closed formulas */
+  char source[160];       /* how exact was found */
+  int index;              /* of the system */
 } steif_weak_result;
 
-/* Pair component `component` (0-based) of runs with steps h, h/2, ... on the index-k block. */
+enum { STEIF_ALL = -1 }; /* components */
+
+/* Pair component `component` (0-based) of runs with steps h, h/2, ... on [0, 1]: of a Jordan block,
+ * where everything is known in closed form, of another descriptor problem of the collection, or of
+ * a system of one's own. For these the impulses come from the pencil and the smooth part from its
+ * closed solution, where there is one, or from radau:s=5 on the slow part and the derivatives of f
+ * on the rest. */
 typedef struct steif_weak_query {
   const char *method;     /* "be", "bdf:p=3", "radau:s=2", ... */
-  const char *problem;    /* "jordan:k=3,case=H-inc" */
+  const char *problem;    /* "jordan:k=3,case=H-inc", "ut5" */
   enum steif_convention convention;
   const char *start;      /* starting procedure, NULL: the method's */
   sunrealtype h;          /* first step, 1/h a whole number */
   size_t rows;
-  int component;
+  int component;          /* STEIF_ALL: values and errors are 2-norms over the components */
+  sunrealtype *values;    /* rows x n and n: of all of them by themselves; NULL: not wanted */
+  sunrealtype *exacts;
+  const steif_linear *linear; /* instead of problem, */
+  const sunrealtype *x0;      /* from x(0-) = x0 */
 } steif_weak_query;
 STEIF_EXPORT int steif_weak_measure(steif_context *ctx, const steif_weak_query *query,
                                     steif_weak_row *row, steif_weak_result *result);
@@ -62,15 +75,24 @@ STEIF_EXPORT int steif_weak_measure(steif_context *ctx, const steif_weak_query *
 STEIF_EXPORT sunrealtype steif_pair(enum steif_convention convention, size_t m,
                                     const sunrealtype *t, const sunrealtype *x);
 
-/* The layer of a run on the index-k block, step by step. */
+/* The layer of a run on a Jordan block or another descriptor problem, step by step: steps + 1 rows
+ * of t, of the n values x and the smooth part, and of the largest error. */
 typedef struct steif_layer_result {
   int layer_steps;        /* last step whose error against the smooth part exceeds `threshold` */
   sunrealtype threshold;
+  int index;              /* of the system */
 } steif_layer_result;
 STEIF_EXPORT int steif_layer_measure(steif_context *ctx, const char *method, const char *problem,
                                      const char *start, sunrealtype h, size_t steps,
                                      sunrealtype *t, sunrealtype *x, sunrealtype *exact,
                                      sunrealtype *error, steif_layer_result *result);
+
+/* The same for a system of one's own from x(0-) = x0 at t = 0. */
+STEIF_EXPORT int steif_layer_linear(steif_context *ctx, const char *method,
+                                    const steif_linear *linear, const sunrealtype *x0,
+                                    const char *start, sunrealtype h, size_t steps,
+                                    sunrealtype *t, sunrealtype *x, sunrealtype *exact,
+                                    sunrealtype *error, steif_layer_result *result);
 
 /* Impulse coefficients from a homogeneous backward Euler run x_1 .. x_{k-1} with step h, exact for
  * every h: c_q = (-1)^q h^{q+1} sum_i C(i-1, q) x_i. x by rows (k-1) x k, c likewise. */

@@ -3,10 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "structure.h"
 #include <math.h>
-#include <nvector/nvector_serial.h>
 #include <string.h>
-#include <sunmatrix/sunmatrix_dense.h>
-#include <sunmatrix/sunmatrix_sparse.h>
 
 typedef struct run {
   steif_context *ctx;
@@ -19,78 +16,6 @@ typedef struct run {
   sunrealtype *x;            /* x(t-), then x(t+) */
   int *index;                /* of each unknown; NULL: all 1 */
 } run;
-
-/* ---- the index of each unknown ---------------------------------------------------------------- */
-
-/* Steps of an integrator are judged by h^(index-1) of an unknown, which for unknown j is one more
- * than the last power of s with which it answers to forcing: the last i with (Phi_i v)_j != 0 for
- * a generic v. From x(0-) = 0 with f = v constant, x(0+) = Phi_0 v and c_i = Phi_{i+1} v. */
-enum { INDEX_MOST = 3 }; /* of problem->index */
-
-static int constant(sunrealtype t, int derivative, N_Vector g, void *v)
-{
-  sunrealtype *out = N_VGetArrayPointer(g);
-  const sunindextype n = N_VGetLength(g);
-  (void)t;
-  for (sunindextype i = 0; i < n; i++) out[i] = derivative ? 0 : ((const sunrealtype *)v)[i];
-  return 0;
-}
-
-static sunrealtype largest(SUNMatrix M)
-{
-  const bool dense = SUNMatGetID(M) == SUNMATRIX_DENSE;
-  const sunindextype count = dense ? SM_LDATA_D(M) : SM_INDEXPTRS_S(M)[SM_NP_S(M)];
-  const sunrealtype *a = dense ? SM_DATA_D(M) : SM_DATA_S(M);
-  sunrealtype most = 0;
-  for (sunindextype i = 0; i < count; i++) most = fmax(most, fabs(a[i]));
-  return most;
-}
-
-/* Powers of s are compared at |s| = R, where the finite eigenvalues end. */
-static sunrealtype scale(const run *r)
-{
-  const sunrealtype e = largest(r->linear->E), f = largest(r->linear->F);
-  return r->structure.radius > 0 ? r->structure.radius : e > 0 && f > 0 ? f / e : 1;
-}
-
-static void read_off(run *r, const steif_impulse *answer)
-{
-  const sunrealtype R = scale(r), noise = 1e-8;
-  for (sunindextype j = 0; j < answer->n; j++) {
-    sunrealtype most = fabs(answer->x_plus[j]), power = 1;
-    for (int i = 0; i < answer->count; i++)
-      power *= R, most = fmax(most, power * fabs(answer->c[i * answer->n + j]));
-    r->index[j] = 1, power = 1;
-    for (int i = 0; i < answer->count; i++) {
-      power *= R;
-      if (power * fabs(answer->c[i * answer->n + j]) > noise * most) r->index[j] = i + 2;
-    }
-    if (r->index[j] > INDEX_MOST) r->index[j] = INDEX_MOST;
-  }
-}
-
-static int grade(run *r)
-{
-  const steif_linear *l = r->linear;
-  const sunindextype n = r->structure.n;
-  if (!r->structure.regular || r->structure.index == 0 || r->structure.index == 1)
-    return STEIF_OK;
-  steif_impulse answer = {0};
-  sunrealtype *work = stf_allocate(r->ctx, 2 * (size_t)n, sizeof *work), *v = work + n;
-  if (!work) return STEIF_NO_MEMORY;
-  for (sunindextype i = 0; i < n; i++)
-    work[i] = 0, v[i] = 1 + 0.5 * sin(1 + 2.399963 * (sunrealtype)i); /* the golden angle */
-  int code = steif_impulse_find(r->ctx, l->E, l->F, work, 0, constant, v, r->analysis,
-                                &r->structure, &answer);
-  if (!code && !(r->index = stf_allocate(r->ctx, (size_t)n, sizeof *r->index)))
-    code = STEIF_NO_MEMORY;
-  if (!code) read_off(r, &answer);
-  steif_impulse_clear(r->ctx, &answer);
-  stf_release(r->ctx, work);
-  return code;
-}
-
-/* ---- jumps and the smooth solution between them ----------------------------------------------- */
 
 static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
 {
@@ -201,7 +126,7 @@ int steif_linear_run(steif_context *ctx, const steif_linear *linear, const sunre
   if (!r.x) return STEIF_NO_MEMORY;
   memcpy(r.x, x0, (size_t)p.n * sizeof *r.x);
   int code = steif_structure_find(ctx, linear->E, linear->F, analysis, &r.structure);
-  if (!code) code = grade(&r);
+  if (!code) code = stf_linear_grade(ctx, linear, analysis, &r.structure, &r.index);
   if (!code) code = segments(&r, t0, break_count, breaks);
   steif_structure_clear(ctx, &r.structure);
   stf_release(ctx, r.index);

@@ -47,4 +47,10 @@ int stf_impulse_claim(steif_context *ctx, sunindextype n, int index, steif_impul
 void stf_impulse_residuals(SUNMatrix E, SUNMatrix F, const sunrealtype *x0, const sunrealtype *f,
                            steif_impulse *impulse);
 
+/* Index of each unknown up to 3 from the Laurent coefficients at infinity (stf_release it); NULL
+ * where all are 1. */
+int stf_linear_grade(steif_context *ctx, const steif_linear *linear,
+                     const steif_analysis *analysis, const steif_structure *structure,
+                     int **index);
+
 #endif

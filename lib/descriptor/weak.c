@@ -1,9 +1,9 @@
-/* weak.c: does a method converge weakly on an index-k block? Runs with steps h, h/2, ... are read
+/* weak.c: does a method converge weakly on a descriptor system? Runs with steps h, h/2, ... are read
  * as functions, paired with the test function and compared with the exact distribution.
  * S. L. Campbell, Distributional convergence of BDF approximations (1988).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "descriptor.h"
+#include "subject.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,9 +19,10 @@ enum { MOST_STEPS = 1 << 26 };
 typedef struct measure {
   steif_context *ctx;
   const steif_weak_query *query;
-  steif_problem problem;
-  stf_block block;
+  stf_subject subject;
   sunrealtype *floor; /* rounding level of each row */
+  sunrealtype *exact; /* of every component */
+  int first, count;   /* components paired */
   bool cq;
 } measure;
 
@@ -50,7 +51,7 @@ static int run(measure *w, stf_trace *trace, sunrealtype *value, sunrealtype *si
 {
   const steif_weak_query *q = w->query;
   const sunrealtype h = 1 / (sunrealtype)trace->steps;
-  STEIF_TRY(stf_trace_run(w->ctx, &w->problem, q->method, q->start, h, trace));
+  STEIF_TRY(stf_trace_run(w->ctx, &w->subject.problem, q->method, q->start, h, trace));
   if (q->convention == STEIF_STAGE) {
     *value = (sunrealtype)trace->stage;
     *size = (sunrealtype)trace->stage_size;
@@ -61,24 +62,38 @@ static int run(measure *w, stf_trace *trace, sunrealtype *value, sunrealtype *si
   return STEIF_OK;
 }
 
-static int fill_row(measure *w, size_t i, sunrealtype exact, steif_weak_row *row)
+/* Component m of a run with so many steps. */
+static int pair(measure *w, int m, size_t steps, sunrealtype *value, sunrealtype *size)
 {
-  const size_t steps = (size_t)llround(1 / w->query->h) << i;
-  stf_trace trace = {.first = w->query->component,
-                     .count = 1,
-                     .steps = steps,
-                     .stages = w->query->convention == STEIF_STAGE};
-  sunrealtype value = 0, size = 0;
+  stf_trace trace = {
+    .first = m, .count = 1, .steps = steps, .stages = w->query->convention == STEIF_STAGE};
   int code = STEIF_NO_MEMORY;
   trace.t = stf_allocate(w->ctx, steps + 1, sizeof *trace.t);
   trace.x = stf_allocate(w->ctx, steps + 1, sizeof *trace.x);
-  if (trace.t && trace.x) code = run(w, &trace, &value, &size);
+  if (trace.t && trace.x) code = run(w, &trace, value, size);
   stf_release(w->ctx, trace.t);
   stf_release(w->ctx, trace.x);
-  STEIF_TRY(code);
-  row[i] = (steif_weak_row){1 / (sunrealtype)steps, value, value - exact, NAN};
+  return code;
+}
+
+/* Over several components 2-norms. */
+static int fill_row(measure *w, size_t i, const steif_weak_result *result, steif_weak_row *row)
+{
+  const steif_weak_query *q = w->query;
+  const size_t steps = (size_t)llround(1 / q->h) << i;
+  const bool all = q->component == STEIF_ALL;
+  sunrealtype value = 0, error = 0, level = 0;
+  for (int m = w->first; m < w->first + w->count; m++) {
+    sunrealtype v = 0, size = 0;
+    STEIF_TRY(pair(w, m, steps, &v, &size));
+    if (all && q->values) q->values[i * (size_t)w->subject.n + (size_t)m] = v;
+    level = hypot(level, ROUNDING * STF_EPS * (size + fabs(w->exact[m])) + result->accuracy);
+    value = all ? hypot(value, v) : v;
+    error = all ? hypot(error, v - w->exact[m]) : v - w->exact[m];
+  }
+  row[i] = (steif_weak_row){1 / (sunrealtype)steps, value, error, NAN};
   if (i > 0) row[i].order = log2(fabs(row[i - 1].error / row[i].error));
-  w->floor[i] = ROUNDING * STF_EPS * (size + fabs(exact));
+  w->floor[i] = level;
   return STEIF_OK;
 }
 
@@ -133,7 +148,7 @@ static void conclude(const sunrealtype *level, const steif_weak_row *row, size_t
     judge(row, above, result);
 }
 
-/* E_1 belongs to backward Euler started from x(0-). */
+/* E_1 belongs to backward Euler started from x(0-), and is known for Jordan blocks. */
 static int first_order(measure *w, sunrealtype *value)
 {
   const steif_weak_query *q = w->query;
@@ -143,20 +158,41 @@ static int first_order(measure *w, sunrealtype *value)
   const char *p = stf_spec_word(&spec, "p");
   const bool euler =
     !strcmp(spec.name, "be") || (!strcmp(spec.name, "bdf") && p && !strcmp(p, "1"));
-  if (!euler || w->cq || (q->convention != STEIF_P && q->convention != STEIF_R))
+  if (!w->subject.block.k || q->component == STEIF_ALL || !euler || w->cq ||
+      (q->convention != STEIF_P && q->convention != STEIF_R))
     return STEIF_OK;
-  return stf_block_first(&w->block, q->component, q->convention, value);
+  return stf_block_first(&w->subject.block, q->component, q->convention, value);
+}
+
+static int find_exact(measure *w, steif_weak_result *result)
+{
+  const steif_weak_query *q = w->query;
+  const bool all = q->component == STEIF_ALL;
+  result->index = w->subject.index;
+  STEIF_TRY(stf_subject_pair(&w->subject, w->exact, &result->accuracy, result->source,
+                             sizeof result->source));
+  result->exact = 0;
+  for (int m = w->first; m < w->first + w->count; m++)
+    result->exact = all ? hypot(result->exact, w->exact[m]) : w->exact[m];
+  for (int m = 0; all && q->exacts && m < w->subject.n; m++) q->exacts[m] = w->exact[m];
+  return STEIF_OK;
 }
 
 static int measure_rows(measure *w, steif_weak_row *row, steif_weak_result *result)
 {
   const steif_weak_query *q = w->query;
-  STEIF_CHECK(q->component >= 0 && q->component < w->block.k, w->ctx, STEIF_BAD_INPUT,
-              "component %d is not one of the %d components 0 .. %d of '%s'", q->component,
-              w->block.k, w->block.k - 1, q->problem);
-  STEIF_TRY(stf_block_pair(&w->block, q->component, 0, &result->exact));
+  const int n = w->subject.n;
+  STEIF_CHECK(q->component == STEIF_ALL || (q->component >= 0 && q->component < n), w->ctx,
+              STEIF_BAD_INPUT, "component %d is not one of the %d components 0 .. %d of '%s'",
+              q->component, n, n - 1, w->subject.problem.name);
+  w->first = q->component == STEIF_ALL ? 0 : q->component;
+  w->count = q->component == STEIF_ALL ? n : 1;
+  w->floor = stf_allocate(w->ctx, q->rows + (size_t)n, sizeof *w->floor);
+  if (!w->floor) return STEIF_NO_MEMORY;
+  w->exact = w->floor + q->rows;
+  STEIF_TRY(find_exact(w, result));
   STEIF_TRY(first_order(w, &result->first));
-  for (size_t i = 0; i < q->rows; i++) STEIF_TRY(fill_row(w, i, result->exact, row));
+  for (size_t i = 0; i < q->rows; i++) STEIF_TRY(fill_row(w, i, result, row));
   conclude(w->floor, row, q->rows, result);
   return STEIF_OK;
 }
@@ -168,11 +204,9 @@ int steif_weak_measure(steif_context *ctx, const steif_weak_query *query, steif_
   STEIF_TRY(check(ctx, query));
   measure w = {.ctx = ctx, .query = query};
   w.cq = stf_trace_is_cq(ctx, query->method, query->start);
-  STEIF_TRY(stf_jordan_open(ctx, query->problem, &w.problem, &w.block));
-  w.floor = stf_allocate(ctx, query->rows, sizeof *w.floor);
-  const int code = w.floor ? measure_rows(&w, row, result) : STEIF_NO_MEMORY;
+  STEIF_TRY(stf_subject_open(ctx, query->problem, query->linear, query->x0, &w.subject));
+  const int code = measure_rows(&w, row, result);
   stf_release(ctx, w.floor);
-  stf_block_close(&w.block);
-  steif_problem_clear(ctx, &w.problem);
+  stf_subject_close(&w.subject);
   return code;
 }

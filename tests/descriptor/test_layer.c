@@ -10,7 +10,7 @@ static steif_layer_result measure(const char *method, int k, const char *name,
                                   const char *start, double h, size_t steps)
 {
   steif_context *ctx = steif_context_new(NULL);
-  steif_layer_result result = {-1, NAN};
+  steif_layer_result result = {.layer_steps = -1, .threshold = NAN};
   char problem[48];
   snprintf(problem, sizeof problem, "jordan:k=%d,case=%s", k, name);
   const int code =
