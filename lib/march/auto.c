@@ -3,7 +3,7 @@
  *   given steps                                   radau:s=3
  *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-4 or index above 1, else s=7
  *   large systems, index above 1                  radau:s=3
- *   large systems                                 bdf down to rtol 1e-7, radau:s=5 below
+ *   large systems                                 bdf down to rtol 1e-8, radau:s=5 below
  * Factorisations dominate large systems: BDF factors one real matrix now and then, Radau pays for
  * itself when many digits are wanted.
  *
@@ -32,7 +32,7 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
     method = "radau:s=7", reason = "small and dense, many digits wanted";
   else if (high)
     method = "radau:s=3", reason = "index above 1: collocation keeps the constraints";
-  else if (o->rtol >= 1e-7)
+  else if (o->rtol >= 0.9e-8)
     method = "bdf", reason = "factorisations dominate: one real matrix, kept for many steps";
   else
     method = "radau:s=5", reason = "large, many digits wanted: order 9 needs few steps";

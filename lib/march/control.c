@@ -147,7 +147,9 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
     }
     s->rejected++, s->after_reject = true;
     const sunrealtype power = 1 / (step->error_order + 1.0);
-    h *= isfinite(e) ? clamp(safety * pow(e, -power), shrink_most, 0.9) : shrink_most;
+    const sunrealtype factor =
+      step->bias > 1 ? pow(step->bias * e, -power) : safety * pow(e, -power);
+    h *= isfinite(e) ? clamp(factor, shrink_most, 0.9) : shrink_most;
     STEIF_CHECK(
       tries < REFUSALS, s->ctx, STEIF_STEP_SIZE,
       "the error test of problem '%s' failed %d times at t = %.12g, last with h = %.3g and "

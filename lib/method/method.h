@@ -63,6 +63,7 @@ struct stf_step {
   sunrealtype factor; /* of the next step's length, chosen by the family; 0: by the frame */
   sunrealtype shrink; /* factor for h after a refusal; 0: the frame's */
   int error_order;    /* error = O(h^(error_order + 1)) */
+  sunrealtype bias;            /* of the error when a step is made smaller, 1: the safety factor */
   sunrealtype error_tolerance; /* accept when norm(error) <= this */
 };
 

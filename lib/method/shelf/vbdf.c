@@ -15,12 +15,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { HIGHEST = 5, POINTS = HIGHEST + 2 };
+enum { HIGHEST = 5, POINTS = HIGHEST + 2, AGE = 50 }; /* AGE: steps a Jacobian may serve */
 
 typedef struct state {
   int p, k, last;   /* highest order; order of the trial; of the last step */
   int points, wait; /* valid past points; steps until the order is looked at */
   int refusals;
+  long seen, since; /* Jacobians made, and the step of the last one */
   N_Vector y[POINTS + 1];
   sunrealtype t[POINTS + 1];
   sunrealtype alpha[HIGHEST + 1];
@@ -77,6 +78,8 @@ static int attempt(stf_step *s, sunrealtype h)
   if (!s->refused) e->refusals = 0;
   if (++e->refusals > 4) e->k = 1; /* the history is not to be trusted */
   if (e->k > e->points) e->k = e->points;
+  if (s->system.nje != e->seen) e->seen = s->system.nje, e->since = s->count;
+  if (s->count - e->since >= AGE) s->newton.wanted = true;
   predict(s, h);
   STEIF_TRY(solve(s, h));
   const sunrealtype span = e->points > e->k ? s->t + h - e->t[e->k] : 2 * h;
@@ -172,7 +175,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->points = 1, e->k = 1, e->wait = 2;
   for (int j = 1; j <= POINTS; j++)
     if (!(e->y[j] = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
-  s->error_tolerance = 1;
+  s->error_tolerance = 1, s->bias = 6;
   return STEIF_OK;
 }
 
