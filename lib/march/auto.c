@@ -2,6 +2,7 @@
  *
  *   given steps                                   radau:s=3
  *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-4 or index above 1, else s=7
+ *   dense systems up to n = 300                   radau:s=5: oscillations defeat BDF there
  *   large systems, index above 1                  radau:s=3
  *   large systems                                 bdf down to rtol 1e-8, radau:s=5 below
  * Factorisations dominate large systems: BDF factors one real matrix now and then, Radau pays for
@@ -11,12 +12,17 @@
 #include "march.h"
 #include <stdio.h>
 
-enum { SMALL = 64 };
+enum { SMALL = 64, MEDIUM = 300 };
+
+static enum steif_storage storage_of(const steif_problem *p, const steif_options *o)
+{
+  return o->force_storage ? o->storage : p->storage;
+}
 
 static bool small(const steif_problem *p, const steif_options *o, int form)
 {
-  const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
-  return p->n <= SMALL && storage == STEIF_DENSE && (form == STEIF_ODE || form == STEIF_MASS);
+  return p->n <= SMALL && storage_of(p, o) == STEIF_DENSE &&
+         (form == STEIF_ODE || form == STEIF_MASS);
 }
 
 const char *stf_choose(const steif_problem *p, const steif_options *o, int form, char *why,
@@ -30,6 +36,8 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
     method = "radau:s=5", reason = "small and dense: all shifts in vector registers";
   else if (small(p, o, form))
     method = "radau:s=7", reason = "small and dense, many digits wanted";
+  else if (!high && storage_of(p, o) == STEIF_DENSE && p->n <= MEDIUM)
+    method = "radau:s=5", reason = "dense, of medium size: few steps, oscillations do no harm";
   else if (high)
     method = "radau:s=3", reason = "index above 1: collocation keeps the constraints";
   else if (o->rtol >= 0.9e-8)
