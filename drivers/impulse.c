@@ -49,7 +49,9 @@ static int tell(struct call *call, const struct linear *l, const steif_impulse *
 {
   steif_report *r = steif_report_new(call->ctx), *sheet = steif_report_new(call->ctx);
   int code = r && sheet ? EXIT_OK : fail(call);
-  if (!code) impulse_fill(r, i), code = show(call, r);
+  if (!code) impulse_fill(r, i);
+  if (!code && given(call, "--vs")) impulse_against(call, l, word_of(call, "--vs", NULL), r);
+  if (!code) code = show(call, r);
   if (!code && call->csv) {
     impulse_rows(sheet, "rows", l->t0, l->x0, i);
     code = save_csv(call, sheet);
@@ -88,9 +90,11 @@ static int analyse(struct call *call, struct linear *l)
 static int run(struct call *call)
 {
   struct linear l;
-  if (given(call, "--method") != given(call, "--t1"))
+  const bool vs = given(call, "--vs"), ends = given(call, "--t1") || vs;
+  if (given(call, "--method") ? !given(call, "--t1") : given(call, "--t1") && !vs)
     return refuse(call, "--method and --t1 go together: the run after the jump and its end");
-  if (!given(call, "--method") && (given(call, "--h") || given(call, "--rtol") || call->plot))
+  if (!given(call, "--method") &&
+      (given(call, "--h") || (given(call, "--rtol") && !ends) || call->plot))
     return refuse(call, "--h, --rtol and --plot belong to a run; add --method and --t1");
   int code = linear_open(call, &l, 0, true);
   if (!code) code = linear_started(call, &l);
@@ -109,6 +113,7 @@ static const struct option options[] = {
   {"--t1", REAL, "T", "end of that run"},
   {"--h", POSITIVE, "H", "its equal steps (default: chosen)"},
   {"--rtol", POSITIVE, "R", "its tolerance (default 1e-6)"},
+  {"--vs", CHOICE, "ida|cvode|arkode", "run that, too, from the same x(0-) to --t1"},
   ANALYSIS_ROWS,
   {NULL, FLAG, NULL, NULL},
 };

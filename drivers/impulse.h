@@ -11,6 +11,9 @@ void impulse_fill(steif_report *r, const steif_impulse *i);
 /* The rows of a sheet with columns t, kind, x: x-, c0, c1, ..., x+ of one jump. */
 void impulse_rows(steif_report *r, const char *sheet, double t, const double *before,
                   const steif_impulse *i);
+/* Under "vs.": how far `method` comes from the same x(0-). */
+void impulse_against(const struct call *call, const struct linear *l, const char *method,
+                     steif_report *r);
 /* EXIT_UNCERTIFIED after a sentence, or EXIT_OK. */
 int impulse_verdict(const struct call *call, const steif_impulse *i);
 

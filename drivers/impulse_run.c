@@ -8,6 +8,7 @@ enum { BREAKS = 256, TITLE = 160 };
 /* What a run leaves: its start and end on stdout, everything in the sheet of --csv. */
 struct record {
   const struct call *call;
+  const struct linear *linear;
   steif_report *shown, *sheet;
   trajectory path;
   size_t n;
@@ -48,6 +49,8 @@ static int output(struct record *k, const char *method)
   char title[TITLE];
   snprintf(title, sizeof title, "%s by %s", k->call->word[0], method);
   steif_report_whole(k->shown, "steps", k->steps);
+  if (given(k->call, "--vs"))
+    impulse_against(k->call, k->linear, word_of(k->call, "--vs", NULL), k->shown);
   int code = show(k->call, k->shown);
   if (!code) code = save_csv(k->call, k->sheet);
   if (!code) code = trajectory_plot(k->call, &k->path, title);
@@ -76,6 +79,7 @@ static int integrate_on(struct call *call, const struct linear *l, struct record
 int impulse_run(struct call *call, struct linear *l)
 {
   struct record k = {.call = call,
+                     .linear = l,
                      .shown = steif_report_new(call->ctx),
                      .sheet = steif_report_new(call->ctx),
                      .n = (size_t)l->n,

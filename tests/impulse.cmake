@@ -249,6 +249,20 @@ if(NOT end MATCHES "-9[.]8[34][0-9]+,[^,]*-14[.]7[45]")
   message(SEND_ERROR "ut5 at 1: ${end}")
 endif()
 
+# IDA beside: it does not come away from inconsistent values, and does from x(0+).
+expect(0 impulse switchrlc --vs ida --t1 1e-4 --json)
+member(ida vs method)
+member("baseline failed" vs status)
+member("*" vs message)
+member("*" vs t)
+near(26 x_plus 0)
+expect(0 impulse switchrlc:case=cons --vs ida --t1 1e-4 --json)
+member(ok vs status)
+expect(0 impulse E.mtx F.mtx --x0 x0.mtx --vs ida --json)
+member("baseline failed" vs status)
+expect(0 impulse impact --vs ida --method auto --t1 0.5 --json)
+member("baseline failed" vs status)
+
 # Weak convergence and layers of systems: UT5 with 40 digits, by recurrences of their own.
 expect(0 weak bdf:p=2 ut5 --start cq --convention C --h 0.0625 --halvings 3 --json)
 member(3 index)
