@@ -2,8 +2,11 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_stiffpair[], tests_of_nonlinear[], tests_of_start[];
+extern CU_TestInfo tests_of_sympl[], tests_of_separable[], tests_of_stiffpair[],
+  tests_of_nonlinear[], tests_of_start[];
 
-SUITE_MAIN({.pName = "stiff pair", .pTests = tests_of_stiffpair},
+SUITE_MAIN({.pName = "sympl", .pTests = tests_of_sympl},
+           {.pName = "separable", .pTests = tests_of_separable},
+           {.pName = "stiff pair", .pTests = tests_of_stiffpair},
            {.pName = "nonlinear", .pTests = tests_of_nonlinear},
            {.pName = "starts", .pTests = tests_of_start})
