@@ -34,7 +34,8 @@ int bench_step(struct call *call)
 static const struct {
   const char *name;
   int (*run)(struct call *call);
-} benchmarks[] = {{"step", bench_step}, {"workprec", bench_workprec}};
+} benchmarks[] = {
+  {"step", bench_step}, {"workprec", bench_workprec}, {"impulse", bench_impulse}};
 enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
 static const char *name_at(const void *list, size_t i)
@@ -53,7 +54,7 @@ static int run(struct call *call)
 }
 
 static const struct option options[] = {
-  {"--problems", WORD, "a,b,c", "workprec: instead of the usual ones"},
+  {"--problems", WORD, "a,b,c", "workprec: instead of the usual ones; impulse: one"},
   {"--methods", WORD, "a,b,c", "workprec: instead of the usual ones; baselines among them"},
   {"--rtols", REALS, "a,b,c", "workprec: relative tolerances (default 1e-3, 1e-4 ... 1e-11)"},
   {"--longest", POSITIVE, "S", "workprec: a solve ends after S processor seconds (default 2)"},
@@ -63,7 +64,7 @@ static const struct option options[] = {
 const struct verb verb_bench = {
   "bench",
   "Measure steps against their kernels, solves against CVODE, IDA, ARKODE",
-  "[step|workprec]",
+  "[step|workprec|impulse]",
   0,
   1,
   options,

@@ -306,4 +306,14 @@ expect(2 weak be E.mtx F.mtx ERR "--x0 X.mtx is needed")
 expect(4 weak be none.mtx none.mtx --x0 x0.mtx ERR "singular")
 expect(1 weak be vdpol ERR "form ode")
 
+# Large systems against their kernels.
+expect(0 bench impulse --problems springs:n=60,c=6 --json)
+member(126 rows 0 n)
+member(ON rows 0 certified)
+foreach(key factors refactors solves cpu_s floor_s ratio peak_mb bytes_per_unknown estimate)
+  member("*" rows 0 ${key})
+endforeach()
+expect(1 bench impulse --problems vdpol ERR "form ode")
+expect(2 bench impulse --problems springz ERR "springs")
+
 file(REMOVE_RECURSE ${FOLDER})

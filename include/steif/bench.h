@@ -93,6 +93,26 @@ STEIF_EXPORT sunrealtype steif_bench_speed(const steif_bench_match *match, size_
 #define STEIF_BENCH_SLOW 2.5
 STEIF_EXPORT sunrealtype steif_bench_sundials(steif_context *ctx);
 
+/* Structure, x(0+) and impulses of a sparse descriptor system by circles against the complex
+ * factorisations (with and without new pivots) and solves that they take, called directly in KLU.
+ * Processor seconds; the goal is a ratio of 1.3. */
+typedef struct steif_bench_impulse {
+  char problem[STEIF_SPEC_WORD];
+  sunindextype n;
+  long factors, refactors, solves;
+  sunrealtype cpu_s, wall_s;      /* the whole analysis and the impulses */
+  sunrealtype floor_s, ratio;
+  sunrealtype peak_mb;            /* of the process so far: measure one row in a process */
+  sunrealtype bytes_per_unknown;  /* of what the peak grew by */
+  sunrealtype estimate;           /* relative error of x(0+) by the algorithm's own account */
+  int certified;
+} steif_bench_impulse;
+
+/* Spec of row i of the usual plan, NULL past the end. */
+STEIF_EXPORT const char *steif_bench_system(size_t i);
+STEIF_EXPORT int steif_bench_circles(steif_context *ctx, const char *problem,
+                                     steif_bench_impulse *row);
+
 #ifdef __cplusplus
 }
 #endif

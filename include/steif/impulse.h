@@ -19,6 +19,7 @@
 #ifndef STEIF_IMPULSE_H
 #define STEIF_IMPULSE_H
 
+#include <steif/pencil.h>
 #include <steif/solver.h>
 
 #ifdef __cplusplus
@@ -60,6 +61,7 @@ typedef struct steif_structure {
   const char *method;       /* "staircase", "qz", "contour", "drazin" */
   sunindextype equations_count, unknowns_count; /* offenders, 0-based, when singular or index > 1 */
   sunindextype *equations, *unknowns;
+  steif_pencil_stats cost;  /* of the sparse algorithms: complex shifts of circles */
   char message[512];
 } steif_structure;
 
@@ -81,6 +83,7 @@ typedef struct steif_impulse {
   sunrealtype estimate;     /* of the relative error of x_plus: two radii, or two algorithms */
   int certified;
   const char *method;
+  steif_pencil_stats cost; /* of the sparse algorithms */
   char message[512];
 } steif_impulse;
 

@@ -342,6 +342,7 @@ int stf_contour(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analys
   }
   STEIF_TRY(stf_circle_open(ctx, E, F, analysis, -1, w.analysis.index_most + 2, &w.circle));
   const int code = analyse(&w, E, F);
+  structure->cost = *steif_pencil_statistics(w.circle.scaled.pencil);
   stf_circle_close(&w.circle);
   return code;
 }

@@ -188,6 +188,7 @@ int stf_contour_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
   impulse->method = "contour";
   STEIF_TRY(stf_circle_open(ctx, E, F, analysis, -1, impulse->count + 1, &w.circle));
   const int code = analyse(&w, stf_radius(E, F, analysis, structure), fixed, structure);
+  impulse->cost = *steif_pencil_statistics(w.circle.scaled.pencil);
   stf_circle_close(&w.circle);
   return code;
 }
