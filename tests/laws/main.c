@@ -3,7 +3,8 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_law_propagator[], tests_of_law_retry[], tests_of_law_stumble[],
-  tests_of_law_backends[], tests_of_law_memory[], tests_of_law_order[], tests_of_law_claims[];
+  tests_of_law_backends[], tests_of_law_memory[], tests_of_law_order[], tests_of_law_claims[],
+  tests_of_law_symplectic[];
 
 SUITE_MAIN({.pName = "propagator", .pTests = tests_of_law_propagator},
            {.pName = "retry", .pTests = tests_of_law_retry},
@@ -11,4 +12,5 @@ SUITE_MAIN({.pName = "propagator", .pTests = tests_of_law_propagator},
            {.pName = "back ends", .pTests = tests_of_law_backends},
            {.pName = "memory", .pTests = tests_of_law_memory},
            {.pName = "order", .pTests = tests_of_law_order},
-           {.pName = "claims", .pTests = tests_of_law_claims})
+           {.pName = "claims", .pTests = tests_of_law_claims},
+           {.pName = "symplectic", .pTests = tests_of_law_symplectic})

@@ -1,4 +1,4 @@
-/* test_sympl.c: errors and orders of splitting methods on the harmonic oscillator and the pendulum,.
+/* test_sympl.c: errors and orders of splitting methods on the harmonic oscillator and the pendulum.
  * Figures: recomputation of the book chapter's experiments in extended precision
  * (mpmath), errors in the larger component.
  * SPDX-License-Identifier: BSD-3-Clause */

@@ -3,10 +3,14 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_region[], tests_of_boundary[], tests_of_order[],
-  tests_of_lyapunov[], tests_of_growth[];
+  tests_of_lyapunov[], tests_of_growth[], tests_of_energy[], tests_of_kepler[],
+  tests_of_stepmap[];
 
 SUITE_MAIN({.pName = "region", .pTests = tests_of_region},
            {.pName = "boundary", .pTests = tests_of_boundary},
            {.pName = "order", .pTests = tests_of_order},
            {.pName = "lyapunov", .pTests = tests_of_lyapunov},
-           {.pName = "growth", .pTests = tests_of_growth})
+           {.pName = "growth", .pTests = tests_of_growth},
+           {.pName = "energy", .pTests = tests_of_energy},
+           {.pName = "kepler", .pTests = tests_of_kepler},
+           {.pName = "map of a step", .pTests = tests_of_stepmap})

@@ -1,0 +1,287 @@
+/* test_energy.c: drift of the energy on the oscillator, the pendulum and Kepler's problem: bands, lines,
+ * closed forms. Figures: recomputation of the book chapter's experiments (numpy, mpmath), and the closed
+ * forms named with them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+#include <nvector/nvector_serial.h>
+#include <steif/steif.h>
+#include <string.h>
+
+#define TWO_PI 6.28318530717958647692
+
+typedef struct run {
+  steif_drift drift[4];
+  steif_energy energy;
+  double y[4]; /* at the end */
+} run;
+
+static int keep(steif_solver *s, sunrealtype t, N_Vector y, void *user)
+{
+  (void)s, (void)t;
+  memcpy(user, NV_DATA_S(y),
+         (size_t)(NV_LENGTH_S(y) < 4 ? NV_LENGTH_S(y) : 4) * sizeof(double));
+  return 0;
+}
+
+/* `steps` steps of length h. */
+static run watched(steif_context *ctx, const steif_problem *p, const char *method, double h,
+                   long steps)
+{
+  run r = {.energy = {.period = TWO_PI}};
+  steif_options o = steif_defaults();
+  o.h = h, o.t1 = h * (double)steps, o.observe = keep, o.observer = r.y;
+  o.newton = 1e-6, o.max_steps = 1000000000;
+  r.energy.drift = r.drift;
+  const int code = steif_energy_watch(ctx, p, method, &o, &r.energy);
+  if (code) printf("\n  %s: %s", method, steif_message(ctx));
+  CHECK(code == STEIF_OK);
+  CU_ASSERT_EQUAL(r.energy.steps, steps);
+  return r;
+}
+
+static run named(const char *problem, const char *method, double h, long steps)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, problem, &p) == STEIF_OK);
+  const run r = watched(ctx, &p, method, h, steps);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+  return r;
+}
+
+/* round(200 pi / 0.05) steps: 100 periods but for 0.02. */
+static void drifts_on_the_oscillator(void)
+{
+  static const struct {
+    const char *method;
+    double max, min, final, mean, mean_digits;
+    int drifts;
+  } rows[] = {
+    {"symeuler:first=p", 1.2820512537e-02, -1.2195121920e-02, -1.1706574206e-03, 3.1256e-04,
+     2e-5, 0},
+    {"symeuler:first=q", 1.2820512734e-02, -1.2195121780e-02, 1.1734108097e-03, 3.1274e-04,
+     2e-5, 0},
+    {"verlet:first=kick", 0, -3.1249999724e-04, -6.8791705e-07, -1.5622595e-04, 4e-8, 0},
+    {"verlet:first=drift", 3.1269543188e-04, 0, 6.8834726e-07, 1.5632365e-04, 4e-8, 0},
+    {"rk4", 0, -1.3630703129e-06, -1.3630703129e-06, -6.815e-07, 1e-4, 1},
+    {"be", 0, -0.5, -0.5, -0.5, 0.1, 1},
+  };
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    const steif_drift d = named("harmonic", rows[i].method, 0.05, 12566).drift[0];
+    CLOSE_FLOOR(d.max, rows[i].max, 1e-9, 1e-4);
+    CLOSE_FLOOR(d.min, rows[i].min, 1e-9, 1e-4);
+    CLOSE_FLOOR(d.final, rows[i].final, 1e-8, 1e-5);
+    CLOSE(d.mean, rows[i].mean, rows[i].mean_digits);
+    if (i < 5) CHECK(d.drifts == rows[i].drifts);
+    CHECK(d.start == 0.5);
+  }
+  CLOSE(named("harmonic", "euler", 0.05, 12566).drift[0].max, 2.115e13, 3e-4);
+}
+
+/* E_n = E_0 (1 - h^6/72 + h^8/576)^n. */
+static void rk4_loses_energy_by_its_closed_form(void)
+{
+  static const struct {
+    double h;
+    long steps;
+    double total;
+  } rows[] = {{0.05, 12566, -1.36307031286523e-06}, {0.05, 125664, -1.36309697937225e-05},
+              {0.1, 6283, -4.35755058810885e-05},   {0.3, 2094, -1.03725659747701e-02},
+              {0.3, 8378, -4.02261513823341e-02},   {0.3, 20944, -9.45754857860313e-02}};
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    const double h = rows[i].h, h6 = pow(h, 6);
+    const steif_drift d = named("harmonic", "rk4", h, rows[i].steps).drift[0];
+    CLOSE_FLOOR(d.final, rows[i].total, 1e-12, 1);
+    const double closed =
+      0.5 * expm1((double)rows[i].steps * log1p(-h6 / 72 + h6 * h * h / 576));
+    CLOSE_FLOOR(d.final, closed, 1e-12, 1);
+    CHECK(d.max == 0 && d.drifts);
+  }
+}
+
+/* Per period it is h^5: a factor of 32 for half the step. */
+static void rk4_loses_less_by_32_for_half_the_step(void)
+{
+  static const double loss[] = {-4.3769e-04, -1.3893e-05, -4.3579e-07, -1.3631e-08};
+  for (int i = 0; i < 4; i++) {
+    const double h = ldexp(0.4, -i);
+    const run r = named("harmonic", "rk4", h, lround(20 * TWO_PI / h));
+    CLOSE(r.drift[0].per_period, loss[i], 1e-2);
+    CHECK(fabs(r.drift[0].slope) > 1e3 * r.drift[0].slope_error);
+  }
+}
+
+/* -- what is kept exactly ------------------------------------------------------------------------ */
+
+/* user: coefficients of q^2, q p, p^2. */
+static int quadratic(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
+{
+  const sunrealtype *x = NV_DATA_S(y), *c = user;
+  (void)t;
+  *value = c[0] * x[0] * x[0] + c[1] * x[0] * x[1] + c[2] * x[1] * x[1];
+  return 0;
+}
+
+static void modified_energies_are_kept(void)
+{
+  static const double h = 0.3;
+  static const struct {
+    const char *method;
+    double c[3];
+  } rows[] = {{"verlet:first=kick", {1 - 0.09 / 4, 0, 1}},
+              {"verlet:first=drift", {1, 0, 1 - 0.09 / 4}},
+              {"symeuler:first=p", {1, -0.3, 1}},
+              {"symeuler:first=q", {1, 0.3, 1}},
+              {"gauss:s=1", {0.5, 0, 0.5}},
+              {"gauss:s=2", {0.5, 0, 0.5}},
+              {"dirk:cranknicolson", {0.5, 0, 0.5}}};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "harmonic", &p) == STEIF_OK);
+  p.invariant = quadratic;
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    p.user = (void *)rows[i].c;
+    const steif_drift d = watched(ctx, &p, rows[i].method, h, 20944).drift[0];
+    CHECK(d.max - d.min < 1e-12 * d.start);
+    CHECK(fabs(d.start) > 0.49);
+  }
+  steif_context_free(&ctx);
+}
+
+/* From (1, 0): Verlet kick first in [-h^2/8, 0], drift first in [0, h^2/8/(1 - h^2/4)], Euler in
+ * [0.5/(1 + h/2) - 0.5, 0.5/(1 - h/2) - 0.5]. */
+static void bands_are_the_closed_ones(void)
+{
+  static const double steps[] = {0.05, 0.3};
+  for (int i = 0; i < 2; i++) {
+    const double h = steps[i], band = h * h / 8;
+    const long count = i ? 20944 : 12566;
+    const steif_drift kick = named("harmonic", "verlet", h, count).drift[0],
+                      drift = named("harmonic", "verlet:first=drift", h, count).drift[0],
+                      euler = named("harmonic", "symeuler", h, count).drift[0];
+    CLOSE(kick.min, -band, 1e-7);
+    CHECK(kick.min >= -band - 1e-14 && kick.max <= 1e-14);
+    CLOSE(kick.mean, -band / 2, 1e-3);
+    CLOSE(drift.max, band / (1 - h * h / 4), 1e-7);
+    CHECK(drift.min >= -1e-14);
+    CLOSE(euler.max, 0.5 / (1 - h / 2) - 0.5, 1e-6);
+    CLOSE(euler.min, 0.5 / (1 + h / 2) - 0.5, 1e-6);
+  }
+}
+
+/* Brouwer: rounding that is not biased grows like the root of the number of steps; with coefficients
+ * rounded beforehand and no more care it is 1e-12 here, and grows along a line. */
+static void compensated_gauss_keeps_the_energy_to_rounding(void)
+{
+  static const char *const methods[] = {"gauss:s=1,compensated=1", "gauss:s=2,compensated=1",
+                                        "gauss:s=3,compensated=1"};
+  for (int i = 0; i < 3; i++) {
+    const steif_drift d = named("harmonic", methods[i], 0.05, 12566).drift[0];
+    CHECK(d.max < 3e-15 && d.min > -3e-15);
+  }
+  const steif_drift d = named("harmonic", methods[0], 0.05, 125664).drift[0];
+  CHECK(d.max < 1e-14 && d.min > -1e-14);
+}
+
+/* Kahan and Li's method at a step where its own error is below rounding: root mean square over an
+ * ensemble of starts. */
+static double rounding(const char *method)
+{
+  enum { MEMBERS = 12 };
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  double sum = 0, y0[2] = {0, 0};
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "pendulum", &p) == STEIF_OK);
+  p.y0 = y0;
+  for (int i = 0; i < MEMBERS; i++) {
+    y0[0] = 1 + 0.0137 * i;
+    const double off = watched(ctx, &p, method, 0.05, 10000).drift[0].final;
+    sum += off * off;
+  }
+  steif_context_free(&ctx);
+  return sqrt(sum / MEMBERS);
+}
+
+static void compensated_sums_round_less(void)
+{
+  const double plain = rounding("kahanli8:compensated=0"),
+               less = rounding("kahanli8:compensated=1");
+  CHECK(plain < 1e-13 && less < 2e-14 && less < plain / 1.3);
+}
+
+/* -- pendulum ------------------------------------------------------------------------------------ */
+
+static void phase_portrait_of_the_pendulum(void)
+{
+  static const struct {
+    const char *method;
+    double q, p, max, min, final;
+  } rows[] = {
+    {"verlet", 0.8586573283, 0.4753372023, 0, -1.0612339990e-03, -1.7937967584e-04},
+    {"rk4", 0.7993509296, 0.5600988671, 0, -1.4503089743e-05, -1.4500852036e-05},
+    {"symeuler:first=p", 0.8625238546, 0.5089972116, 2.2622015482e-02, -2.0798987897e-02,
+     1.9318678792e-02},
+    {"symeuler:first=q", 0.8116241334, 0.5089972116, 2.2622012215e-02, -2.0798992450e-02,
+     -1.8479798477e-02},
+    {"gauss:s=1", 0.6837473884, 0.6854655140, 8.7891657968e-05, -3.26e-10, 2.2858441307e-05},
+  };
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    const run r = named("pendulum", rows[i].method, 0.1, 3142);
+    CLOSE(r.y[0], rows[i].q, 1e-9);
+    CLOSE(r.y[1], rows[i].p, 1e-9);
+    CLOSE_FLOOR(r.drift[0].max, rows[i].max, 1e-8, 1e-4);
+    CLOSE_FLOOR(r.drift[0].min, rows[i].min, 1e-8, 1e-4);
+    CLOSE_FLOOR(r.drift[0].final, rows[i].final, 1e-8, 1e-4);
+  }
+  const steif_drift d = named("pendulum", "verlet", 0.05, 5000).drift[0];
+  CLOSE(d.min, -2.65300181554e-04, 1e-8);
+  CHECK(d.max <= 0 && !d.drifts);
+}
+
+/* Orbits shrink, the sooner the nearer to the separatrix; nothing escapes. */
+static void rk4_sinks_on_the_pendulum(void)
+{
+  static const struct {
+    double q0, h, final;
+    int digits;
+  } rows[] = {{1, 0.05, -9.0141499e-06, 8}, {1, 0.1, -2.8803505e-04, 8},
+              {1, 0.3, -6.5282145e-02, 8},  {1, 0.6, -4.5864804e-01, 8},
+              {3, 0.1, -4.857662e-04, 7},   {3, 0.2, -1.637801e-02, 7},
+              {3, 0.3, -1.447830e-01, 7},   {3, 0.5, -1.495, 4}};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "pendulum", &p) == STEIF_OK);
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    const double y0[] = {rows[i].q0, 0};
+    p.y0 = y0;
+    const steif_drift d =
+      watched(ctx, &p, "rk4", rows[i].h, lround(1000 * TWO_PI / rows[i].h)).drift[0];
+    CLOSE(d.final, rows[i].final, 6 * pow(10, -rows[i].digits));
+    CHECK(d.max < 1e-5 && d.slope < 0 && d.drifts);
+  }
+  steif_context_free(&ctx);
+}
+
+/* Not symplectic, but conjugate to what is: bounded. */
+static void the_trapezoidal_rule_stays_in_a_band(void)
+{
+  const steif_drift d = named("pendulum", "dirk:cranknicolson", 0.1, 20000).drift[0];
+  CLOSE(d.min, -1.757e-04, 3e-4);
+  CHECK(d.max < 1e-9 && !d.drifts);
+}
+
+CU_TestInfo tests_of_energy[] = {
+  {"drifts on the oscillator are those of the chapter", drifts_on_the_oscillator},
+  {"RK4 loses energy by its closed form", rk4_loses_energy_by_its_closed_form},
+  {"RK4 loses 32 times less per period for half the step",
+   rk4_loses_less_by_32_for_half_the_step},
+  {"modified energies are kept to rounding", modified_energies_are_kept},
+  {"bands are the closed ones", bands_are_the_closed_ones},
+  {"compensated Gauss keeps the energy to rounding",
+   compensated_gauss_keeps_the_energy_to_rounding},
+  {"compensated sums round less", compensated_sums_round_less},
+  {"the phase portrait of the pendulum is that of the chapter", phase_portrait_of_the_pendulum},
+  {"RK4 sinks on the pendulum", rk4_sinks_on_the_pendulum},
+  {"the trapezoidal rule stays in a band", the_trapezoidal_rule_stays_in_a_band},
+  CU_TEST_INFO_NULL};
