@@ -100,15 +100,44 @@ static int life(steif_context *ctx, const char *problem, const char *method)
   return code;
 }
 
+/* Splitting methods and compensated sums on problems of their own. */
+static void splitting_allocates_nothing(void)
+{
+#if REPLACED
+  static const char *const methods[] = {"verlet:compensated=1", "verlet:first=drift",
+                                        "symeuler", "kahanli8:compensated=0",
+                                        "gauss:s=2,compensated=1"};
+  steif_context *ctx = steif_context_new(&(steif_setup){.threads = 1});
+  for (int m = 0; m < 5; m++) {
+    steif_problem p;
+    steif_options o = steif_defaults();
+    CU_ASSERT_FATAL(!steif_problem_find(ctx, "fpu:n=37", &p));
+    o.h = 0.07, o.t1 = 7;
+    steif_solver *s = steif_solver_new(ctx, &p, methods[m], &o);
+    CU_ASSERT_FATAL(s != NULL);
+    for (int k = 0; k < 3; k++) CHECK(!steif_solve_step(s));
+    const long before = asked;
+    CHECK(!steif_solve_to(s, 6.99));
+    CU_ASSERT_EQUAL(asked, before);
+    steif_solver_free(&s);
+    steif_problem_clear(ctx, &p);
+  }
+  steif_context_free(&ctx);
+#endif
+}
+
 static const char *const lives[][2] = {{"hires", "radau:s=3"},
                                        {"transamp", "bdf:p=3"},
                                        {"heat:n=30", "gauss:s=2"},
                                        {"bruss2d:n=4", "radau:s=2"},
-                                       {"jordan:k=3", "dirk:alexander2"}};
+                                       {"jordan:k=3", "dirk:alexander2"},
+                                       {"fpu:n=3", "yoshida4:compensated=1"},
+                                       {"pendulum", "gauss:s=2,compensated=1"}};
+enum { LIVES = sizeof lives / sizeof *lives };
 
 static void the_allocator_may_fail_anywhere(void)
 {
-  for (int i = 0; i < 5; i++)
+  for (int i = 0; i < LIVES; i++)
     for (long k = 1;; k++) {
       meal m = {.fail_at = k};
       steif_context *ctx = steif_context_new(&(steif_setup){allocate, release, &m, 1});
@@ -129,7 +158,7 @@ static void the_allocator_may_fail_anywhere(void)
 static void the_c_library_may_fail_anywhere(void)
 {
 #if REPLACED
-  for (int i = 0; i < 5; i++)
+  for (int i = 0; i < LIVES; i++)
     for (long k = 1;; k++) {
       steif_context *ctx = steif_context_new(&(steif_setup){.threads = 1});
       asked = 0, fail_at = k;
@@ -151,6 +180,7 @@ static void the_c_library_may_fail_anywhere(void)
 
 CU_TestInfo tests_of_law_memory[] = {
   {"stepping allocates nothing", stepping_allocates_nothing},
+  {"splitting methods allocate nothing while stepping", splitting_allocates_nothing},
   {"the allocator may fail anywhere", the_allocator_may_fail_anywhere},
   {"the C library may fail anywhere", the_c_library_may_fail_anywhere},
   CU_TEST_INFO_NULL};
