@@ -146,7 +146,7 @@ if(NOT said MATCHES "without matio")
   expect(0 impulse space.mat --x0 x2.mtx --forcing steps.txt --json) # x = -f, c_0 = -N (x0 - x(0+))
   near(5 x_plus 1)
   near(12 impulses 0 0)
-  expect(2 impulse system.mat F.mtx --x0 x2.mtx ERR "holds both matrices; leave F.mtx out")
+  expect(2 impulse system.mat F.mtx --x0 x2.mtx ERR "holds both matrices. leave F.mtx out")
   expect(2 pencil system.mat --state-space ERR "tells by the name")
 endif()
 
