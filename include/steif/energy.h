@@ -1,13 +1,14 @@
 /* steif/energy.h: what a method keeps: drift of invariants over a run, and the map of one step.
  *
- * A symplectic method with a constant step keeps a modified energy: the energy itself stays in a band
- * whose width shrinks with the step, for a very long time. Other methods drift: the energy leaves along
- * a line. Which of the two a run shows is judged by the slope of the line through the means of PARTS
- * equal parts of the run, against the scatter of the means about it; oscillations within a part cancel.
+ * A symplectic method with a constant step keeps a modified energy: the energy itself stays
+ * in a band whose width shrinks with the step, for a very long time. Other methods drift:
+ * the energy leaves along a line. Which of the two a run shows is judged by the slope of the
+ * line through the means of PARTS equal parts of the run, against the scatter of the means
+ * about it; oscillations within a part cancel.
  *
- * The map of one step y -> Phi(y) of a Hamiltonian system is symplectic if its Jacobian satisfies
- * J^T Omega J = Omega with Omega = [0 I; -I 0] for (q, p). det J = 1 is less than that as soon as there
- * are two positions.
+ * The map of one step y -> Phi(y) of a Hamiltonian system is symplectic if its Jacobian
+ * satisfies J^T Omega J = Omega with Omega = [0 I; -I 0] for (q, p). det J = 1 is less than
+ * that as soon as there are two positions.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_ENERGY_H
@@ -49,9 +50,9 @@ typedef struct steif_step_map {
                               systems that R reverses; NaN without positions */
 } steif_step_map;
 
-/* One step of length h from the start of the problem, and its Jacobian by differences of order four
- * (exact but for rounding where problem.linear). Omega: n x n by rows, NULL: canonical, which needs
- * positions = n/2. J: n x n by rows, NULL: not wanted. */
+/* One step of length h from the start of the problem, and its Jacobian by differences of
+ * order four (exact but for rounding where problem.linear). Omega: n x n by rows, NULL:
+ * canonical, which needs positions = n/2. J: n x n by rows, NULL: not wanted. */
 STEIF_EXPORT int steif_step_map_find(steif_context *ctx, const steif_problem *problem,
                                      const char *method, sunrealtype h,
                                      const sunrealtype *Omega, sunrealtype *J,

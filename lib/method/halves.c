@@ -148,8 +148,8 @@ static int overflowed(const stf_halves *h, sunrealtype t)
                        h->system->problem->name, t);
 }
 
-/* With q' = p a kick and the drift after it are one loop. Compensated sums go block by block, so that
- * the momenta are still in the cache when the positions need them. */
+/* With q' = p a kick and the drift after it are one loop. Compensated sums go block by
+ * block, so that the momenta are still in the cache when the positions need them. */
 static int serial_unit(stf_halves *h, sunrealtype a, N_Vector force, sunrealtype b,
                        sunrealtype t, stf_point from, stf_point to)
 {

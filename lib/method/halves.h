@@ -1,7 +1,7 @@
 /* halves.h: kicks and drifts of a separable problem, and sums that remember their rounding.
  *
- * Positions are components 0 .. m - 1, momenta the rest. A running sum y keeps the part of the last
- * increment that rounding took from it, in e: with d = increment + e,
+ * Positions are components 0 .. m - 1, momenta the rest. A running sum y keeps the part of
+ * the last increment that rounding took from it, in e: with d = increment + e,
  *   y' = y + d,   e' = d - (y' - y)      (Kahan; exact where |d| <= |y|).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -19,8 +19,9 @@ typedef struct stf_halves {
   N_Vector increment, moved; /* scratch of compensated sums of vectors that are not serial */
 } stf_halves;
 
-/* Claims, and refusal of problems that are not separable: not declared, or found out by moving the
- * positions and the momenta at the start, where f is `slope`. `name`: of the method. */
+/* Claims, and refusal of problems that are not separable: not declared, or found out by
+ * moving the positions and the momenta at the start, where f is `slope`. `name`: of the
+ * method. */
 int stf_halves_open(stf_pool *pool, stf_system *system, const char *name, N_Vector y,
                     N_Vector slope, stf_halves *halves);
 

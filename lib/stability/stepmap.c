@@ -1,5 +1,5 @@
-/* stepmap.c: the map of one step: its Jacobian by differences, whether it is symplectic, whether it
- * comes back when the momenta are turned.
+/* stepmap.c: the map of one step: its Jacobian by differences, whether it is symplectic,
+ * whether it comes back when the momenta are turned.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stability.h"
 #include <math.h>
@@ -26,8 +26,8 @@ static int step(map *m, sunrealtype *y)
   return code;
 }
 
-/* Column j of J. With d about eps^(1/5) truncation, d^4, and rounding, eps/d, are of one size; a
- * linear map may be asked far away. work: n numbers. */
+/* Column j of J. With d near eps^(1/5) truncation, d^4, and rounding, eps/d, are of one
+ * size; a linear map may be asked far away. work: n numbers. */
 static int column(map *m, sunindextype j, sunrealtype *J, sunrealtype *work)
 {
   static const sunrealtype weight[] = {2 / 3.0, -1 / 12.0};

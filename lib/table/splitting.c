@@ -1,5 +1,5 @@
-/* splitting.c: the splitting schemes, a row each, and their passes. Symmetric ones are given by the
- * numbers of one half.
+/* splitting.c: the splitting schemes, a row each, and their passes. Symmetric ones are given
+ * by the numbers of one half.
  *
  * Order of a symmetric composition of Verlet steps: sum w_i = 1 and sum w_i^3 = 0 for 4, also
  * sum w_i^5 = 0 and one condition more for 6 (Hairer, Lubich and Wanner, Geometric Numerical

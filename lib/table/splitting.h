@@ -1,8 +1,10 @@
-/* splitting.h: schemes that split y' = f into q' = T_p(p), the drift, and p' = -V_q(q), the kick.
+/* splitting.h: schemes that split y' = f into q' = T_p(p), the drift, and p' = -V_q(q), the
+ * kick.
  *
- * One step is a sequence of passes: a kick of length kick_i h, then a drift of length drift_i h. The
- * time of a kick is that of the positions, the sum of the drifts before it; the time of a drift is
- * the sum of the kicks before it: so the order is kept when T and V depend on t.
+ * One step is a sequence of passes: a kick of length kick_i h, then a drift of length
+ * drift_i h. The time of a kick is that of the positions, the sum of the drifts before it;
+ * the time of a drift is the sum of the kicks before it: so the order is kept when T and V
+ * depend on t.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_SPLITTING_H

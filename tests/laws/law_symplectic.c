@@ -1,13 +1,13 @@
-/* law_symplectic.c: the map of one step is symplectic where the method claims it and nowhere else, it
- * comes back with turned momenta where the method is symmetric, and symplectic methods keep the energy in
- * a band, over the Hamiltonian problems and all methods listed.
+/* law_symplectic.c: the map of one step is symplectic where the method claims it and nowhere
+ * else, it comes back with turned momenta where the method is symmetric, and symplectic
+ * methods keep the energy in a band, over the Hamiltonian problems and all methods listed.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "laws.h"
 
 static const char *const problems[] = {"pendulum", "henonheiles", "kepler:e=0.1"};
 
-/* Rounding of differences; a map that is not symplectic is so by its local error at least, which is large
- * enough to be seen up to order HIGHEST. */
+/* Rounding of differences; a map that is not symplectic is so by its local error at least,
+ * which is large enough to be seen up to order HIGHEST. */
 static const double rounding = 1e-10;
 enum { HIGHEST = 6 };
 

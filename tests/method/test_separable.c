@@ -1,5 +1,5 @@
-/* test_separable.c: separable problems of all shapes, halves of f, time in them, vectors of any kind; and
- * what is refused.
+/* test_separable.c: separable problems of all shapes, halves of f, time in them, vectors of
+ * any kind; and what is refused.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 #include <nvector/nvector_manyvector.h>
@@ -7,8 +7,8 @@
 #include <steif/steif.h>
 #include <string.h>
 
-/* H = T(t, p) + V(t, q) with q' = p (1 + 0.3 sin t), p' = -q + 0.7 cos 2t: one half through f, the other
- * by its own callback, or both. */
+/* H = T(t, p) + V(t, q) with q' = p (1 + 0.3 sin t), p' = -q + 0.7 cos 2t: one half through
+ * f, the other by its own callback, or both. */
 static int general(sunrealtype t, N_Vector y, N_Vector r, void *user)
 {
   const sunrealtype *x = N_VGetArrayPointer(y);

@@ -1,5 +1,5 @@
-/* test_sympl.c: errors and orders of splitting methods on the harmonic oscillator and the pendulum.
- * Figures: recomputation of the book chapter's experiments in extended precision
+/* test_sympl.c: errors and orders of splitting methods on the harmonic oscillator and the
+ * pendulum. Figures: recomputation of the book chapter's experiments in extended precision
  * (mpmath), errors in the larger component.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
@@ -132,7 +132,8 @@ static void one_step_by_hand(void)
   steif_context_free(&ctx);
 }
 
-/* One force per step where the last serves the next; the start asks f itself, twice moved, and kick. */
+/* One force per step where the last serves the next; the start asks f itself, twice moved,
+ * and kick. */
 static void the_last_force_serves_the_next_step(void)
 {
   static const struct {
@@ -183,7 +184,8 @@ static void between_steps_the_order_is_kept(void)
   steif_context_free(&ctx);
 }
 
-/* Beyond h = 2 Verlet's step on the oscillator grows without bound: it is stopped when it overflows. */
+/* Beyond h = 2 Verlet's step on the oscillator grows without bound: it is stopped when it
+ * overflows. */
 static void overflow_is_never_accepted(void)
 {
   steif_context *ctx = steif_context_new(NULL);

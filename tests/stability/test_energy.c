@@ -1,6 +1,6 @@
-/* test_energy.c: drift of the energy on the oscillator, the pendulum and Kepler's problem: bands, lines,
- * closed forms. Figures: recomputation of the book chapter's experiments (numpy, mpmath), and the closed
- * forms named with them.
+/* test_energy.c: drift of the energy on the oscillator, the pendulum and Kepler's problem:
+ * bands, lines, closed forms. Figures: recomputation of the book chapter's experiments
+ * (numpy, mpmath), and the closed forms named with them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 #include <nvector/nvector_serial.h>
@@ -149,8 +149,8 @@ static void modified_energies_are_kept(void)
   steif_context_free(&ctx);
 }
 
-/* From (1, 0): Verlet kick first in [-h^2/8, 0], drift first in [0, h^2/8/(1 - h^2/4)], Euler in
- * [0.5/(1 + h/2) - 0.5, 0.5/(1 - h/2) - 0.5]. */
+/* From (1, 0): Verlet kick first in [-h^2/8, 0], drift first in [0, h^2/8/(1 - h^2/4)],
+ * Euler in [0.5/(1 + h/2) - 0.5, 0.5/(1 - h/2) - 0.5]. */
 static void bands_are_the_closed_ones(void)
 {
   static const double steps[] = {0.05, 0.3};
@@ -170,8 +170,8 @@ static void bands_are_the_closed_ones(void)
   }
 }
 
-/* Brouwer: rounding that is not biased grows like the root of the number of steps; with coefficients
- * rounded beforehand and no more care it is 1e-12 here, and grows along a line. */
+/* Brouwer: rounding that is not biased grows like the root of the number of steps; with
+ * coefficients rounded beforehand and no more care it is 1e-12 here, and grows along a line. */
 static void compensated_gauss_keeps_the_energy_to_rounding(void)
 {
   static const char *const methods[] = {"gauss:s=1,compensated=1", "gauss:s=2,compensated=1",
@@ -184,8 +184,8 @@ static void compensated_gauss_keeps_the_energy_to_rounding(void)
   CHECK(d.max < 1e-14 && d.min > -1e-14);
 }
 
-/* Kahan and Li's method at a step where its own error is below rounding: root mean square over an
- * ensemble of starts. */
+/* Kahan and Li's method at a step where its own error is below rounding: root mean square
+ * over an ensemble of starts. */
 static double rounding(const char *method)
 {
   enum { MEMBERS = 12 };

@@ -1,6 +1,6 @@
-/* test_kepler.c: energy and angular momentum on Kepler's orbit of eccentricity 0.6, with equal steps and
- * with steps that follow the distance; rows and periods of a watched run. Figures: recomputation of the
- * book chapter's experiments.
+/* test_kepler.c: energy and angular momentum on Kepler's orbit of eccentricity 0.6, with
+ * equal steps and with steps that follow the distance; rows and periods of a watched run.
+ * Figures: recomputation of the book chapter's experiments.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 #include <nvector/nvector_serial.h>
@@ -49,7 +49,8 @@ static void orbits_sink_under_rk4_and_not_under_verlet(void)
   CHECK(e.period > TWO_PI && e.period < 1.05 * TWO_PI); /* precession, from the maxima */
 }
 
-/* h = 0.05 r^(3/2) of the position reached, from (q, p) = y at t[0]: a mesh for the same method. */
+/* h = 0.05 r^(3/2) of the position reached, from (q, p) = y at t[0]: a mesh for the same
+ * method. */
 static size_t mesh(size_t room, const double *y, double t1, double *t)
 {
   double q[] = {y[0], y[1]}, p[] = {y[2], y[3]};
@@ -98,8 +99,8 @@ static void steps_that_follow_the_orbit_lose_the_band(void)
   steif_context_free(&ctx);
 }
 
-/* Eleven rows over ten units of time, with both invariants of the last one those of the drifts; the
- * period is that of the orbit, from the maxima of q_1 at the pericentre. */
+/* Eleven rows over ten units of time, with both invariants of the last one those of the
+ * drifts; the period is that of the orbit, from the maxima of q_1 at the pericentre. */
 static void rows_are_even_and_the_period_is_found(void)
 {
   sunrealtype row[11 * 3];

@@ -1,5 +1,5 @@
-/* test_stepmap.c: which maps of one step are symplectic: the two-form decides, not the determinant.
- * Figures by hand unless a source is named.
+/* test_stepmap.c: which maps of one step are symplectic: the two-form decides, not the
+ * determinant. Figures by hand unless a source is named.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 #include <complex.h>
@@ -20,8 +20,8 @@ static steif_step_map map_of(const steif_problem *p, const char *method, double 
   return map;
 }
 
-/* Kick, then drift: [1 h; 0 1] [1 0; -h 1] = [1 - h^2, h; -h, 1]; the other order of the factors is the
- * other method. */
+/* Kick, then drift: [1 h; 0 1] [1 0; -h 1] = [1 - h^2, h; -h, 1]; the other order of the
+ * factors is the other method. */
 static void factors_stand_in_the_order_of_the_flows(void)
 {
   static const struct {
@@ -91,8 +91,9 @@ static void determinant_one_is_not_symplectic(void)
   CHECK(map_of(&p, "symeuler:first=p", 0.1, NULL, NULL).symplectic < 1e-15);
 }
 
-/* A circulatory force: S = 1 + 0.1 [0 1; -1 0] has the eigenvalue s = 1 + 0.1 i with (1, i), and the step
- * has mu with mu^2 - (2 - h^2 s) mu + 1 = 0: the orbit leaves though the determinant is 1. */
+/* A circulatory force: S = 1 + 0.1 [0 1; -1 0] has the eigenvalue s = 1 + 0.1 i with (1, i),
+ * and the step has mu with mu^2 - (2 - h^2 s) mu + 1 = 0: the orbit leaves though the
+ * determinant is 1. */
 static void circulatory_forces_blow_up(void)
 {
   pair s = {1, {1, 0.1, -0.1, 1}};

@@ -1,5 +1,5 @@
-/* test_splitting.c: the passes of splitting schemes: consistent, symmetric, of the order claimed on a
- * small nonlinear oscillator run in long double, so that a wrong digit shows.
+/* test_splitting.c: the passes of splitting schemes: consistent, symmetric, of the order
+ * claimed on a small nonlinear oscillator run in long double, so that a wrong digit shows.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "splitting.h"
 #include "suite.h"
@@ -70,8 +70,8 @@ static void stages_are_those_of_the_papers(void)
     }
 }
 
-/* Symmetric compositions of order 2k: sum w = 1 and sum w^3 = 0, for 6 sum w^5 = 0, for 8 sum w^7 = 0
- * (Hairer, Lubich and Wanner, V.3.2). */
+/* Symmetric compositions of order 2k: sum w = 1 and sum w^3 = 0, for 6 sum w^5 = 0, for 8
+ * sum w^7 = 0 (Hairer, Lubich and Wanner, V.3.2). */
 static void compositions_satisfy_the_power_sums(void)
 {
   int seen = 0;

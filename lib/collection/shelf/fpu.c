@@ -1,5 +1,5 @@
-/* fpu.c: n equal masses between walls, joined by springs that are not quite linear, started in the
- * lowest mode, q_j = sin(pi j/(n + 1)):
+/* fpu.c: n equal masses between walls, joined by springs that are not quite linear, started
+ * in the lowest mode, q_j = sin(pi j/(n + 1)):
  *   H = sum p_j^2/2 + sum V(q_{j+1} - q_j),   V(r) = r^2/2 + alpha r^3/3 + beta r^4/4.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"

@@ -1,5 +1,5 @@
-/* henonheiles.c: a star in the plane of a galaxy, H = (p_1^2 + p_2^2 + q_1^2 + q_2^2)/2 + q_1^2 q_2
- * - q_2^3/3, bounded below the energy 1/6; at 1/8 most orbits are chaotic.
+/* henonheiles.c: a star in the plane of a galaxy, H = (p_1^2 + p_2^2 + q_1^2 + q_2^2)/2 +
+ * q_1^2 q_2 - q_2^3/3, bounded below the energy 1/6; at 1/8 most orbits are chaotic.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"
 #include <math.h>

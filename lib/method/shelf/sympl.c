@@ -1,11 +1,11 @@
-/* sympl.c: splitting methods for separable systems q' = T_p(p), p' = -V_q(q): symplectic, explicit, for
- * long runs with equal steps. E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration, 2nd
- * ed., Springer 2006, II.5 and V.3.
+/* sympl.c: splitting methods for separable systems q' = T_p(p), p' = -V_q(q): symplectic,
+ * explicit, for long runs with equal steps. E. Hairer, C. Lubich and G. Wanner, Geometric
+ * Numerical Integration, 2nd ed., Springer 2006, II.5 and V.3.
  *
- * A step is a sequence of kicks p += h b_i p'(q) and drifts q += h a_i q'(p). Where it begins and ends
- * with a kick the last force serves the next step. Parameters: first=kick|drift (or p|q) where the
- * scheme leaves that open, compensated=1|0: sums that remember their rounding, by default in runs of
- * LONG steps and more.
+ * A step is a sequence of kicks p += h b_i p'(q) and drifts q += h a_i q'(p). Where it
+ * begins and ends with a kick the last force serves the next step. Parameters:
+ * first=kick|drift (or p|q) where the scheme leaves that open, compensated=1|0: sums that
+ * remember their rounding, by default in runs of LONG steps and more.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "halves.h"
