@@ -175,6 +175,8 @@ typedef struct stf_move {
   sunrealtype *z, *target, *weight, *unit; /* unit: sizes of z for the test of convergence */
   int (*residual)(void *data, const sunrealtype *z, sunrealtype *r);
   int (*jacobian)(void *data, const sunrealtype *z, sunrealtype *J);
+  void (*prepare)(void *data, struct stf_move *move); /* fill z, target, weight, unit */
+  int (*accept)(void *data, struct stf_move *move);   /* take the solution, or say why not */
   void *data;
   int most; /* iterations */
   int iterations;
@@ -184,8 +186,8 @@ typedef struct stf_move {
   sunrealtype *r, *J, *U, *VT, *s, *left; /* at the end: r and J at z, U of the scaled J */
   sunrealtype *work;
 } stf_move;
-int stf_move_open(stf_pool *pool, stf_move *move);
-int stf_move_solve(stf_move *move);
+/* From memory to acceptance; a callback that asks for another point becomes a sentence. */
+int stf_move_run(stf_lens *lens, stf_move *move);
 
 /* F and its derivatives along a curve, each order with the node distance that serves it
  * best. */

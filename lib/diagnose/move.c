@@ -16,7 +16,7 @@ static const sunrealtype dependent = 1e-10; /* singular values below are zero */
 static const sunrealtype rounding = 1e-6, noise = 1e-3;
 enum { HALVINGS = 12 };
 
-int stf_move_open(stf_pool *pool, stf_move *m)
+static int claim(stf_pool *pool, stf_move *m)
 {
   const size_t rows = m->rows, columns = m->columns;
   m->z = stf_claim(pool, 4 * columns, sizeof *m->z);
@@ -114,7 +114,7 @@ static int damp(stf_move *m, const sunrealtype *dz, sunrealtype *factor)
   return STEIF_OK;
 }
 
-int stf_move_solve(stf_move *m)
+static int solve(stf_move *m)
 {
   const size_t columns = m->columns;
   sunrealtype *dz = m->work + columns + m->rows, before = INFINITY, factor;
@@ -134,4 +134,23 @@ int stf_move_solve(stf_move *m)
     before = now;
   }
   return STEIF_OK;
+}
+
+int stf_move_run(stf_lens *lens, stf_move *m)
+{
+  stf_pool *pool = stf_pool_new(lens->ctx);
+  if (!pool) return STEIF_NO_MEMORY;
+  m->ctx = lens->ctx;
+  int code = claim(pool, m);
+  if (!code) m->prepare(m->data, m);
+  if (!code) code = solve(m);
+  if (!code) code = m->accept(m->data, m);
+  stf_pool_free(&pool);
+  if (code > 0)
+    code =
+      STEIF_FAIL(lens->ctx, STEIF_CALLBACK,
+                 "'%s' could not be evaluated near its start at t = %g: give a guess inside "
+                 "the domain of its functions",
+                 lens->problem.name, lens->t);
+  return code;
 }

@@ -101,8 +101,9 @@ static void select(stage_work *w)
   }
 }
 
-static void prepare(stage_work *w, stf_move *m)
+static void prepare(void *data, stf_move *m)
 {
+  stage_work *w = data;
   const stf_task *task = w->task;
   const sunrealtype rate = sqrt(w->ladder.slowest * w->ladder.fastest);
   for (size_t k = 0; k < w->columns; k++) {
@@ -234,34 +235,28 @@ static void snap(stf_move *m)
       m->z[k] = m->target[k];
 }
 
+static int accept(void *data, stf_move *m)
+{
+  stage_work *w = data;
+  snap(m);
+  put(w, m->z);
+  return judge(w, m);
+}
+
 static int run(stage_work *w)
 {
-  stf_lens *lens = w->task->lens;
   select(w);
   if (w->rows == 0) return STEIF_OK;
-  stf_pool *pool = stf_pool_new(lens->ctx);
-  if (!pool) return STEIF_NO_MEMORY;
-  stf_move m = {.ctx = lens->ctx,
-                .rows = w->rows,
+  stf_move m = {.rows = w->rows,
                 .columns = w->columns,
                 .residual = residual,
                 .jacobian = jacobian,
+                .prepare = prepare,
+                .accept = accept,
                 .data = w,
                 .most = w->task->most};
-  int code = stf_move_open(pool, &m);
-  if (!code) prepare(w, &m);
-  if (!code) code = stf_move_solve(&m);
+  const int code = stf_move_run(w->task->lens, &m);
   w->task->start->iterations += m.iterations;
-  if (!code) snap(&m);
-  if (!code) put(w, m.z);
-  if (!code) code = judge(w, &m);
-  stf_pool_free(&pool);
-  if (code > 0)
-    code =
-      STEIF_FAIL(lens->ctx, STEIF_CALLBACK,
-                 "'%s' could not be evaluated near its start at t = %g: give a guess inside "
-                 "the domain of its functions",
-                 lens->problem.name, lens->t);
   return code;
 }
 

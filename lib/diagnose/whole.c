@@ -62,8 +62,9 @@ static void select(whole *w)
     if (k >= w->n || !stays(w, k)) w->place[w->columns++] = k;
 }
 
-static void prepare(whole *w, stf_move *m)
+static void prepare(void *data, stf_move *m)
 {
+  const whole *w = data;
   const stf_lens *s = w->task->lens;
   for (size_t k = 0; k < w->columns; k++) {
     const size_t at = w->place[k], j = at % w->n;
@@ -96,32 +97,26 @@ static int judge(whole *w, const stf_move *m)
   return STEIF_OK;
 }
 
+static int accept(void *data, stf_move *m)
+{
+  whole *w = data;
+  put(w, m->z);
+  return judge(w, m);
+}
+
 static int one_pass(whole *w)
 {
-  stf_lens *s = w->task->lens;
   select(w);
-  stf_pool *pool = stf_pool_new(s->ctx);
-  if (!pool) return STEIF_NO_MEMORY;
-  stf_move m = {.ctx = s->ctx,
-                .rows = w->rows,
+  stf_move m = {.rows = w->rows,
                 .columns = w->columns,
                 .residual = residual,
                 .jacobian = jacobian,
+                .prepare = prepare,
+                .accept = accept,
                 .data = w,
                 .most = w->task->most};
-  int code = stf_move_open(pool, &m);
-  if (!code) prepare(w, &m);
-  if (!code) code = stf_move_solve(&m);
+  const int code = stf_move_run(w->task->lens, &m);
   w->task->start->iterations += m.iterations;
-  if (!code) put(w, m.z);
-  if (!code) code = judge(w, &m);
-  stf_pool_free(&pool);
-  if (code > 0)
-    code =
-      STEIF_FAIL(s->ctx, STEIF_CALLBACK,
-                 "'%s' could not be evaluated near its start at t = %g: give a guess inside "
-                 "the domain of its functions",
-                 s->problem.name, s->t);
   return code;
 }
 

@@ -84,6 +84,30 @@ static int rober_A(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix A, void *us
 
 static const sunrealtype rober_y0[] = {1, 0, 0}, rober_yp0[] = {-0.04, 0.04, 0};
 
+static steif_problem rober_mass(int storage)
+{
+  return (steif_problem){.name = "mass",
+                         .n = 3,
+                         .t1 = 40,
+                         .y0 = rober_y0,
+                         .f = rober,
+                         .E = rober_E,
+                         .jac = rober_jac,
+                         .lower = 2,
+                         .upper = 2,
+                         .nnz = 9,
+                         .nnz_E = 2,
+                         .storage = (enum steif_storage)storage};
+}
+
+static steif_problem rober_implicit(int storage)
+{
+  steif_problem p = rober_mass(storage);
+  p.f = NULL, p.jac = NULL, p.E = NULL;
+  p.F = rober_residual, p.idajac = rober_idajac;
+  return p;
+}
+
 /* The documentation of CVODE and IDA prints 7.158e-01, 9.185e-06, 2.842e-01 at t = 40. */
 static void check_rober(const steif_problem *p, const steif_options *more)
 {
@@ -102,22 +126,9 @@ static void check_rober(const steif_problem *p, const steif_options *more)
 static void rober_in_every_form(void)
 {
   for (int storage = STEIF_DENSE; storage <= STEIF_SPARSE; storage++) {
-    const steif_problem mass = {.name = "mass",
-                                .n = 3,
-                                .t1 = 40,
-                                .y0 = rober_y0,
-                                .f = rober,
-                                .E = rober_E,
-                                .jac = rober_jac,
-                                .lower = 2,
-                                .upper = 2,
-                                .nnz = 9,
-                                .nnz_E = 2,
-                                .storage = (enum steif_storage)storage};
+    const steif_problem mass = rober_mass(storage);
+    steif_problem implicit = rober_implicit(storage);
     check_rober(&mass, NULL);
-    steif_problem implicit = mass;
-    implicit.f = NULL, implicit.jac = NULL, implicit.E = NULL;
-    implicit.F = rober_residual, implicit.idajac = rober_idajac;
     check_rober(&implicit, NULL);
     implicit.idajac = NULL, implicit.E = rober_E, implicit.A = rober_A;
     check_rober(&implicit, NULL);
@@ -134,21 +145,8 @@ static void algebraic_components_are_found(void)
   steif_options o = ride_defaults();
   o.suppress_algebraic = 1;
   for (int storage = STEIF_DENSE; storage <= STEIF_SPARSE; storage++) {
-    const steif_problem mass = {.name = "mass",
-                                .n = 3,
-                                .t1 = 40,
-                                .y0 = rober_y0,
-                                .f = rober,
-                                .E = rober_E,
-                                .jac = rober_jac,
-                                .lower = 2,
-                                .upper = 2,
-                                .nnz = 9,
-                                .nnz_E = 2,
-                                .storage = (enum steif_storage)storage};
-    steif_problem implicit = mass;
-    implicit.f = NULL, implicit.jac = NULL, implicit.E = NULL;
-    implicit.F = rober_residual, implicit.idajac = rober_idajac;
+    const steif_problem mass = rober_mass(storage);
+    steif_problem implicit = rober_implicit(storage);
     check_rober(&mass, &o);
     check_rober(&implicit, &o);
     N_Vector id;

@@ -1,11 +1,12 @@
 /* fixture.c: the folder of the tests, made once and removed at the end.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
+#include "folder.h"
 #include <dirent.h>
 #include <stdlib.h>
 #include <unistd.h>
 
-static char folder[64];
+static char folder[256];
 
 static void clean(void)
 {
@@ -24,8 +25,7 @@ const char *in_folder(const char *name)
   static char paths[4][400];
   static int next;
   if (!*folder) {
-    strcpy(folder, "/tmp/steif-input-XXXXXX");
-    if (!mkdtemp(folder)) abort();
+    if (!folder_make(folder, sizeof folder)) abort();
     atexit(clean);
   }
   char *path = paths[next++ % 4];

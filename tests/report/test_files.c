@@ -1,12 +1,13 @@
 /* Output files are complete or not there. SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 #include "fixture.h"
+#include "folder.h"
 #include <dirent.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char text[TEXT], folder[64];
+static char text[TEXT], folder[256];
 
 static const char *inside(const char *name)
 {
@@ -15,11 +16,7 @@ static const char *inside(const char *name)
   return path;
 }
 
-static void enter(void)
-{
-  strcpy(folder, "/tmp/steif-report-XXXXXX");
-  CU_ASSERT_PTR_NOT_NULL_FATAL(mkdtemp(folder));
-}
+static void enter(void) { CU_ASSERT_PTR_NOT_NULL_FATAL(folder_make(folder, sizeof folder)); }
 
 /* Remove the folder; how many files were in it. */
 static int leave(void)
