@@ -8,15 +8,14 @@
 
 static inline const char *folder_above(void)
 {
-  const char *below = getenv("TMPDIR");
-  return below && *below ? below : "/tmp";
+  const char *above = getenv("TMPDIR");
+  return above && *above ? above : "/tmp";
 }
 
 /* Make it and write its path into `path`; NULL when that fails. */
 static inline char *folder_make(char *path, size_t room)
 {
-  const char *below = getenv("TMPDIR");
-  const int length = snprintf(path, room, "%s/steif-XXXXXX", below && *below ? below : "/tmp");
+  const int length = snprintf(path, room, "%s/steif-XXXXXX", folder_above());
   return length < (int)room ? mkdtemp(path) : NULL;
 }
 

@@ -1,15 +1,16 @@
 /* Pictures: well-formed, finite, with gaps. SPDX-License-Identifier: BSD-3-Clause */
 #define _XOPEN_SOURCE 700
 #include "fixture.h"
+#include "folder.h"
 #include <stdlib.h>
 #include <unistd.h>
 
 static char text[TEXT];
-static char path[64];
+static char path[256];
 
 static const char *temporary(const char *ending)
 {
-  snprintf(path, sizeof path, "/tmp/steif-picture-%ld%s", (long)getpid(), ending);
+  snprintf(path, sizeof path, "%s/steif-%ld%s", folder_above(), (long)getpid(), ending);
   return path;
 }
 
