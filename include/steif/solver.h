@@ -31,6 +31,9 @@ typedef struct steif_options {
   sunrealtype rtol;         /* relative tolerance, default 1e-6 */
   sunrealtype atol;         /* absolute tolerance; default rtol times the problem's scale */
   const sunrealtype *atols; /* n absolute tolerances instead of atol, NULL: none */
+  int (*ewt)(N_Vector y, N_Vector ewt, void *user); /* instead of both, at every chosen step: a
+                               CVEwtFn that fills in 1 / (error allowed in y_i); rtol still says
+                               how many digits are meant; user: the problem's */
   sunrealtype h;            /* > 0: equal steps */
   const sunrealtype *mesh;  /* mesh_size ascending times, the first is the start */
   size_t mesh_size;

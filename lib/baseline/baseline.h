@@ -91,6 +91,7 @@ int stf_baseline_watch_matrix(stf_baseline *base, const char *who, int verdict, 
                               SUNMatrix M);
 
 /* CVODE and ARKODE: f, df/dy and its product, in their signatures. */
+int stf_baseline_weights(N_Vector y, N_Vector ewt, void *base);
 int stf_baseline_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *base);
 int stf_baseline_jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *base,
                      N_Vector tmp1, N_Vector tmp2, N_Vector tmp3);

@@ -11,17 +11,36 @@
 static const sunrealtype safety = 0.9, shrink_most = 0.125;
 enum { REFUSALS = 40 }; /* refused attempts in one step before the run stops */
 
-static void renew_weights(steif_solver *s, sunrealtype h)
+/* Of the caller, by rtol and atol, or, for given steps, of Newton's iteration alone. */
+static int weigh(const steif_solver *s)
+{
+  const stf_step *step = &s->step;
+  const steif_options *o = &s->options;
+  const stf_space *space = &step->system.space;
+  if (!step->adaptive)
+    stf_weights(space, 1e-10, 1e-10 * step->system.scale, NULL, step->y, step->weights);
+  else if (!o->ewt)
+    stf_weights(space, o->rtol, o->atol, s->atols, step->y, step->weights);
+  else {
+    const int returned = o->ewt(step->y, step->weights, s->problem->user);
+    STEIF_CHECK(returned == 0, s->ctx, STEIF_CALLBACK,
+                "ewt of problem '%s' returned %d at t = %.12g", s->problem->name, returned,
+                step->t);
+    STEIF_CHECK(N_VMin(step->weights) > 0, s->ctx, STEIF_CALLBACK,
+                "ewt of problem '%s' gave the weight %g at t = %.12g: weights are positive",
+                s->problem->name, N_VMin(step->weights), step->t);
+  }
+  return STEIF_OK;
+}
+
+static int renew_weights(steif_solver *s, sunrealtype h)
 {
   stf_step *step = &s->step;
-  const steif_options *o = &s->options;
-  const sunrealtype rtol = step->adaptive ? o->rtol : 1e-10;
-  const sunrealtype atol = step->adaptive ? o->atol : 1e-10 * step->system.scale;
-  stf_weights(&step->system.space, rtol, atol, step->adaptive ? s->atols : NULL, step->y,
-              step->weights);
+  STEIF_TRY(weigh(s));
   sunrealtype *w = s->problem->index ? N_VGetArrayPointer(step->weights) : NULL;
   for (sunindextype i = 0; w && i < s->problem->n; i++)
     for (int level = s->problem->index[i]; level > 1; level--) w[i] *= h;
+  return STEIF_OK;
 }
 
 /* The trial becomes the solution. */
@@ -46,7 +65,7 @@ static int given(steif_solver *s)
                           ? o->mesh[s->mesh_at + 1]
                           : s->t1 - (sunrealtype)(s->total - step->count - 1) * step->h_equal;
   const sunrealtype h = mesh ? t - step->t : step->h_equal;
-  if (!(step->method->traits & STF_EXPLICIT)) renew_weights(s, h);
+  if (!(step->method->traits & STF_EXPLICIT)) STEIF_TRY(renew_weights(s, h));
   const int code = step->method->attempt(step, h);
   if (code) return give_up(s, code);
   accept(s, h, t);
@@ -130,7 +149,7 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
                 "the step of problem '%s' became %.3g at t = %.12g, too small for the clock: "
                 "loosen the tolerance or look for a singularity there",
                 s->problem->name, h, step->t);
-    renew_weights(s, h);
+    STEIF_TRY(renew_weights(s, h));
     step->refused = tries > 0;
     const int code = quietly(s, h);
     if (code) {
@@ -219,7 +238,7 @@ sunrealtype stf_first_step(const steif_solver *s)
   const steif_options *o = &s->options;
   const sunrealtype span = s->t1 - step->t;
   if (o->h0 > 0) return fmin(o->h0, span);
-  stf_weights(&step->system.space, o->rtol, o->atol, s->atols, step->y, step->weights);
+  if (weigh(s) != STEIF_OK) return 1e-6 * span; /* the first step will say so */
   const sunrealtype size = stf_norm(&step->system.space, step->y, step->weights);
   const sunrealtype slope = stf_norm(&step->system.space, step->yp, step->weights);
   const sunrealtype h = slope > 0 && step->yp_known ? 0.01 * size / slope : 1e-6 * span;

@@ -3,7 +3,8 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_steps[], tests_of_run[], tests_of_options[], tests_of_dense[],
-  tests_of_digits[], tests_of_counts[], tests_of_breaks[], tests_of_engines[];
+  tests_of_digits[], tests_of_counts[], tests_of_breaks[], tests_of_engines[],
+  tests_of_weights[];
 
 SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "run", .pTests = tests_of_run},
@@ -12,4 +13,5 @@ SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "digits", .pTests = tests_of_digits},
            {.pName = "counts", .pTests = tests_of_counts},
            {.pName = "breaks", .pTests = tests_of_breaks},
-           {.pName = "engines", .pTests = tests_of_engines})
+           {.pName = "engines", .pTests = tests_of_engines},
+           {.pName = "weights", .pTests = tests_of_weights})

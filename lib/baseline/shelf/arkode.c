@@ -178,8 +178,9 @@ static int configure(arkode *s)
   void *m = s->memory;
   int flag = STF_SILENCE(ARKStepSetErrHandlerFn, m, &s->base);
   STF_CALL(flag, ARKStepSetUserData(m, s));
-  STF_CALL(flag, s->base.atol ? ARKStepSVtolerances(m, o->rtol, s->base.atol)
-                              : ARKStepSStolerances(m, o->rtol, o->atol));
+  STF_CALL(flag, o->ewt         ? ARKStepWFtolerances(m, stf_baseline_weights)
+                 : s->base.atol ? ARKStepSVtolerances(m, o->rtol, s->base.atol)
+                                : ARKStepSStolerances(m, o->rtol, o->atol));
   STF_CALL(flag, ARKStepSetMaxHnilWarns(m, -1));
   if (o->h0 > 0) STF_CALL(flag, ARKStepSetInitStep(m, o->h0));
   if (o->h_max > 0) STF_CALL(flag, ARKStepSetMaxStep(m, o->h_max));

@@ -73,8 +73,9 @@ static int configure(cvode *s, int order)
   int flag = STF_SILENCE(CVodeSetErrHandlerFn, m, &s->base);
   STF_CALL(flag, CVodeInit(m, stf_baseline_rhs, run->t, run->y));
   STF_CALL(flag, CVodeSetUserData(m, s));
-  STF_CALL(flag, s->base.atol ? CVodeSVtolerances(m, o->rtol, s->base.atol)
-                              : CVodeSStolerances(m, o->rtol, o->atol));
+  STF_CALL(flag, o->ewt         ? CVodeWFtolerances(m, stf_baseline_weights)
+                 : s->base.atol ? CVodeSVtolerances(m, o->rtol, s->base.atol)
+                                : CVodeSStolerances(m, o->rtol, o->atol));
   STF_CALL(flag, CVodeSetMaxOrd(m, order));
   STF_CALL(flag, CVodeSetMaxHnilWarns(m, -1));
   if (o->h0 > 0) STF_CALL(flag, CVodeSetInitStep(m, o->h0));

@@ -104,8 +104,9 @@ static int configure(ida *s, int order)
   int flag = STF_SILENCE(IDASetErrHandlerFn, m, &s->base);
   STF_CALL(flag, IDAInit(m, stf_lower_residual, run->t, run->y, run->yp));
   STF_CALL(flag, IDASetUserData(m, s));
-  STF_CALL(flag, s->base.atol ? IDASVtolerances(m, o->rtol, s->base.atol)
-                              : IDASStolerances(m, o->rtol, o->atol));
+  STF_CALL(flag, o->ewt         ? IDAWFtolerances(m, stf_baseline_weights)
+                 : s->base.atol ? IDASVtolerances(m, o->rtol, s->base.atol)
+                                : IDASStolerances(m, o->rtol, o->atol));
   STF_CALL(flag, IDASetMaxOrd(m, order));
   if (o->h0 > 0) STF_CALL(flag, IDASetInitStep(m, o->h0));
   if (o->h_max > 0) STF_CALL(flag, IDASetMaxStep(m, o->h_max));
