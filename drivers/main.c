@@ -4,8 +4,9 @@
 #include <string.h>
 
 #define VERBS(X)                                                                               \
-  X(list) X(solve) X(compare) X(order) X(layer) X(weak) X(pencil) X(impulse) X(region)         \
-  X(c2d) X(diagnose) X(energy) X(lyapunov) X(demo) X(bench)
+  X(list)                                                                                      \
+  X(solve) X(compare) X(order) X(layer) X(weak) X(pencil) X(impulse) X(region) X(c2d)          \
+    X(diagnose) X(energy) X(hamiltonian) X(lyapunov) X(demo) X(bench)
 
 #define DECLARE(name) extern const struct verb verb_##name;
 #define ENTRY(name) &verb_##name,
@@ -22,7 +23,7 @@ static int overview(FILE *out)
 {
   fputs("steif VERB ...: stiff ODEs, DAEs and descriptor systems\n\n", out);
   for (const struct verb *const *v = verbs; *v; v++)
-    fprintf(out, "  %-10s %s\n", (*v)->name, (*v)->about);
+    fprintf(out, "  %-11s %s\n", (*v)->name, (*v)->about);
   fputs(
     "\n'steif VERB --help' tells the words and options of a verb, 'steif list' what methods\n"
     "and problems there are, 'steif --version' the version.\n",

@@ -9,6 +9,7 @@ cmake_minimum_required(VERSION 3.19)
 set(room_of_solver method)
 set(room_of_impulse descriptor)
 set(room_of_energy stability)
+set(room_of_hamiltonian stability)
 set(room_of_lyapunov stability)
 set(room_of_phi matfun)
 

@@ -11,16 +11,6 @@ file(WRITE ${FOLDER}/A.mtx "${head} coordinate real general\n2 2 3\n1 2 1\n2 1 -
 file(WRITE ${FOLDER}/B.mtx "${head} array real general\n2 1\n0\n1\n")
 file(WRITE ${FOLDER}/C.mtx "${head} array real general\n1 2\n1\n0\n")
 
-# begins(PREFIX key ...): the number there begins with these digits.
-function(begins prefix)
-  member("*" ${ARGN})
-  string(JSON got GET "${out}" ${ARGN})
-  string(FIND "${got}" "${prefix}" at)
-  if(NOT at EQUAL 0)
-    message(SEND_ERROR "${ARGN}: ${got}, expected ${prefix}...")
-  endif()
-endfunction()
-
 # q'' + q'/2 + 4 q = u at dt = 0.1 (mpmath, 30 digits).
 expect(0 c2d A.mtx B.mtx --dt 0.1 --scheme exp-trapezoidal --json)
 member("exp-trapezoidal" scheme)

@@ -7,16 +7,6 @@ include(${CMAKE_CURRENT_LIST_DIR}/expect.cmake)
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
 
-# begins(PREFIX key ...): the number there begins with these digits.
-function(begins prefix)
-  member("*" ${ARGN})
-  string(JSON got GET "${out}" ${ARGN})
-  string(FIND "${got}" "${prefix}" at)
-  if(NOT at EQUAL 0)
-    message(SEND_ERROR "${ARGN}: ${got}, expected ${prefix}...")
-  endif()
-endfunction()
-
 # E_n = E_0 (1 - h^6/72 + h^8/576)^n: -1.36307031e-6 after 12566 steps of 0.05.
 expect(0 energy harmonic rk4 --h 0.05 --t1 628.3 --period 6.283185307179586 --rows 5 --json)
 member(rk4 method)

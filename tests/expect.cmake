@@ -32,3 +32,13 @@ function(member value)
     message(SEND_ERROR "${ARGN}: ${got}, expected ${value}")
   endif()
 endfunction()
+
+# begins(PREFIX key ...): the number there begins with these digits.
+function(begins prefix)
+  member("*" ${ARGN})
+  string(JSON got GET "${out}" ${ARGN})
+  string(FIND "${got}" "${prefix}" at)
+  if(NOT at EQUAL 0)
+    message(SEND_ERROR "${ARGN}: ${got}, expected ${prefix}...")
+  endif()
+endfunction()

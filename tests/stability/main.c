@@ -4,7 +4,7 @@
 
 extern CU_TestInfo tests_of_region[], tests_of_boundary[], tests_of_order[],
   tests_of_lyapunov[], tests_of_growth[], tests_of_energy[], tests_of_kepler[],
-  tests_of_stepmap[];
+  tests_of_stepmap[], tests_of_hamiltonian[];
 
 SUITE_MAIN({.pName = "region", .pTests = tests_of_region},
            {.pName = "boundary", .pTests = tests_of_boundary},
@@ -13,4 +13,5 @@ SUITE_MAIN({.pName = "region", .pTests = tests_of_region},
            {.pName = "growth", .pTests = tests_of_growth},
            {.pName = "energy", .pTests = tests_of_energy},
            {.pName = "kepler", .pTests = tests_of_kepler},
-           {.pName = "map of a step", .pTests = tests_of_stepmap})
+           {.pName = "map of a step", .pTests = tests_of_stepmap},
+           {.pName = "hamiltonian", .pTests = tests_of_hamiltonian})

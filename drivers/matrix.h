@@ -1,0 +1,19 @@
+/* matrix.h: dense matrices from files and into reports.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef MATRIX_H
+#define MATRIX_H
+
+#include "face.h"
+
+/* By columns; x is NULL when there is no such matrix; free it. */
+struct matrix {
+  long rows, columns;
+  double *x;
+};
+
+/* rows, columns: what they should be, 0: anything. EXIT_OK, or the exit code after a sentence. */
+int matrix_read(struct call *call, const char *path, long rows, long columns, struct matrix *M);
+/* x by columns. */
+void report_dense(steif_report *r, const char *name, int rows, int columns, const double *x);
+
+#endif
