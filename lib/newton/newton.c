@@ -1,6 +1,6 @@
 /* newton.c: simplified Newton over a split.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "newton.h"
+#include "blend.h"
 #include <math.h>
 
 int stf_split_single(stf_pool *pool, sunrealtype b, stf_split *split)
@@ -41,7 +41,7 @@ static bool serves(stf_newton *newton, sunrealtype shift)
   const sunrealtype ratio = shift / newton->shift, window = newton->window;
   if (!(window > 1) || newton->wanted || newton->system->linear) return false;
   if (!(ratio < window && ratio > 1 / window)) return false;
-  newton->relax = 2 / (1 + ratio);
+  newton->relax = newton->gamma > 0 ? 1 : 2 / (1 + ratio);
   return true;
 }
 
@@ -52,7 +52,9 @@ static int factor(stf_newton *newton, sunrealtype h)
   for (int k = 0; k < split->lanes; k++)
     shift[k] = (steif_shift){split->re[k] / h, split->im[k] / h};
   newton->factored = false;
-  STEIF_TRY(steif_pencil_factor(newton->system->pencil, split->lanes, shift));
+  if (newton->gamma > 0) shift[0] = (steif_shift){1 / (newton->gamma * h), 0};
+  const int count = newton->gamma > 0 ? 1 : split->lanes;
+  STEIF_TRY(steif_pencil_factor(newton->system->pencil, count, shift));
   newton->shift = shift[0].re, newton->factored = true;
   newton->relax = 1, newton->eta = 1;
   return STEIF_OK;
@@ -62,7 +64,7 @@ int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vecto
                        N_Vector yp, bool jacobian)
 {
   const stf_split *split = &newton->split;
-  const sunrealtype shift = split->re[0] / h;
+  const sunrealtype shift = newton->gamma > 0 ? 1 / (newton->gamma * h) : split->re[0] / h;
   const bool same = newton->factored && shift == newton->shift;
   if (!same || newton->h != h)
     for (int i = 0; i < split->s * split->s; i++) newton->B_over_h[i] = split->B[i] / h;
@@ -134,6 +136,16 @@ static int solve_lanes(stf_newton *newton)
   return STEIF_OK;
 }
 
+static int split_correction(stf_newton *newton)
+{
+  const int s = newton->split.s;
+  const stf_space *space = &newton->system->space;
+  if (s > 1) stf_mix(space, s, s, newton->split.Tinv, newton->residual, newton->omega);
+  STEIF_TRY(solve_lanes(newton));
+  if (s > 1) stf_mix(space, s, s, newton->split.T, newton->omega, newton->dZ);
+  return STEIF_OK;
+}
+
 /* dZ of one sweep and its weighted norm over all stages. The residual enters with its own sign:
  * Z - dZ is the next iterate. */
 static int sweep(stf_newton *newton, const stf_stages *g, sunrealtype *norm)
@@ -142,9 +154,7 @@ static int sweep(stf_newton *newton, const stf_stages *g, sunrealtype *norm)
   const stf_space *space = &newton->system->space;
   newton->sweeps++;
   STEIF_TRY(residuals(newton, g));
-  if (s > 1) stf_mix(space, s, s, newton->split.Tinv, newton->residual, newton->omega);
-  STEIF_TRY(solve_lanes(newton));
-  if (s > 1) stf_mix(space, s, s, newton->split.T, newton->omega, newton->dZ);
+  STEIF_TRY(newton->gamma > 0 ? stf_blend_correction(newton) : split_correction(newton));
   sunrealtype sum = 0;
   for (int j = 0; j < s; j++) {
     const sunrealtype part = stf_norm(space, newton->dZ[j], newton->weights);

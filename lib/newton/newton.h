@@ -28,7 +28,10 @@ typedef struct stf_newton {
   N_Vector *residual, *omega, *dZ, *Zp, Y; /* s, s, s, s, 1 vectors */
   N_Vector zero;
   sunrealtype *B_over_h, *minus_T; /* B / h, -T */
-  sunrealtype window;         /* > 1: factors serve shifts within this ratio (one real lane) */
+  sunrealtype gamma;               /* > 0: blended iteration (blend.h) with shift 1/(gamma h) */
+  const sunrealtype *A;            /* of the table, and scratch: blended iteration only */
+  sunrealtype *mix;
+  sunrealtype window;         /* > 1: factors serve shifts within this ratio (one real shift) */
   bool join;                  /* a new factorisation takes a new Jacobian along */
   sunrealtype shift, relax;   /* of lane 0 in the factors; factor of the corrections */
   sunrealtype h;              /* of B_over_h */
@@ -52,6 +55,9 @@ typedef struct stf_stages {
 
 int stf_newton_open(stf_pool *pool, stf_system *system, const stf_split *split,
                     N_Vector weights, stf_newton *newton);
+
+/* After open: one real shift for all stages, by the blended iteration, in place of the lanes. */
+int stf_newton_blend(stf_pool *pool, const steif_table *table, stf_newton *newton);
 
 /* A split with one lane for the 1 x 1 matrix b. */
 int stf_split_single(stf_pool *pool, sunrealtype b, stf_split *split);

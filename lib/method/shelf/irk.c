@@ -20,6 +20,7 @@ typedef struct state {
   sunrealtype *end;      /* w(1) */
   sunrealtype *P, ratio; /* next Z = P Z for step ratio */
   sunrealtype *row_sum;  /* B 1 */
+  sunrealtype filter;    /* blended iteration: weight gamma_0 of the estimate */
   sunrealtype *slope;    /* weights of u'(t_n) in Z, times h: error estimate */
   N_Vector *Z, *trial;   /* of the last step and of the attempt, relative to y_n */
   N_Vector *base, *offset, *X;
@@ -113,6 +114,21 @@ static int open_sums(stf_step *s, const steif_spec *spec)
   return e->lost && e->next_lost ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
+/* Sparse factors cost many solves: one real matrix is factored in place of s, and serves steps within
+ * a ratio of 2. The iteration converges linearly however exact the Jacobian: renewed when it does
+ * worse than 0.4, or with the factors. */
+static int blend(stf_step *s)
+{
+  state *e = s->state;
+  stf_newton *newton = &s->newton;
+  const sunrealtype re = newton->split.re[0], im = newton->split.im[0];
+  e->filter = re / (re * re + im * im);
+  newton->window = 2, newton->join = true, newton->stale = 0.4;
+  if (!s->options->iterations) newton->iterations = 14;
+  if (!(s->options->newton > 0) && s->problem->dae_index < 2) newton->tolerance = 0.03;
+  return stf_newton_blend(s->pool, s->table, newton);
+}
+
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 {
   state *e = s->state;
@@ -133,6 +149,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
               table->name);
   if (table->c[0] > 0) fill_slope(e);
   if (s->adaptive && !(s->options->newton > 0)) s->newton.tolerance = 1e-3;
+  if (s->adaptive && s->table->s > 1 && !s->system.linear && s->system.storage == STEIF_SPARSE)
+    STEIF_TRY(blend(s));
   s->error_order = e->s;
   s->error_tolerance = 0.1 * pow(s->options->rtol, (e->s + 1.0) / (2 * e->s) - 1);
   return STEIF_OK;
@@ -172,13 +190,19 @@ static void predict(stf_step *s, sunrealtype h)
 }
 
 /* error = -(lambda/h E - A)^{-1} F(t_n, y, u'(t_n)) with the real lane, or with a pair the
- * quadratic filter -(re/im) Im of the complex solve. */
-static int filtered(stf_step *s, N_Vector y)
+ * quadratic filter -(re/im) Im of the complex solve; with the one shift sigma of the blended
+ * iteration -sigma h gamma_0 (sigma E - A)^{-1} F, gamma_0 = 1/lambda or re/|lambda|^2. */
+static int filtered(stf_step *s, sunrealtype h, N_Vector y)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
   const stf_split *split = &s->newton.split;
   STEIF_TRY(stf_system_residual(&s->system, s->t, y, e->work, s->error));
+  if (s->newton.gamma > 0) {
+    STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, NULL));
+    stf_scale(space, -e->filter * s->newton.shift * h, s->error, s->error);
+    return STEIF_OK;
+  }
   if (split->im[0] == 0) {
     STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, NULL));
     stf_scale(space, -1, s->error, s->error);
@@ -199,11 +223,11 @@ static int estimate(stf_step *s, sunrealtype h)
   sunrealtype slope[STEIF_STAGES];
   for (int j = 0; j < e->s; j++) slope[j] = e->slope[j] / h;
   stf_combine(space, e->s, slope, e->trial, e->work);
-  STEIF_TRY(filtered(s, s->y));
+  STEIF_TRY(filtered(s, h, s->y));
   if (s->count > 0 && !s->refused) return STEIF_OK;
   if (stf_norm(space, s->error, s->weights) <= s->error_tolerance) return STEIF_OK;
   stf_sum(space, 1, s->y, 1, s->error, s->newton.Y);
-  return filtered(s, s->newton.Y);
+  return filtered(s, h, s->newton.Y);
 }
 
 static int solve(stf_step *s, sunrealtype h)
