@@ -126,7 +126,11 @@ typedef struct steif_linear_output {
 } steif_linear_output;
 
 /* From x(t0-) = x0 to options.t1: at t0 and at every declared break (ascending, inside) the jump and
- * the impulses, then `method` from x(t+) with the options' steps to the next break. */
+ * the impulses, then `method` from x(t+) with the options' steps to the next break. Given steps are
+ * made on the system as it is. Chosen ones of dense and small systems of index k > 1 are made on one
+ * of index 1 with the same smooth solutions, for which f is asked for derivatives up to k - 1 at all
+ * times (up to k by methods with |R(inf)| > 0, such as Gauss's): tolerances are met for every index.
+ * In large sparse systems an unknown of index k is judged by h^(k-1), as in RADAU5. */
 STEIF_EXPORT int steif_linear_run(steif_context *ctx, const steif_linear *linear,
                                   const sunrealtype *x0, sunrealtype t0, const char *method,
                                   const steif_options *options, const steif_analysis *analysis,

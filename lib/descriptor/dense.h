@@ -79,6 +79,8 @@ int stf_split_impulse(const stf_split *split, int k, const stf_sources *sources,
                       steif_impulse *impulse);
 /* The slow projector Q [0 R; 0 I] Q^T. */
 int stf_split_projector(stf_pool *pool, const stf_split *split, sunrealtype *slow);
+/* w = sum_j (-N)^j F_inf^{-1} [I L] P^T f^(j) above E_f v' + F_f v = P_f^T f, in the unknowns x. */
+int stf_split_reduce(stf_pool *pool, const stf_split *split, stf_reduction *out);
 /* Equations and unknowns that carry the leading Laurent coefficient Phi_{k-1}. */
 int stf_split_offenders(stf_pool *pool, stf_split *split, int k, steif_structure *structure);
 

@@ -104,7 +104,7 @@ static int scale_sources(pairing *p, const sunrealtype *x0, const stf_sources *s
 static int staircase(pairing *p, bool answers)
 {
   return stf_staircase(p->ctx, p->n, p->E, p->F, p->analysis, p->x0,
-                       answers ? &p->sources : NULL, &p->stairs, &p->one, NULL);
+                       answers ? &p->sources : NULL, &p->stairs, &p->one, NULL, NULL);
 }
 
 static int schur(pairing *p)
@@ -313,16 +313,29 @@ int stf_dense_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
   return code;
 }
 
-int stf_dense_projector(steif_context *ctx, SUNMatrix E, SUNMatrix F,
-                        const steif_analysis *analysis, sunrealtype *P)
+/* Back to the unknowns and the right-hand sides as they were given. */
+static void restore(const pairing *p, sunrealtype *P, const stf_reduction *r)
+{
+  const size_t n = (size_t)p->n;
+  for (size_t j = 0; j < n; j++)
+    for (size_t i = 0; i < n; i++) {
+      const size_t at = j * n + i;
+      if (P) P[at] *= p->column[i] / p->column[j];
+      if (r) r->E[at] /= p->column[j], r->F[at] /= p->column[j];
+      for (size_t k = 0; r && k < (size_t)r->terms; k++) r->G[k * n * n + at] *= p->row[j];
+    }
+}
+
+int stf_dense_parts(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                    const steif_analysis *analysis, sunrealtype *P,
+                    stf_reduction *reduction)
 {
   pairing p;
   int code = open(ctx, E, F, analysis, &p);
   if (code == STEIF_OK)
-    code = stf_staircase(ctx, p.n, p.E, p.F, analysis, p.x0, NULL, &p.stairs, &p.one, P);
-  for (int j = 0; code == STEIF_OK && p.stairs.regular && j < p.n; j++)
-    for (int i = 0; i < p.n; i++)
-      P[(size_t)j * (size_t)p.n + (size_t)i] *= p.column[i] / p.column[j];
+    code = stf_staircase(ctx, p.n, p.E, p.F, analysis, p.x0, NULL, &p.stairs, &p.one, P,
+                         reduction);
+  if (code == STEIF_OK && p.stairs.regular) restore(&p, P, reduction);
   const int regular = p.stairs.regular, index = p.stairs.index;
   const sunrealtype rcond = p.stairs.rcond, gap = p.stairs.gap;
   close(&p);

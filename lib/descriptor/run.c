@@ -1,8 +1,10 @@
 /* run.c: runs of E x' + F x = f through its jumps: at the start and at every declared break x(t+) and
  * the impulses, between them a method on the smooth solution.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "structure.h"
+#include "reduce.h"
 #include <math.h>
+#include <steif/method.h>
+#include <steif/table.h>
 #include <string.h>
 
 typedef struct run {
@@ -15,6 +17,7 @@ typedef struct run {
   steif_structure structure; /* of the pencil, found once */
   sunrealtype *x;            /* x(t-), then x(t+) */
   int *index;                /* of each unknown; NULL: all 1 */
+  stf_reduced reduced;       /* what chosen steps are made on, where there is one */
 } run;
 
 static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
@@ -55,7 +58,7 @@ static void begin(const run *r, sunrealtype from, sunrealtype to, steif_options 
 {
   o->t1 = to;
   if (r->output->step) o->observe = observe, o->observer = (void *)r;
-  if (!(o->h0 > 0) && r->structure.index > 1)
+  if (!(o->h0 > 0) && r->index)
     o->h0 = fmin(1e-3 * (to - from), r->structure.radius > 0 ? 1e-2 / r->structure.radius : to);
 }
 
@@ -64,8 +67,10 @@ static int smooth(run *r, segment *s, sunrealtype from)
   steif_problem p;
   const steif_linear *l = r->linear;
   const steif_linear cut = {l->E, l->F, l->f ? left_of : NULL, s};
-  STEIF_TRY(steif_linear_problem(r->ctx, &cut, r->x, from, s->end, &p));
-  p.index = r->index, p.dae_index = r->structure.index;
+  const bool low = r->reduced.linear.E;
+  r->reduced.from = &cut;
+  STEIF_TRY(steif_linear_problem(r->ctx, low ? &r->reduced.linear : &cut, r->x, from, s->end, &p));
+  p.index = r->index, p.dae_index = low ? 1 : r->structure.index;
   steif_options o = r->options;
   begin(r, from, s->end, &o);
   steif_solver *solver = steif_solver_new(r->ctx, &p, r->method, &o);
@@ -107,6 +112,31 @@ static int segments(run *r, sunrealtype t0, size_t count, const sunrealtype *bre
   return STEIF_OK;
 }
 
+/* Does the method carry errors of algebraic unknowns along, |R(inf)| > 0? */
+static int keeps(run *r, bool *yes)
+{
+  steif_method_info info;
+  const bool hushed = stf_hush(r->ctx, true);
+  const int code = steif_method_find(r->ctx, r->method, &info);
+  stf_hush(r->ctx, hushed);
+  *yes = !code && (info.claims & STEIF_A_STABLE) &&
+         !(info.claims & (STEIF_L_STABLE | STEIF_STIFFLY_ACCURATE));
+  return code == STEIF_NO_MEMORY ? code : STEIF_OK;
+}
+
+/* Given steps show what the method makes of the system as it is. Chosen ones need errors that mean
+ * something: of a system of index 1, or of unknowns judged by their index. */
+static int lower(run *r)
+{
+  bool slope;
+  const bool chosen = !(r->options.h > 0) && !r->options.mesh;
+  STEIF_TRY(keeps(r, &slope));
+  if (chosen)
+    STEIF_TRY(stf_reduced_open(r->ctx, r->linear, &r->structure, slope, &r->reduced));
+  if (r->reduced.linear.E) return STEIF_OK;
+  return stf_linear_grade(r->ctx, r->linear, r->analysis, &r->structure, &r->index);
+}
+
 int steif_linear_run(steif_context *ctx, const steif_linear *linear, const sunrealtype *x0,
                      sunrealtype t0, const char *method, const steif_options *options,
                      const steif_analysis *analysis, size_t break_count,
@@ -126,9 +156,10 @@ int steif_linear_run(steif_context *ctx, const steif_linear *linear, const sunre
   if (!r.x) return STEIF_NO_MEMORY;
   memcpy(r.x, x0, (size_t)p.n * sizeof *r.x);
   int code = steif_structure_find(ctx, linear->E, linear->F, analysis, &r.structure);
-  if (!code) code = stf_linear_grade(ctx, linear, analysis, &r.structure, &r.index);
+  if (!code) code = lower(&r);
   if (!code) code = segments(&r, t0, break_count, breaks);
   steif_structure_clear(ctx, &r.structure);
+  stf_reduced_close(&r.reduced);
   stf_release(ctx, r.index);
   stf_release(ctx, r.x);
   return code;

@@ -52,7 +52,8 @@ static int carry(stf_subject *s, const sunrealtype *x0, size_t count, const sunr
                  void *user)
 {
   steif_problem p;
-  STEIF_TRY(steif_linear_problem(s->ctx, &s->slow, x0, mesh[0], mesh[count - 1], &p));
+  const steif_linear *l = s->reduced.linear.E ? &s->reduced.linear : &s->linear;
+  STEIF_TRY(steif_linear_problem(s->ctx, l, x0, mesh[0], mesh[count - 1], &p));
   steif_options o = steif_defaults();
   o.mesh = mesh, o.mesh_size = count;
   o.observe = take, o.observer = user;

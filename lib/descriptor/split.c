@@ -153,6 +153,53 @@ int stf_split_projector(stf_pool *pool, const stf_split *split, sunrealtype *slo
   return STEIF_OK;
 }
 
+/* T = F_inf^{-1} [I L] P^T, m x n packed: g = T f. */
+static void fast_rows(const stf_split *split, sunrealtype *T)
+{
+  const int n = split->n, m = split->m;
+  for (int j = 0; j < m; j++)
+    for (int i = 0; i < n; i++)
+      T[(size_t)i * (size_t)m + (size_t)j] = split->P[(size_t)j * (size_t)n + (size_t)i];
+  stf_gemm('N', 'T', m, n, n - m, 1, split->L, m, split->P + (size_t)m * (size_t)n, n, 1, T, m);
+  stf_split_infinite(split, n, T);
+}
+
+/* [I -R] Q^T, with which w is had from x, or zeros above A_f Q_f^T. */
+static void rows_of(const stf_split *split, const sunrealtype *A, bool algebraic, sunrealtype *B)
+{
+  const int n = split->n, m = split->m, f = n - m;
+  const sunrealtype *finite = split->Q + (size_t)n * (size_t)m;
+  for (int j = 0; j < n; j++)
+    for (int i = 0; i < m; i++)
+      B[(size_t)j * (size_t)n + (size_t)i] =
+        algebraic ? split->Q[(size_t)i * (size_t)n + (size_t)j] : 0;
+  if (algebraic) stf_gemm('N', 'T', m, n, f, -1, split->R, m, finite, n, 1, B, n);
+  stf_gemm('N', 'T', f, n, f, 1, A + (size_t)n * (size_t)m + m, n, finite, n, 0, B + m, n);
+}
+
+int stf_split_reduce(stf_pool *pool, const stf_split *split, stf_reduction *out)
+{
+  const int n = split->n, m = split->m;
+  const size_t rows = (size_t)n, size = rows * rows;
+  sunrealtype *T = stf_claim_square(pool, n), *next = stf_claim_square(pool, n);
+  if (!T || !next) return STEIF_NO_MEMORY;
+  out->algebraic = m;
+  rows_of(split, split->E, false, out->E);
+  rows_of(split, split->F, true, out->F);
+  fast_rows(split, T);
+  for (int k = 0; k < out->terms; k++) {
+    sunrealtype *G = out->G + (size_t)k * size;
+    for (size_t j = 0; j < rows; j++) {
+      memcpy(G + j * rows, T + j * (size_t)m, (size_t)m * sizeof *G);
+      for (size_t i = (size_t)m; i < rows; i++)
+        G[j * rows + i] = k ? 0 : split->P[i * rows + j];
+    }
+    stf_gemm('N', 'N', m, n, m, -1, split->N, m, T, m, 0, next, m);
+    memcpy(T, next, (size_t)m * rows * sizeof *T);
+  }
+  return STEIF_OK;
+}
+
 /* Norms of the rows and columns of Phi = Q_inf T. */
 static int largest_rows(stf_split *split, const sunrealtype *Phi, steif_structure *structure)
 {
@@ -173,11 +220,7 @@ int stf_split_offenders(stf_pool *pool, stf_split *split, int k, steif_structure
   const int n = split->n, m = split->m;
   sunrealtype *T = stf_claim_square(pool, n), *next = stf_claim_square(pool, n);
   if (!T || !next) return STEIF_NO_MEMORY;
-  for (int j = 0; j < m; j++)
-    for (int i = 0; i < n; i++)
-      T[(size_t)i * (size_t)m + (size_t)j] = split->P[(size_t)j * (size_t)n + (size_t)i];
-  stf_gemm('N', 'T', m, n, n - m, 1, split->L, m, split->P + (size_t)m * (size_t)n, n, 1, T, m);
-  stf_split_infinite(split, n, T);
+  fast_rows(split, T);
   for (int j = 1; j < k; j++) {
     stf_gemm('N', 'N', m, n, m, 1, split->N, m, T, m, 0, next, m);
     memcpy(T, next, (size_t)m * (size_t)n * sizeof *T);

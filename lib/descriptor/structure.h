@@ -14,11 +14,20 @@ typedef struct stf_sources {
   const sunrealtype *f;    /* (derivatives + 1) x n by rows; NULL: f = 0 */
 } stf_sources;
 
+/* A system of index 1 with the smooth solutions of a given one, E x' + F x = sum_j G_j f^(j): the
+ * first rows of E are 0, the others have full rank. n x n by columns each. */
+typedef struct stf_reduction {
+  int terms;              /* of the sum: the index, or 0 */
+  int algebraic;          /* out: how many rows of E are 0 */
+  sunrealtype *E, *F, *G; /* G: terms of them */
+} stf_reduction;
+
 /* Dense algorithms (staircase.c, qz.c): E and F column-major n x n. Each fills what it knows of
  * *structure (zeroed by the caller), and of *impulse when sources are given (index known). */
 int stf_staircase(steif_context *ctx, sunindextype n, const sunrealtype *E, const sunrealtype *F,
                   const steif_analysis *analysis, const sunrealtype *x0, const stf_sources *sources,
-                  steif_structure *structure, steif_impulse *impulse, sunrealtype *slow_projector);
+                  steif_structure *structure, steif_impulse *impulse, sunrealtype *slow_projector,
+                  stf_reduction *reduction);
 int stf_qz(steif_context *ctx, sunindextype n, const sunrealtype *E, const sunrealtype *F,
            const steif_analysis *analysis, sunindextype infinite, const sunrealtype *x0,
            const stf_sources *sources, steif_structure *structure, steif_impulse *impulse);

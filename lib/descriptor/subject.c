@@ -20,7 +20,7 @@ static int analyse(stf_subject *s)
   STEIF_TRY(steif_impulse_find(s->ctx, l->E, l->F, s->problem.y0, s->problem.t0, l->f, l->user,
                                NULL, &s->structure, &s->impulse));
   s->index = s->impulse.index;
-  return stf_subject_reduce(s);
+  return stf_reduced_open(s->ctx, l, &s->structure, false, &s->reduced);
 }
 
 static int find(stf_subject *s, const char *spec)
@@ -59,8 +59,7 @@ void stf_subject_close(stf_subject *s)
   stf_block_close(&s->block);
   steif_impulse_clear(s->ctx, &s->impulse);
   steif_structure_clear(s->ctx, &s->structure);
-  if (s->reduced && s->slow.E) SUNMatDestroy(s->slow.E);
-  if (s->reduced && s->slow.F) SUNMatDestroy(s->slow.F);
+  stf_reduced_close(&s->reduced);
   if (s->named && s->linear.E) SUNMatDestroy(s->linear.E), SUNMatDestroy(s->linear.F);
   if (s->named) steif_problem_clear(s->ctx, &s->problem);
   *s = (stf_subject){0};

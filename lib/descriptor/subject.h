@@ -5,7 +5,7 @@
 #define STF_SUBJECT_H
 
 #include "descriptor.h"
-#include "structure.h"
+#include "reduce.h"
 
 /* A Jordan block (everything by closed formulas), another problem of the collection, or a system of
  * the caller's. */
@@ -18,10 +18,7 @@ typedef struct stf_subject {
   steif_linear linear; /* of the others; named: its matrices are new */
   steif_structure structure;
   steif_impulse impulse;
-  /* Carries the slow part: E Pi_s x' + F x = f where Pi_s is at hand (reduced: with matrices of its
-   * own), else the same as linear. */
-  steif_linear slow;
-  bool reduced;
+  stf_reduced reduced; /* with the same smooth solutions, where there is one */
 } stf_subject;
 
 /* linear NULL: the problem called `spec`. The subject stays where it is until it is closed. */
@@ -29,8 +26,6 @@ int stf_subject_open(steif_context *ctx, const char *spec, const steif_linear *l
                      const sunrealtype *x0, stf_subject *subject);
 void stf_subject_close(stf_subject *subject);
 
-/* E Pi_s and F of a dense or small pencil of index above 1 into subject->slow. */
-int stf_subject_reduce(stf_subject *subject);
 /* <x_m, g> for all m into value[n]; accuracy (a bound seen, 0 for closed formulas) and how it was
  * found, in words. */
 int stf_subject_pair(stf_subject *subject, sunrealtype *value, sunrealtype *accuracy, char *how,
