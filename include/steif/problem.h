@@ -83,6 +83,11 @@ struct steif_problem {
   steif_matrix_fill E, A;    /* direct fills; E also marks the mass and descriptor forms */
   steif_product Ev, Av;      /* E x and A x without matrices (STEIF_KRYLOV); Av may be left to
                                 differences of f or F, Ev NULL means E = I */
+  /* Semilinear problems y' = L y + N(t, y): the constant linear part, for exponential methods of
+   * Runge-Kutta type; f stays the whole right-hand side. L fills a matrix like A, Lv is x -> L x
+   * for Krylov storage. Both NULL: L = df/dy at the start. */
+  steif_matrix_fill L;
+  steif_product Lv;
   void *user;                /* handed to every callback */
 
   enum steif_storage storage;

@@ -11,6 +11,7 @@ struct steif_solver {
   steif_context *ctx;
   stf_pool *pool;
   const steif_problem *problem;
+  steif_problem split;   /* the problem with its linear part as the matrix */
   steif_options options; /* complete */
   sunrealtype t1;
   N_Vector serial, shown, dense,

@@ -1,5 +1,6 @@
 /* methods.c: the list of methods, ours and the baselines, with what is claimed of each.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "exponential.h"
 #include "march.h"
 #include "splitting.h"
 #include <stdio.h>
@@ -58,6 +59,12 @@ static bool spec_at(size_t i, char *text, size_t size)
   i -= count;
   if (i < stf_splitting_count) return snprintf(text, size, "%s", stf_splittings[i].name) > 0;
   i -= stf_splitting_count;
+  if (i < stf_exponential_rk_count)
+    return snprintf(text, size, "%s", stf_exponential_rk[i].name) > 0;
+  i -= stf_exponential_rk_count;
+  if (i < stf_exponential_rb_count)
+    return snprintf(text, size, "%s", stf_exponential_rb[i].name) > 0;
+  i -= stf_exponential_rb_count;
   for (size_t k = 0; k < stf_table_count; k++) {
     const bool dirk = stf_table_shelf[k].item->kind == STEIF_DIRK;
     if (stf_table_shelf[k].item->kind == STEIF_COLLOCATION || i--) continue;

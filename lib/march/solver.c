@@ -136,13 +136,24 @@ static int specialise(steif_solver *s)
   return claim_state(s);
 }
 
+/* What methods that split see: the linear part, or df/dy at the start, in the place of the matrix. */
+static const steif_problem *split(steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  s->split = *p;
+  s->split.linear = 1;
+  if (p->L || p->Lv) s->split.A = p->L, s->split.Av = p->Lv, s->split.jac = NULL;
+  return &s->split;
+}
+
 static int open_system(steif_solver *s, int form, N_Vector y, N_Vector yp)
 {
   stf_step *step = &s->step;
   const steif_options *o = &s->options;
   const sunrealtype scale = o->atol / o->rtol;
   if (!(step->method->traits & STF_EXPLICIT))
-    return stf_system_open(s->pool, s->ctx, s->problem, form,
+    return stf_system_open(s->pool, s->ctx,
+                           step->method->traits & STF_SPLITS ? split(s) : s->problem, form,
                            o->force_storage ? o->storage : s->problem->storage, scale, y, yp,
                            &step->system);
   step->system.ctx = s->ctx, step->system.problem = s->problem, step->system.form = form;

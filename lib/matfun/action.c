@@ -85,39 +85,68 @@ static int claim(steif_action *a)
   return a->sign ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
+/* Everything but the pencil. */
+static steif_action *make(steif_context *ctx, SUNMatrix A, N_Vector like,
+                          const steif_action_options *o)
+{
+  steif_action *a = stf_allocate(ctx, 1, sizeof *a);
+  if (!a) return NULL;
+  a->ctx = ctx, a->A = A, a->o = *o;
+  a->dimension = o->dimension ? o->dimension : STF_RATIONAL;
+  if (a->o.tolerance == 0) a->o.tolerance = 1e-10;
+  if (a->o.products == 0) a->o.products = 100000;
+  stf_space_open(&a->space, like);
+  a->pool = stf_pool_new(ctx);
+  if (!a->pool || claim(a)) steif_action_free(&a);
+  return a;
+}
+
 steif_action *steif_action_new(steif_context *ctx, SUNMatrix A, const steif_operator *op,
                                N_Vector like, const steif_action_options *options)
 {
   const steif_action_options o = options ? *options : (steif_action_options){0};
   if (!ctx || check_new(ctx, A, op, like, &o)) return NULL;
-  steif_action *a = stf_allocate(ctx, 1, sizeof *a);
+  steif_action *a = make(ctx, A, like, &o);
+  if (a && (!(a->pencil = make_pencil(a, op)) || steif_action_update(a))) steif_action_free(&a);
+  return a;
+}
+
+steif_action *stf_action_open(steif_context *ctx, steif_pencil *pencil, N_Vector like,
+                              const steif_action_options *options)
+{
+  if (check_options(ctx, options)) return NULL;
+  steif_action *a = make(ctx, pencil->A, like, options);
   if (!a) return NULL;
-  a->ctx = ctx, a->A = A, a->o = o;
-  a->dimension = o.dimension ? o.dimension : STF_RATIONAL;
-  if (a->o.tolerance == 0) a->o.tolerance = 1e-10;
-  if (a->o.products == 0) a->o.products = 100000;
-  stf_space_open(&a->space, like);
-  a->pool = stf_pool_new(ctx);
-  if (!a->pool || claim(a) || !(a->pencil = make_pencil(a, op)) || steif_action_update(a))
-    steif_action_free(&a);
+  a->pencil = pencil, a->borrowed = true;
+  if (stf_state_grow(a, a->dimension + 2) || stf_action_renew(a)) steif_action_free(&a);
   return a;
 }
 
 void steif_action_free(steif_action **a)
 {
   if (!a || !*a) return;
-  steif_pencil_free(&(*a)->pencil);
+  if (!(*a)->borrowed) steif_pencil_free(&(*a)->pencil);
   stf_pool_free(&(*a)->pool);
   stf_release((*a)->ctx, *a);
   *a = NULL;
 }
 
+int stf_action_renew(steif_action *a)
+{
+  a->gamma = 0;
+  return stf_facts_find(a);
+}
+
+void stf_action_aim(steif_action *a, double relative, double absolute)
+{
+  a->o.tolerance = relative, a->absolute = absolute;
+}
+
 int steif_action_update(steif_action *a)
 {
   if (!a) return STEIF_BAD_INPUT;
-  a->gamma = 0;
   STEIF_TRY(steif_pencil_update(a->pencil));
-  return stf_facts_find(a);
+  return stf_action_renew(a);
 }
 
 static int check_apply(steif_action *a, sunrealtype t, int p, N_Vector *b, N_Vector w)

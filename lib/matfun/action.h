@@ -18,7 +18,7 @@ typedef struct stf_state {
   double z[STEIF_PHI_MOST];
 } stf_state;
 
-/* Norms and symmetries of a sparse matrix. */
+/* Norms and symmetries of a matrix. */
 typedef struct stf_facts {
   double norm;        /* ||A||_1 */
   double mu, shifted; /* tr(A)/n, ||A - mu I||_1 */
@@ -32,7 +32,9 @@ struct steif_action {
   SUNMatrix A; /* NULL: an operator */
   stf_space space;
   steif_action_options o;
+  double absolute; /* error that is always allowed */
   steif_pencil *pencil;
+  bool borrowed; /* the pencil */
   stf_facts facts;
   double gamma; /* of the factors at hand; 0: none */
   int *sign;    /* n, for norm estimates */
@@ -51,6 +53,15 @@ struct steif_action {
 /* Order of the dense matrices of a Krylov space, with room for phi_0 .. phi_{p+1} or a
  * correction. */
 static inline int stf_order(int dimension) { return dimension + STEIF_PHI_MOST + 3; }
+
+/* For owners of a pencil: its A, of any storage, and its slot 0 are used; E is the identity. All
+ * vectors are made at once. */
+steif_action *stf_action_open(steif_context *ctx, steif_pencil *pencil, N_Vector like,
+                              const steif_action_options *options);
+/* The values of A changed, and the pencil knows. */
+int stf_action_renew(steif_action *a);
+/* Errors up to relative ||w|| + absolute are allowed from now on. */
+void stf_action_aim(steif_action *a, double relative, double absolute);
 
 /* state.c: at least `count` states of the basis exist. */
 int stf_state_grow(steif_action *a, int count);
@@ -84,7 +95,7 @@ int stf_action_taylor(steif_action *a, N_Vector w);
 /* The error that `norm` = ||w|| allows. */
 static inline double stf_action_allowed(const steif_action *a, double norm)
 {
-  return a->o.tolerance * norm + 16 * STF_EPS * a->scale;
+  return a->o.tolerance * norm + 16 * STF_EPS * a->scale + a->absolute;
 }
 
 #endif

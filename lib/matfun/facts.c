@@ -1,4 +1,4 @@
-/* facts.c: norms and symmetries of a sparse matrix that the choice of a method rests on.
+/* facts.c: norms and symmetries of a matrix that the choice of a method rests on.
  *
  * Symmetry is tested by A x = +- A^T x for one vector without structure; norms of powers are
  * estimated (N. J. Higham, ACM TOMS 14, 1988).
@@ -6,45 +6,75 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "action.h"
 #include "blas.h"
+#include <sunmatrix/sunmatrix_band.h>
+#include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-/* y = A x - mu x, or A^T x - mu x */
-static void times(SUNMatrix A, double mu, const double *restrict x, double *restrict y)
+/* Column j of a matrix in any storage: `count` values in the rows row[k], or first + k. */
+typedef struct column {
+  sunindextype count, first;
+  const sunindextype *row;
+  const double *value;
+} column;
+
+static column column_of(SUNMatrix A, sunindextype j)
 {
-  const sunindextype n = SM_COLUMNS_S(A), *ptr = SM_INDEXPTRS_S(A), *row = SM_INDEXVALS_S(A);
-  const double *value = SM_DATA_S(A);
-  for (sunindextype i = 0; i < n; i++) y[i] = -mu * x[i];
-  for (sunindextype j = 0; j < n; j++)
-    for (sunindextype k = ptr[j]; k < ptr[j + 1]; k++) y[row[k]] += value[k] * x[j];
+  const SUNMatrix_ID kind = SUNMatGetID(A);
+  if (kind == SUNMATRIX_SPARSE) {
+    const sunindextype from = SM_INDEXPTRS_S(A)[j];
+    return (column){SM_INDEXPTRS_S(A)[j + 1] - from, 0, SM_INDEXVALS_S(A) + from,
+                    SM_DATA_S(A) + from};
+  }
+  if (kind == SUNMATRIX_DENSE)
+    return (column){SM_ROWS_D(A), 0, NULL, SM_DATA_D(A) + j * SM_ROWS_D(A)};
+  const sunindextype n = SM_COLUMNS_B(A), up = SM_UBAND_B(A), low = SM_LBAND_B(A);
+  const sunindextype first = j > up ? j - up : 0, end = j + low + 1 < n ? j + low + 1 : n;
+  return (column){end - first, first, NULL, SM_COLUMN_B(A, j) + (first - j)};
 }
 
-static void times_transposed(SUNMatrix A, double mu, const double *restrict x,
+static inline sunindextype row_of(const column *c, sunindextype k)
+{
+  return c->row ? c->row[k] : c->first + k;
+}
+
+/* y = A x - mu x, or A^T x - mu x */
+static void times(const steif_action *a, double mu, const double *restrict x,
+                  double *restrict y)
+{
+  for (sunindextype i = 0; i < a->space.n; i++) y[i] = -mu * x[i];
+  for (sunindextype j = 0; j < a->space.n; j++) {
+    const column c = column_of(a->A, j);
+    for (sunindextype k = 0; k < c.count; k++) y[row_of(&c, k)] += c.value[k] * x[j];
+  }
+}
+
+static void times_transposed(const steif_action *a, double mu, const double *restrict x,
                              double *restrict y)
 {
-  const sunindextype n = SM_COLUMNS_S(A), *ptr = SM_INDEXPTRS_S(A), *row = SM_INDEXVALS_S(A);
-  const double *value = SM_DATA_S(A);
-  for (sunindextype j = 0; j < n; j++) {
+  for (sunindextype j = 0; j < a->space.n; j++) {
+    const column c = column_of(a->A, j);
     double sum = -mu * x[j];
-    for (sunindextype k = ptr[j]; k < ptr[j + 1]; k++) sum += value[k] * x[row[k]];
+    for (sunindextype k = 0; k < c.count; k++) sum += c.value[k] * x[row_of(&c, k)];
     y[j] = sum;
   }
 }
 
-static void norms(SUNMatrix A, stf_facts *f)
+static void norms(const steif_action *a, stf_facts *f)
 {
-  const sunindextype n = SM_COLUMNS_S(A), *ptr = SM_INDEXPTRS_S(A), *row = SM_INDEXVALS_S(A);
-  const double *value = SM_DATA_S(A);
-  f->mu = 0;
-  for (sunindextype j = 0; j < n; j++)
-    for (sunindextype k = ptr[j]; k < ptr[j + 1]; k++)
-      if (row[k] == j) f->mu += value[k] / (double)n;
+  const sunindextype n = a->space.n;
   for (sunindextype j = 0; j < n; j++) {
+    const column c = column_of(a->A, j);
+    for (sunindextype k = 0; k < c.count; k++)
+      if (row_of(&c, k) == j) f->mu += c.value[k] / (double)n;
+  }
+  for (sunindextype j = 0; j < n; j++) {
+    const column c = column_of(a->A, j);
     double sum = 0, diagonal = 0;
-    for (sunindextype k = ptr[j]; k < ptr[j + 1]; k++)
-      if (row[k] == j)
-        diagonal += value[k];
+    for (sunindextype k = 0; k < c.count; k++)
+      if (row_of(&c, k) == j)
+        diagonal += c.value[k];
       else
-        sum += fabs(value[k]);
+        sum += fabs(c.value[k]);
     f->norm = fmax(f->norm, sum + fabs(diagonal));
     f->shifted = fmax(f->shifted, sum + fabs(diagonal - f->mu));
   }
@@ -60,8 +90,8 @@ static void symmetry(const steif_action *a, stf_facts *f)
     seed = (unsigned)((unsigned long long)seed * 48271u % 2147483647u);
     x[i] = 2 * (double)seed / 2147483647.0 - 1;
   }
-  times(a->A, 0, x, y);
-  times_transposed(a->A, 0, x, z);
+  times(a, 0, x, y);
+  times_transposed(a, 0, x, z);
   for (sunindextype i = 0; i < a->space.n; i++) {
     size = fmax(size, fabs(y[i])), even = fmax(even, fabs(y[i] - z[i]));
     odd = fmax(odd, fabs(y[i] + z[i]));
@@ -75,7 +105,7 @@ int stf_facts_find(steif_action *a)
   a->facts = (stf_facts){.norm = 0};
   if (!a->A) return STEIF_OK;
   STEIF_TRY(stf_state_grow(a, 3));
-  norms(a->A, &a->facts);
+  norms(a, &a->facts);
   symmetry(a, &a->facts);
   STEIF_CHECK(isfinite(a->facts.norm), a->ctx, STEIF_NOT_FINITE,
               "||A||_1 overflows: scale the equations");
@@ -94,7 +124,7 @@ double stf_facts_root(steif_action *a, bool shift, int k)
     dlacn2_(&n, v, x, a->sign, &estimate, &kase, save);
     if (kase == 0) break;
     for (int power = 0; power < k; power++) {
-      (kase == 1 ? times : times_transposed)(a->A, mu, x, y);
+      (kase == 1 ? times : times_transposed)(a, mu, x, y);
       for (int i = 0; i < n; i++) x[i] = y[i] / norm;
       a->report.products++;
     }

@@ -18,7 +18,7 @@ enum { EVERY = 3 };
 static int factor(steif_action *a)
 {
   const double ratio = a->gamma == 0 ? 0 : a->t / a->gamma;
-  if (ratio >= poles / 2 && ratio <= 2 * poles) return STEIF_OK;
+  if (ratio >= 0.499 * poles && ratio <= 2.001 * poles) return STEIF_OK;
   a->gamma = 0;
   const long before = steif_pencil_statistics(a->pencil)->factors;
   STEIF_TRY(steif_pencil_factor(a->pencil, 1, &(steif_shift){poles / a->t, 0}));

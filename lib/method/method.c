@@ -1,8 +1,10 @@
 /* method.c: find a family by spec, and what the families share.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "method.h"
+#include "exponential.h"
 #include "rodas.h"
 #include "splitting.h"
+#include <math.h>
 #include <string.h>
 
 static const steif_method *family(const char *name)
@@ -31,6 +33,10 @@ static int unknown(steif_context *ctx, const steif_spec *spec)
   size_t count = 6;
   for (size_t i = 0; i < stf_rodas_count; i++) names[count++] = stf_rodas_tables[i].name;
   for (size_t i = 0; i < stf_splitting_count; i++) names[count++] = stf_splittings[i].name;
+  for (size_t i = 0; i < stf_exponential_rk_count; i++)
+    names[count++] = stf_exponential_rk[i].name;
+  for (size_t i = 0; i < stf_exponential_rb_count; i++)
+    names[count++] = stf_exponential_rb[i].name;
   for (size_t i = 0; i < stf_table_count && count < 64; i++)
     if (stf_table_shelf[i].item->kind != STEIF_DIRK) names[count++] = stf_table_shelf[i].name;
   return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME,
@@ -71,6 +77,13 @@ int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_meth
     *method = family("sympl");
     return STEIF_OK;
   }
+  const bool rk =
+    stf_exponential_find(stf_exponential_rk, stf_exponential_rk_count, spec->name);
+  if (rk ||
+      stf_exponential_find(stf_exponential_rb, stf_exponential_rb_count, spec->name)) {
+    *method = family(rk ? "etd" : "exprb");
+    return STEIF_OK;
+  }
   if (!strcmp(spec->name, "dirk")) {
     *method = family("dirk");
     return dirk_table(ctx, spec, table);
@@ -107,6 +120,32 @@ void stf_swap(stf_step *s)
 {
   N_Vector y = s->y;
   s->y = s->next, s->next = y;
+}
+
+/* By f(t), f(t + d) and f(t + 2 d). */
+int stf_slope_in_time(stf_step *s, sunrealtype h, N_Vector f, N_Vector slope, N_Vector work)
+{
+  const sunrealtype d = fmax(1e-4 * h, 64 * STF_EPS * fabs(s->t));
+  const sunrealtype c[] = {2 / d, -1.5 / d, -0.5 / d};
+  N_Vector all[] = {slope, f, work};
+  if (s->problem->autonomous) return STEIF_OK;
+  STEIF_TRY(stf_system_rhs(&s->system, s->t + d, s->y, slope));
+  STEIF_TRY(stf_system_rhs(&s->system, s->t + 2 * d, s->y, work));
+  stf_combine(&s->system.space, 3, c, all, slope);
+  return STEIF_OK;
+}
+
+int stf_hermite(const stf_step *s, sunrealtype t, N_Vector before, N_Vector slope, N_Vector end,
+                N_Vector y)
+{
+  stf_step *mutable = (stf_step *)s;
+  STEIF_TRY(stf_system_rhs(&mutable->system, s->t, s->y, end));
+  const sunrealtype x = (t - (s->t - s->h)) / s->h, u = 1 - x;
+  const sunrealtype c[] = {u * u * (1 + 2 * x), x * x * (1 + 2 * u), s->h * x * u * u,
+                           -s->h * x * x * u};
+  N_Vector v[] = {before, s->y, slope, end};
+  stf_combine(&s->system.space, 4, c, v, y);
+  return STEIF_OK;
 }
 
 static void zero_stages(const stf_step *s, const stf_stages *g)

@@ -18,7 +18,8 @@ typedef struct stf_step stf_step;
 enum stf_trait {
   STF_ADAPTIVE = 1, /* fills s->error */
   STF_MULTISTEP = 2, /* keeps history: steps given at open */
-  STF_EXPLICIT = 4   /* needs neither matrices nor, for given steps, weights */
+  STF_EXPLICIT = 4,  /* needs neither matrices nor, for given steps, weights */
+  STF_SPLITS = 8     /* the matrix is the constant linear part of a semilinear problem */
 };
 
 typedef struct steif_method {
@@ -91,6 +92,15 @@ extern const steif_method steif_method_vbdf;
 
 /* y <-> next. */
 void stf_swap(stf_step *s);
+
+/* Forms y' = f(t, y) and M y' = f(t, y): df/dt at (t_n, y_n) by differences inside a step of length
+ * h, from f there; `work` is lost. Nothing is done where the problem is autonomous. */
+int stf_slope_in_time(stf_step *s, sunrealtype h, N_Vector f, N_Vector slope, N_Vector work);
+
+/* y = the cubic through both ends of the last step of y' = f(t, y) with their slopes; that of the
+ * end, f(t, y), is made in `end`. */
+int stf_hermite(const stf_step *s, sunrealtype t, N_Vector before, N_Vector slope, N_Vector end,
+                N_Vector y);
 
 /* One r x r complex number as a propagator. */
 void stf_propagate_scalar(const sunrealtype R[2], int *r, sunrealtype *M);

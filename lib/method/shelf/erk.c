@@ -57,18 +57,10 @@ static void commit(stf_step *s)
   stf_swap(s);
 }
 
-/* Cubic Hermite; the slope at the end costs one evaluation. */
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
-  state *e = s->state;
-  stf_step *mutable = (stf_step *)s;
-  STEIF_TRY(stf_system_rhs(&mutable->system, s->t, s->y, e->end_slope));
-  const sunrealtype x = (t - (s->t - s->h)) / s->h, u = 1 - x;
-  const sunrealtype c[] = {u * u * (1 + 2 * x), x * x * (1 + 2 * u), s->h * x * u * u,
-                           -s->h * x * x * u};
-  N_Vector v[] = {e->before, s->y, e->slope, e->end_slope};
-  stf_combine(&s->system.space, 4, c, v, y);
-  return STEIF_OK;
+  const state *e = s->state;
+  return stf_hermite(s, t, e->before, e->slope, e->end_slope, y);
 }
 
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,

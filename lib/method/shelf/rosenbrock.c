@@ -40,21 +40,13 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   return STEIF_OK;
 }
 
-/* f at the accepted point and its slope in t, by f(t), f(t + d), f(t + 2 d) inside the step. */
+/* f at the accepted point and its slope in t. */
 static int start(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
-  const stf_space *space = &s->system.space;
-  const sunrealtype d = fmax(1e-4 * h, 64 * STF_EPS * fabs(s->t));
-  const sunrealtype c[] = {2 / d, -1.5 / d, -0.5 / d};
-  N_Vector f[] = {e->ft, e->f0, e->sum};
   STEIF_TRY(stf_system_rhs(&s->system, s->t, s->y, e->f0));
   e->have_f0 = true;
-  if (s->problem->autonomous) return STEIF_OK;
-  STEIF_TRY(stf_system_rhs(&s->system, s->t + d, s->y, e->ft));
-  STEIF_TRY(stf_system_rhs(&s->system, s->t + 2 * d, s->y, e->sum));
-  stf_combine(space, 3, c, f, e->ft);
-  return STEIF_OK;
+  return stf_slope_in_time(s, h, e->f0, e->ft, e->sum);
 }
 
 /* Y_i, the argument of stage i. */
@@ -126,17 +118,10 @@ static void commit(stf_step *s)
 /* Cubic Hermite for y' = f, linear for M y' = f. */
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
-  state *e = s->state;
-  const sunrealtype x = (t - (s->t - s->h)) / s->h, v = 1 - x;
-  N_Vector term[] = {e->before, s->y, e->slope, e->end};
-  if (s->system.form == STEIF_MASS) {
-    stf_sum(&s->system.space, v, e->before, x, s->y, y);
-    return STEIF_OK;
-  }
-  STEIF_TRY(stf_system_rhs((stf_system *)&s->system, s->t, s->y, e->end));
-  const sunrealtype c[] = {v * v * (1 + 2 * x), x * x * (1 + 2 * v), s->h * x * v * v,
-                           -s->h * x * x * v};
-  stf_combine(&s->system.space, 4, c, term, y);
+  const state *e = s->state;
+  const sunrealtype x = (t - (s->t - s->h)) / s->h;
+  if (s->system.form != STEIF_MASS) return stf_hermite(s, t, e->before, e->slope, e->end, y);
+  stf_sum(&s->system.space, 1 - x, e->before, x, s->y, y);
   return STEIF_OK;
 }
 
