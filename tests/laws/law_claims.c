@@ -41,7 +41,7 @@ static void symmetric_methods_undo_themselves(void)
   int seen = 0;
   for (size_t i = 0; steif_method_at(ctx, i, &info) == STEIF_OK; i++) {
     if (info.order == 0 || info.stages == 0 || !strncmp(info.name, "b", 1)) continue;
-    if (!strcmp(info.family, "sympl")) continue;
+    if (!strcmp(info.family, "sympl") || law_exponential(&info)) continue;
     const double complex z = 0.37 - 1.19 * I;
     const double off = cabs(step(ctx, info.name, z) * step(ctx, info.name, -z) - 1);
     CHECK((off < 1e-13) == ((info.claims & STEIF_SYMMETRIC) != 0));

@@ -131,6 +131,8 @@ static const char *const lives[][2] = {{"hires", "radau:s=3"},
                                        {"heat:n=30", "gauss:s=2"},
                                        {"bruss2d:n=4", "radau:s=2"},
                                        {"jordan:k=3", "dirk:alexander2"},
+                                       {"parabolic:n=9", "hochost4"},
+                                       {"bruss2d:n=4", "exprb43"},
                                        {"fpu:n=3", "yoshida4:compensated=1"},
                                        {"pendulum", "gauss:s=2,compensated=1"}};
 enum { LIVES = sizeof lives / sizeof *lives };

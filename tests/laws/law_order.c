@@ -72,7 +72,7 @@ static void linear_problem(void)
   steif_method_info info;
   CU_ASSERT_FATAL(steif_problem_find(ctx, "harmonic", &harmonic) == STEIF_OK);
   for (size_t i = 0; steif_method_at(ctx, i, &info) == STEIF_OK; i++) {
-    if (info.order == 0) continue;
+    if (info.order == 0 || law_exponential(&info)) continue;
     const double order = measure(ctx, &harmonic, info.name, 6, 3, ROWS);
     /* R(z) of a Rosenbrock method may be of higher order than the method. */
     const double excess = strcmp(info.family, "rosenbrock") ? 0.2 : 1.2;
@@ -80,6 +80,29 @@ static void linear_problem(void)
     if (!good) printf("\n  %s: order %.3f", info.name, order);
     CHECK(good);
   }
+  steif_problem_clear(ctx, &harmonic);
+  steif_context_free(&ctx);
+}
+
+static void exponential_methods_are_exact(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem harmonic;
+  steif_method_info info;
+  steif_order_row row[2];
+  steif_options o = steif_defaults();
+  int seen = 0;
+  o.t1 = 6;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "harmonic", &harmonic) == STEIF_OK);
+  for (size_t i = 0; steif_method_at(ctx, i, &info) == STEIF_OK; i++) {
+    if (!law_exponential(&info)) continue;
+    CHECK(steif_order_measure(ctx, &harmonic, info.name, &o, 3, 2, row) == STEIF_OK);
+    if (!(row[0].error < 1e-14 && row[1].error < 1e-14))
+      printf("\n  %s: %.2e, %.2e", info.name, row[0].error, row[1].error);
+    CHECK(row[0].error < 1e-14 && row[1].error < 1e-14);
+    seen++;
+  }
+  CHECK(seen == 9);
   steif_problem_clear(ctx, &harmonic);
   steif_context_free(&ctx);
 }
@@ -110,5 +133,6 @@ static void nonlinear_problem(void)
 
 CU_TestInfo tests_of_law_order[] = {
   {"on the harmonic oscillator the order is the claimed one", linear_problem},
+  {"on the harmonic oscillator exponential methods are exact", exponential_methods_are_exact},
   {"on a nonlinear problem the order is the claimed one", nonlinear_problem},
   CU_TEST_INFO_NULL};

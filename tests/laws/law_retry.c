@@ -41,7 +41,8 @@ static void one_step_methods_restart(void)
 {
   static const char *const methods[] = {
     "be",        "dirk:alexander3", "dirk:hw43",     "gauss:s=3",
-    "radau:s=3", "radau1a:s=2",     "lobatto3c:s=3", "rk4"};
+    "radau:s=3", "radau1a:s=2",     "lobatto3c:s=3", "rk4",
+    "exprb43"};
   steif_context *ctx = steif_context_new(NULL);
   for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
     steif_options o = steif_defaults();

@@ -7,8 +7,9 @@ const char *const law_methods[] = {
   "be",        "bdf:p=2",     "bdf:p=4",         "dirk:alexander2",    "dirk:alexander3",
   "dirk:hw43", "dirk:trbdf2", "dirk:crouzeix23", "dirk:cranknicolson", "dirk:esdirk43",
   "gauss:s=1", "gauss:s=2",   "gauss:s=3",       "radau:s=2",          "radau:s=3",
-  "radau:s=5", "radau1a:s=2", "lobatto3c:s=3",   "gauss:s=12",         "euler",
-  "rk4",
+  "radau:s=5", "radau1a:s=2", "lobatto3c:s=3",   "gauss:s=12",         "exp-euler",
+  "etd2",      "krogstad",    "hochost4",        "exprb32",            "exprb43",
+  "euler",     "rk4",
 };
 const int law_method_count = sizeof law_methods / sizeof *law_methods;
 const int law_implicit_count = sizeof law_methods / sizeof *law_methods - 2;
@@ -55,6 +56,11 @@ N_Vector law_run(steif_context *ctx, const steif_problem *problem, const char *m
   }
   steif_solver_free(&s);
   return out;
+}
+
+int law_exponential(const steif_method_info *info)
+{
+  return !strcmp(info->family, "etd") || !strcmp(info->family, "exprb");
 }
 
 double law_distance(N_Vector a, N_Vector b)

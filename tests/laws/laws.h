@@ -20,6 +20,9 @@ extern const steif_problem law_problem;
 N_Vector law_run(steif_context *ctx, const steif_problem *problem, const char *method,
                  const steif_options *options);
 
+/* Exponential methods solve linear equations exactly: M(z) = e^z. */
+int law_exponential(const steif_method_info *info);
+
 /* Largest difference of two vectors relative to the largest entry of the first. */
 double law_distance(N_Vector a, N_Vector b);
 
