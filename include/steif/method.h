@@ -11,6 +11,14 @@
  * from the sums (theirs by default in runs of 10000 steps and more; also of gauss:s= with given steps):
  * rounding then grows like the root of the number of steps.
  *
+ * Exponential methods take y' = L y + N(t, y) and are exact for N = 0. With given steps and a constant
+ * L, that of the problem (.L of problem.h) or df/dy at the start: exp-euler (ETD1), exp-midpoint,
+ * exp-trapezoidal (ETD2RK), etd2 (two steps), etdrk4 (Cox and Matthews), krogstad, hochost4. With
+ * chosen steps and L = df/dy at every step: exprb32, exprb43. For stiff L the order may fall to the
+ * stiff order, which 'steif list methods' names. phi functions of h L (phi.h) are matrices for dense
+ * L and small n, else rational or polynomial Krylov spaces and Taylor series with an error below that
+ * of the step: any vector serves.
+ *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_METHOD_H
 #define STEIF_METHOD_H

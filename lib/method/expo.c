@@ -22,8 +22,8 @@ static int highest(const stf_expo *e, const steif_problem *p)
 static int claim(stf_step *s)
 {
   stf_expo *e = s->state;
-  N_Vector *const all[] = {&e->f0,      &e->slope_t, &e->before, &e->slope, &e->end, &e->flow[0],
-                           &e->flow[1], &e->Y,       &e->dY,     &e->work};
+  N_Vector *const all[] = {&e->f0,      &e->slope_t, &e->before, &e->slope, &e->end,
+                           &e->flow[0], &e->flow[1], &e->Y,      &e->dY,    &e->work};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++)
     if (!(*all[i] = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
   for (int i = 1; i < e->x->s; i++)

@@ -11,13 +11,13 @@ typedef struct stf_expo {
   const stf_exponential *x;
   bool renews; /* L is the Jacobian of every step: Rosenbrock type */
   stf_phis phis;
-  N_Vector f0, slope_t;          /* f and df/dt at the accepted point */
-  N_Vector before, slope, end;   /* y and f at the last one; f at the end, for dense output */
-  N_Vector flow[STF_EXP_NODES];  /* Y - y_n of a linear equation at the nodes */
+  N_Vector f0, slope_t;         /* f and df/dt at the accepted point */
+  N_Vector before, slope, end;  /* y and f at the last one; f at the end, for dense output */
+  N_Vector flow[STF_EXP_NODES]; /* Y - y_n of a linear equation at the nodes */
   N_Vector D[STF_EXP_STAGES];
   N_Vector b[STF_EXP_ORDER + 1], Y, dY, work;
-  bool known, fresh;             /* f0 and slope_t are; L is that of this point */
-  bool flowed[STF_EXP_NODES];    /* flow is that of the attempt */
+  bool known, fresh;          /* f0 and slope_t are; L is that of this point */
+  bool flowed[STF_EXP_NODES]; /* flow is that of the attempt */
 } stf_expo;
 
 int stf_expo_open(stf_step *s, const stf_exponential *x, bool renews);

@@ -47,8 +47,8 @@ static int open_matrices(stf_pool *pool, stf_phis *f)
   return stf_phis_renew(f);
 }
 
-int stf_phis_open(stf_pool *pool, stf_system *system, int p, int nodes,
-                  const sunrealtype *node, bool steady, stf_phis *f)
+int stf_phis_open(stf_pool *pool, stf_system *system, int p, int nodes, const sunrealtype *node,
+                  bool steady, stf_phis *f)
 {
   *f = (stf_phis){.system = system, .p = p, .nodes = nodes, .node = node};
   return by_matrices(system, steady) ? open_matrices(pool, f) : open_action(pool, f);
@@ -94,8 +94,7 @@ static int evaluate(stf_phis *f, sunrealtype h)
 
 int stf_phis_apply(stf_phis *f, sunrealtype h, int node, N_Vector *b, N_Vector w)
 {
-  if (f->action)
-    return steif_action_apply(f->action, f->node[node] * h, f->p, b, w, NULL);
+  if (f->action) return steif_action_apply(f->action, f->node[node] * h, f->p, b, w, NULL);
   if (f->h != h) STEIF_TRY(evaluate(f, h));
   const int one = 1;
   const double unit = 1;
@@ -103,7 +102,7 @@ int stf_phis_apply(stf_phis *f, sunrealtype h, int node, N_Vector *b, N_Vector w
   stf_zero(&f->system->space, w);
   for (int k = 1; k <= f->p; k++)
     if (b[k])
-      dgemv_("N", &f->n, &f->n, &unit, f->phi[node] + (size_t)k * count, &f->n,
-             stf_array(b[k]), &one, &unit, stf_array(w), &one, 1);
+      dgemv_("N", &f->n, &f->n, &unit, f->phi[node] + (size_t)k * count, &f->n, stf_array(b[k]),
+             &one, &unit, stf_array(w), &one, 1);
   return STEIF_OK;
 }

@@ -13,9 +13,9 @@ typedef struct stf_phis {
   const sunrealtype *node;
   steif_action *action; /* NULL: by matrices */
   int n;
-  sunrealtype h;        /* of the matrices, 0: none */
-  double *L, *scaled;   /* n x n, by columns */
-  double **phi;         /* of each node p + 1 matrices */
+  sunrealtype h;      /* of the matrices, 0: none */
+  double *L, *scaled; /* n x n, by columns */
+  double **phi;       /* of each node p + 1 matrices */
   void *core;
   N_Vector unit, image;
   long factors; /* evaluations of phi_0 .. phi_p */
@@ -23,8 +23,8 @@ typedef struct stf_phis {
 
 /* Functions up to phi_p at `nodes` nodes. `steady`: L and h stay, so that matrices of some size
  * pay. */
-int stf_phis_open(stf_pool *pool, stf_system *system, int p, int nodes,
-                  const sunrealtype *node, bool steady, stf_phis *f);
+int stf_phis_open(stf_pool *pool, stf_system *system, int p, int nodes, const sunrealtype *node,
+                  bool steady, stf_phis *f);
 /* The pencil has another A. */
 int stf_phis_renew(stf_phis *f);
 /* Errors of w, in the 2-norm, up to relative ||w|| + absolute are allowed. */

@@ -15,22 +15,24 @@ static const stf_exp_term linear[] = {{2, 2, 0, 1, 1}};
 /* b_2 = b_3 = 2 phi_2 - 4 phi_3, b_4 = -phi_2 + 4 phi_3 */
 #define CUBIC                                                                                  \
   {4, 2, 0, 1, 2}, {4, 3, 0, 1, -4}, {4, 2, 0, 2, 2}, {4, 3, 0, 2, -4}, {4, 2, 0, 3, -1},      \
-    {4, 3, 0, 3, 4}
+  {                                                                                            \
+    4, 3, 0, 3, 4                                                                              \
+  }
 static const stf_exp_term etdrk4[] = {{2, 1, 1, 1, 0.5}, {3, 1, 1, 2, 1}, CUBIC};
 static const stf_exp_term krogstad[] = {{2, 2, 1, 1, 1}, {3, 2, 0, 2, 2}, CUBIC};
 
 /* a_52 = a_53 = phi_2(1/2)/2 - phi_3(1/2)/2 + phi_2(1)/4 - phi_3(1), a_54 = phi_2(1/2)/4 - a_52,
  * b_4 = -phi_2 + 4 phi_3, b_5 = 4 phi_2 - 8 phi_3 */
 static const stf_exp_term hochost4[] = {
-  {2, 2, 1, 1, 1},    {3, 2, 0, 1, 1},    {3, 2, 0, 2, 1},     {4, 2, 1, 1, 0.5},
-  {4, 3, 1, 1, -0.5}, {4, 2, 0, 1, 0.25}, {4, 3, 0, 1, -1},    {4, 2, 1, 2, 0.5},
-  {4, 3, 1, 2, -0.5}, {4, 2, 0, 2, 0.25}, {4, 3, 0, 2, -1},    {4, 2, 1, 3, -0.25},
-  {4, 3, 1, 3, 0.5},  {4, 2, 0, 3, -0.25}, {4, 3, 0, 3, 1},    {5, 2, 0, 3, -1},
-  {5, 3, 0, 3, 4},    {5, 2, 0, 4, 4},    {5, 3, 0, 4, -8}};
+  {2, 2, 1, 1, 1},    {3, 2, 0, 1, 1},     {3, 2, 0, 2, 1},  {4, 2, 1, 1, 0.5},
+  {4, 3, 1, 1, -0.5}, {4, 2, 0, 1, 0.25},  {4, 3, 0, 1, -1}, {4, 2, 1, 2, 0.5},
+  {4, 3, 1, 2, -0.5}, {4, 2, 0, 2, 0.25},  {4, 3, 0, 2, -1}, {4, 2, 1, 3, -0.25},
+  {4, 3, 1, 3, 0.5},  {4, 2, 0, 3, -0.25}, {4, 3, 0, 3, 1},  {5, 2, 0, 3, -1},
+  {5, 3, 0, 3, 4},    {5, 2, 0, 4, 4},     {5, 3, 0, 4, -8}};
 
 static const stf_exp_term exprb32[] = {{3, 3, 0, 1, 2}};
-static const stf_exp_term exprb43[] = {{2, 1, 0, 1, 1},   {3, 3, 0, 1, 16},  {3, 3, 0, 2, -2},
-                                       {4, 4, 0, 1, -48}, {4, 4, 0, 2, 12}};
+static const stf_exp_term exprb43[] = {
+  {2, 1, 0, 1, 1}, {3, 3, 0, 1, 16}, {3, 3, 0, 2, -2}, {4, 4, 0, 1, -48}, {4, 4, 0, 2, 12}};
 
 const stf_exponential stf_exponential_rk[] = {
   {.name = "exp-euler",
@@ -57,8 +59,9 @@ const stf_exponential stf_exponential_rk[] = {
    .node = {1},
    TERMS(linear)},
   {.name = "etd2",
-   .about = "N linear through the last two points, two steps, begun by exp-trapezoidal: Cox and "
-            "Matthews, J. Comput. Phys. 176 (2002)",
+   .about =
+     "N linear through the last two points, two steps, begun by exp-trapezoidal: Cox and "
+     "Matthews, J. Comput. Phys. 176 (2002)",
    .order = 2,
    .s = 2,
    .history = true,
@@ -82,8 +85,9 @@ const stf_exponential stf_exponential_rk[] = {
    .node = {1, 0.5},
    TERMS(krogstad)},
   {.name = "hochost4",
-   .about = "five stages, stiff order 4: M. Hochbruck and A. Ostermann, SIAM J. Numer. Anal. 43 "
-            "(2005)",
+   .about =
+     "five stages, stiff order 4: M. Hochbruck and A. Ostermann, SIAM J. Numer. Anal. 43 "
+     "(2005)",
    .order = 4,
    .s = 5,
    .at = {0, 1, 1, 0, 1},
@@ -95,8 +99,9 @@ const size_t stf_exponential_rk_count = sizeof stf_exponential_rk / sizeof *stf_
 
 const stf_exponential stf_exponential_rb[] = {
   {.name = "exprb32",
-   .about = "exponential Rosenbrock 3(2): M. Hochbruck, A. Ostermann and J. Schweitzer, SIAM J. "
-            "Numer. Anal. 47 (2009)",
+   .about =
+     "exponential Rosenbrock 3(2): M. Hochbruck, A. Ostermann and J. Schweitzer, SIAM J. "
+     "Numer. Anal. 47 (2009)",
    .order = 3,
    .embedded = 2,
    .s = 2,
@@ -104,8 +109,9 @@ const stf_exponential stf_exponential_rb[] = {
    .node = {1},
    TERMS(exprb32)},
   {.name = "exprb43",
-   .about = "exponential Rosenbrock 4(3): M. Hochbruck, A. Ostermann and J. Schweitzer, SIAM J. "
-            "Numer. Anal. 47 (2009)",
+   .about =
+     "exponential Rosenbrock 4(3): M. Hochbruck, A. Ostermann and J. Schweitzer, SIAM J. "
+     "Numer. Anal. 47 (2009)",
    .order = 4,
    .embedded = 3,
    .s = 3,
