@@ -1,6 +1,9 @@
 /* impulse.c: jump and impulses of E x' + F x = f from any x(0-), and the run that follows.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "impulse.h"
+#include <stdlib.h>
+
+enum { LEVELS = 16 };
 
 void impulse_fill(steif_report *r, const steif_impulse *i)
 {
@@ -45,11 +48,39 @@ int impulse_verdict(const struct call *call, const steif_impulse *i)
   return i->certified ? EXIT_OK : EXIT_UNCERTIFIED;
 }
 
+/* What samples leave of the derivatives that the index asks for. */
+void impulse_accuracy(steif_report *r, const struct linear *l, const steif_impulse *i)
+{
+  double accuracy[LEVELS];
+  int count = 0;
+  for (; l->function && count < i->count && count < LEVELS; count++)
+    if (steif_function_accuracy(l->function, l->t0, count + 1, accuracy + count)) return;
+  if (count && accuracy[count - 1] > 0)
+    steif_report_list(r, "derivatives_accuracy", (size_t)count, accuracy);
+}
+
+/* Rows of the slow and of the fast projector. */
+static int projectors(struct call *call, const struct linear *l, steif_report *r)
+{
+  const size_t n = (size_t)l->n;
+  const steif_analysis a = linear_analysis(call);
+  double *P = malloc(2 * n * n * sizeof *P), *rows = P + n * n;
+  if (!P) return linear_no_memory(call, "projectors");
+  const int code = steif_projector_find(call->ctx, l->system.E, l->system.F, &a, P);
+  for (size_t k = 0; k < n * n; k++) rows[k] = P[k % n * n + k / n];
+  if (!code) steif_report_matrix(r, "projectors.slow", n, n, rows);
+  for (size_t k = 0; k < n * n; k++) rows[k] = (k % (n + 1) == 0) - rows[k];
+  if (!code) steif_report_matrix(r, "projectors.fast", n, n, rows);
+  free(P);
+  return code ? linear_fail(call) : EXIT_OK;
+}
+
 static int tell(struct call *call, const struct linear *l, const steif_impulse *i)
 {
   steif_report *r = steif_report_new(call->ctx), *sheet = steif_report_new(call->ctx);
   int code = r && sheet ? EXIT_OK : fail(call);
-  if (!code) impulse_fill(r, i);
+  if (!code) impulse_fill(r, i), impulse_accuracy(r, l, i);
+  if (!code && given(call, "--projectors")) code = projectors(call, l, r);
   if (!code && given(call, "--vs")) impulse_against(call, l, word_of(call, "--vs", NULL), r);
   if (!code) code = show(call, r);
   if (!code && call->csv) {
@@ -113,12 +144,14 @@ static const struct option options[] = {
   {"--t1", REAL, "T", "end of that run"},
   {"--h", POSITIVE, "H", "its equal steps (default: chosen)"},
   {"--rtol", POSITIVE, "R", "its tolerance (default 1e-6)"},
+  {"--projectors", FLAG, NULL, "show the slow and the fast spectral projector, too"},
   {"--vs", CHOICE, "ida|cvode|arkode", "run that, too, from the same x(0-) to --t1"},
   ANALYSIS_ROWS,
   {NULL, FLAG, NULL, NULL},
 };
 
-static const char *const clash[][2] = {{"--forcing", "--f"}, {"--h", "--rtol"}, {NULL, NULL}};
+static const char *const clash[][2] = {
+  {"--forcing", "--f"}, {"--h", "--rtol"}, {"--projectors", "--method"}, {NULL, NULL}};
 
 const struct verb verb_impulse = {
   "impulse",

@@ -19,7 +19,7 @@ struct record {
 static int jump(double t, const double *before, const steif_impulse *i, void *user)
 {
   struct record *k = user;
-  if (!k->jumps++) impulse_fill(k->shown, i);
+  if (!k->jumps++) impulse_fill(k->shown, i), impulse_accuracy(k->shown, k->linear, i);
   impulse_rows(k->shown, "jumps", t, before, i);
   if (k->call->csv) impulse_rows(k->sheet, "rows", t, before, i);
   if (!k->verdict) k->verdict = impulse_verdict(k->call, i);

@@ -93,9 +93,9 @@ static int from_files(struct call *call, struct linear *l, int from)
   return EXIT_OK;
 }
 
-static int no_memory(struct call *call)
+int linear_no_memory(const struct call *call, const char *what)
 {
-  say(call, "no memory for the start values; give the process more");
+  say(call, "no memory for the %s; give the process more", what);
   return EXIT_FAILED;
 }
 
@@ -111,7 +111,7 @@ static int from_collection(struct call *call, struct linear *l, int from)
   if (steif_linear_of(call->ctx, &l->problem, &l->system)) return fail(call);
   l->n = (long)l->problem.n, l->t0 = l->problem.t0;
   l->x0 = malloc((size_t)l->n * sizeof *l->x0);
-  if (!l->x0) return no_memory(call);
+  if (!l->x0) return linear_no_memory(call, "start values");
   memcpy(l->x0, l->problem.y0, (size_t)l->n * sizeof *l->x0);
   return EXIT_OK;
 }
@@ -139,21 +139,35 @@ static int read_x0(struct call *call, struct linear *l)
   const bool good = height == l->n && width == 1;
   if (good && l->x0) column_of(X, l->n, l->x0);
   SUNMatDestroy(X);
-  if (!l->x0) return no_memory(call);
+  if (!l->x0) return linear_no_memory(call, "start values");
   if (good) return EXIT_OK;
   say(call, "'%s': x(0-) is %ld x %ld and should be %ld x 1, the rows of E; correct it", path,
       height, width, l->n);
   return EXIT_FILE;
 }
 
+static int read_input(struct call *call, SUNMatrix *B)
+{
+  const char *path = word_of(call, "--input", NULL);
+  if (path) return (*B = steif_matrix_read(call->ctx, path)) ? EXIT_OK : bad_file(call);
+  if (!ends(call->word[call->words - 1], ".mat")) return EXIT_OK;
+  return steif_input_read(call->ctx, call->word[call->words - 1], B) ? bad_file(call) : EXIT_OK;
+}
+
 static int read_forcing(struct call *call, struct linear *l)
 {
+  SUNMatrix B = NULL;
   const char *path = word_of(call, "--forcing", NULL), *text = word_of(call, "--f", NULL);
-  if (!path && !text) return EXIT_OK;
-  l->function = text                 ? steif_function_parse(call->ctx, text, l->n, NULL)
-                : ends(path, ".csv") ? steif_function_samples(call->ctx, path, l->n, 0, NULL)
-                                     : steif_function_read(call->ctx, path, l->n, NULL);
-  if (!l->function) return path ? bad_file(call) : fail(call);
+  if (!path && !text)
+    return given(call, "--input") ? refuse(call, "--input is B of f = B u; add --forcing or --f")
+                                  : EXIT_OK;
+  const int code = read_input(call, &B);
+  if (code) return code;
+  l->function = text                 ? steif_function_parse(call->ctx, text, l->n, B)
+                : ends(path, ".csv") ? steif_function_samples(call->ctx, path, l->n, B, 0, NULL)
+                                     : steif_function_read(call->ctx, path, l->n, B);
+  if (B) SUNMatDestroy(B);
+  if (!l->function) return path || given(call, "--input") ? bad_file(call) : fail(call);
   l->system.f = steif_function_value, l->system.user = l->function;
   return EXIT_OK;
 }

@@ -28,6 +28,7 @@ struct linear {
     {"--forcing", WORD, "FILE",                                                                \
      "f: an expression in t per line, or samples t,f1,... in .csv"},                           \
     {"--f", WORD, "TEXT", "the same expressions separated by ';' (default 0)"},                \
+    {"--input", WORD, "B.mtx", "f = B u: these are u (of a .mat file: its B)"},                \
   {                                                                                            \
     "--t0", REAL, "T", "time of the jump (default 0, or the problem's)"                        \
   }
@@ -47,5 +48,6 @@ steif_analysis linear_analysis(const struct call *call);
 int linear_singular(const struct call *call, const steif_structure *s);
 /* fail(), where input is to blame and came from a file: EXIT_FILE. */
 int linear_fail(const struct call *call);
+int linear_no_memory(const struct call *call, const char *what);
 
 #endif

@@ -166,6 +166,20 @@ file(WRITE ${FOLDER}/f.csv "${samples}") # f = (1, 10 t, 100 t^2)
 expect(0 impulse E.mtx F.mtx --x0 x0.mtx --forcing f.csv --json)
 near(191 x_plus 0) # 1 - 10 + 200
 
+member("*" derivatives_accuracy 1)
+# f = B u, u of one component; the projectors of N3 are 0 and I.
+column(x4.mtx 1 2 3 4)
+matrix(B.mtx 3 1 "1 1 2" "3 1 1")
+expect(0 impulse E.mtx F.mtx --x0 x0.mtx --input B.mtx --f "exp(3*t)" --projectors --json)
+near(11 x_plus 0) # 2 + 9
+near(0 projectors slow 0 0)
+near(1 projectors fast 2 2)
+expect(2 impulse E.mtx F.mtx --x0 x0.mtx --input B.mtx ERR "add --forcing or --f")
+expect(3 impulse E.mtx F.mtx --x0 x0.mtx --input B.mtx --forcing f.txt ERR "line 2: more than 1 expressions")
+expect(3 impulse E.mtx F.mtx --x0 x0.mtx --input x4.mtx --f 1 ERR "B has 4 rows and f has 3")
+expect(2 impulse ut5 --projectors --method be --t1 1 ERR "contradict")
+expect(1 impulse springs:n=300,c=3 --projectors ERR "choose the staircase")
+
 # Bad input: a sentence that names the file and the line, or the numbers.
 matrix(wide.mtx 3 2 "1 1 1")
 matrix(small.mtx 2 2 "1 1 1")
@@ -173,7 +187,6 @@ matrix(nan.mtx 3 3 "1 2 nan")
 matrix(torn.mtx 3 3 "1 2 1" "2 two 1")
 matrix(none.mtx 3 3 "1 1 1" "2 2 1")
 matrix(same.mtx 3 3 "1 1 1" "1 2 2" "2 1 2" "2 2 4" "3 3 1")
-column(x4.mtx 1 2 3 4)
 expect(3 pencil wide.mtx F.mtx ERR "wide.mtx.*3 x 2.*square")
 expect(3 pencil E.mtx small.mtx ERR "small.mtx.*2 x 2 and should be 3 x 3")
 expect(3 pencil E.mtx nan.mtx ERR "nan.mtx, line 3: entry .1, 2. is nan")
@@ -248,6 +261,13 @@ string(JSON end GET "${out}" x)
 if(NOT end MATCHES "-9[.]8[34][0-9]+,[^,]*-14[.]7[45]")
   message(SEND_ERROR "ut5 at 1: ${end}")
 endif()
+
+# Chosen steps meet the tolerance at index 6, by every method: x_1(1) = sum_j (-1)^j cos^(j)(2 + j),
+# j = 0 .. 5, is 2.954697952.
+foreach(method bdf radau:s=3 gauss:s=3)
+  expect(0 impulse jordan:k=6,case=N-inc --method ${method} --rtol 1e-9 --t1 1 --json)
+  about(29546979 x 0)
+endforeach()
 
 # IDA beside: it does not come away from inconsistent values, and does from x(0+).
 expect(0 impulse switchrlc --vs ida --t1 1e-4 --json)

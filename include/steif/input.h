@@ -33,6 +33,9 @@ STEIF_EXPORT int steif_matrix_write(steif_context *ctx, SUNMatrix M, const char 
  * checked. */
 STEIF_EXPORT int steif_system_read(steif_context *ctx, const char *path_E, const char *path_F,
                                    SUNMatrix *E, SUNMatrix *F);
+/* B of f = B u beside them in a .mat file, in the rows of E: of a mechanical system in those of
+ * M q''. *B NULL where there is none. */
+STEIF_EXPORT int steif_input_read(steif_context *ctx, const char *path, SUNMatrix *B);
 
 typedef struct steif_function steif_function;
 
@@ -43,12 +46,17 @@ STEIF_EXPORT steif_function *steif_function_read(steif_context *ctx, const char 
                                                  sunindextype n, SUNMatrix B);
 STEIF_EXPORT steif_function *steif_function_parse(steif_context *ctx, const char *text,
                                                   sunindextype n, SUNMatrix B);
-/* Samples: a CSV file with columns t, f_1 .. f_n at equal distances; derivatives at the first time
- * by one-sided formulas over `points` samples (0: 8). *accuracy: estimated relative error of the
- * derivative of order 1. */
+/* Samples: a CSV file with columns t, f_1 .. f_n (with B: t, u_1 .. u_m) at equal distances;
+ * derivatives at the first time by one-sided formulas over `points` samples (0: 8). *accuracy:
+ * that of the derivative of order 1 there. */
 STEIF_EXPORT steif_function *steif_function_samples(steif_context *ctx, const char *path,
-                                                    sunindextype n, int points,
+                                                    sunindextype n, SUNMatrix B, int points,
                                                     sunrealtype *accuracy);
+/* Estimated relative error of a derivative at t: the largest difference between the formulas over
+ * all points and over one less, over the largest component. 0 for expressions, which are exact;
+ * infinite where one point less is too few. */
+STEIF_EXPORT int steif_function_accuracy(const steif_function *f, sunrealtype t, int derivative,
+                                         sunrealtype *accuracy);
 STEIF_EXPORT void steif_function_free(steif_function **f);
 
 /* Fits steif_problem.g and steif_impulse_find, with the function as user data; right limits at

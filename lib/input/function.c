@@ -155,7 +155,7 @@ size_t steif_function_breaks(const steif_function *f, sunrealtype t0, sunrealtyp
 /* ---- building -------------------------------------------------------------------------------- */
 
 /* B by columns into the pool: the user's may go. */
-static int copy_B(steif_function *f, SUNMatrix B)
+int stf_function_input(steif_function *f, SUNMatrix B)
 {
   STEIF_TRY(stf_input_check(f->ctx, B, "B"));
   STEIF_CHECK(stf_input_rows(B) == f->n, f->ctx, STEIF_BAD_INPUT,
@@ -180,7 +180,7 @@ static int copy_B(steif_function *f, SUNMatrix B)
 
 static int fill(steif_function *f, const char *path, const char *text, SUNMatrix B)
 {
-  if (B) STEIF_TRY(copy_B(f, B));
+  if (B) STEIF_TRY(stf_function_input(f, B));
   const size_t length = longest(text, path != NULL);
   STEIF_CHECK(length <= LONGEST, f->ctx, STEIF_BAD_INPUT,
               "%s has an expression of %zu characters, and %d are the most; break it up",
@@ -255,20 +255,23 @@ static int input(steif_function *f, sunindextype i, sunrealtype t, int derivativ
     place + 1, wrong ? wrong : "a result that is not finite", t, derivative);
 }
 
-static int expressions(steif_function *f, sunrealtype t, int derivative, sunrealtype *g)
+static int expressions(steif_function *f, sunrealtype t, int derivative, sunrealtype *u)
 {
-  sunrealtype *u = f->u ? f->u : g;
   if (derivative > STF_ORDER)
     return STEIF_RECOVER(f->ctx, STEIF_UNSUPPORTED,
                          "derivative %d of an expression; %d is the highest", derivative,
                          STF_ORDER);
   for (sunindextype i = 0; i < f->inputs; i++) STEIF_TRY(input(f, i, t, derivative, u + i));
-  if (!f->u) return STEIF_OK;
+  return STEIF_OK;
+}
+
+/* g = B u. */
+static void multiply(const steif_function *f, const sunrealtype *u, sunrealtype *g)
+{
   memset(g, 0, (size_t)f->n * sizeof *g);
   for (sunindextype j = 0; j < f->inputs; j++)
     for (sunindextype k = f->column[j]; k < f->column[j + 1]; k++)
       g[f->row[k]] += f->entry[k] * u[j];
-  return STEIF_OK;
 }
 
 int steif_function_value(sunrealtype t, int derivative, N_Vector g, void *function)
@@ -281,6 +284,9 @@ int steif_function_value(sunrealtype t, int derivative, N_Vector g, void *functi
   STEIF_CHECK(values && N_VGetLength(g) == f->n, f->ctx, STEIF_BAD_INPUT,
               "a vector of %lld components in host memory is needed, got %lld%s",
               (long long)f->n, (long long)N_VGetLength(g), values ? "" : " elsewhere");
-  return f->samples.points ? stf_samples_value(f, t, derivative, values)
-                           : expressions(f, t, derivative, values);
+  sunrealtype *u = f->u ? f->u : values;
+  STEIF_TRY(f->samples.points ? stf_samples_value(f, t, derivative, u)
+                              : expressions(f, t, derivative, u));
+  if (f->u) multiply(f, u, values);
+  return STEIF_OK;
 }

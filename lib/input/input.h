@@ -150,7 +150,7 @@ typedef struct stf_samples {
   sunindextype count; /* of times */
   int points;
   sunrealtype t0, h;
-  sunrealtype *value;   /* count x n by rows */
+  sunrealtype *value;   /* count x inputs by rows */
   sunrealtype *weights; /* points */
 } stf_samples;
 
@@ -172,8 +172,11 @@ struct steif_function {
 /* An empty function of n components with its pool; NULL with the message set. */
 steif_function *stf_function_new(steif_context *ctx, sunindextype n);
 
-/* n components at t, by the samples; as steif_function_value. */
-int stf_samples_value(steif_function *f, sunrealtype t, int derivative, sunrealtype *g);
+/* f = B u from now on: inputs and u have the columns of B. */
+int stf_function_input(steif_function *f, SUNMatrix B);
+
+/* The inputs at t, by the samples; as steif_function_value. */
+int stf_samples_value(steif_function *f, sunrealtype t, int derivative, sunrealtype *u);
 /* Weights of the derivative d at x of the polynomial through the nodes 0 .. m-1. */
 void stf_samples_weights(sunrealtype x, int m, int d, sunrealtype *weights);
 

@@ -52,21 +52,22 @@ static sunindextype window(const stf_samples *s, int points, sunrealtype *x)
 }
 
 static void differentiate(const steif_function *f, sunrealtype t, int derivative, int points,
-                          sunrealtype *g)
+                          sunrealtype *u)
 {
   const stf_samples *s = &f->samples;
   sunrealtype x = (t - s->t0) / s->h;
   const sunindextype start = window(s, points, &x);
   const sunrealtype scale = pow(s->h, -derivative);
   stf_samples_weights(x - (sunrealtype)start, points, derivative, s->weights);
-  for (sunindextype i = 0; i < f->n; i++) {
+  for (sunindextype i = 0; i < f->inputs; i++) {
     sunrealtype sum = 0;
-    for (int j = 0; j < points; j++) sum += s->weights[j] * s->value[(start + j) * f->n + i];
-    g[i] = sum * scale;
+    for (int j = 0; j < points; j++)
+      sum += s->weights[j] * s->value[(start + j) * f->inputs + i];
+    u[i] = sum * scale;
   }
 }
 
-int stf_samples_value(steif_function *f, sunrealtype t, int derivative, sunrealtype *g)
+int stf_samples_value(steif_function *f, sunrealtype t, int derivative, sunrealtype *u)
 {
   const stf_samples *s = &f->samples;
   const sunrealtype x = (t - s->t0) / s->h, last = (sunrealtype)(s->count - 1);
@@ -79,9 +80,9 @@ int stf_samples_value(steif_function *f, sunrealtype t, int derivative, sunrealt
     return STEIF_RECOVER(f->ctx, STEIF_BAD_INPUT,
                          "t = %.9g is outside the samples, from %.9g to %.9g; sample further",
                          t, s->t0, s->t0 + last * s->h);
-  differentiate(f, t, derivative, s->points, g);
-  for (sunindextype i = 0; i < f->n; i++)
-    if (!isfinite(g[i]))
+  differentiate(f, t, derivative, s->points, u);
+  for (sunindextype i = 0; i < f->inputs; i++)
+    if (!isfinite(u[i]))
       return STEIF_RECOVER(f->ctx, STEIF_NOT_FINITE,
                            "component %lld of derivative %d at t = %.9g overflows; scale the "
                            "samples",
@@ -89,17 +90,24 @@ int stf_samples_value(steif_function *f, sunrealtype t, int derivative, sunrealt
   return STEIF_OK;
 }
 
-/* max |p_m' - p_{m-1}'| / max |p_m'| at the first time. */
-static int estimate(steif_function *f, sunrealtype *accuracy)
+/* max |p_m^(d) - p_{m-1}^(d)| / max |p_m^(d)|. */
+int steif_function_accuracy(const steif_function *f, sunrealtype t, int derivative,
+                            sunrealtype *accuracy)
 {
   const stf_samples *s = &f->samples;
-  sunrealtype *d = stf_allocate(f->ctx, 2 * (size_t)f->n, sizeof *d);
+  *accuracy = 0;
+  if (!s->points) return STEIF_OK;
+  STEIF_CHECK(derivative >= 0, f->ctx, STEIF_BAD_INPUT, "derivative %d; ask for 0 or more",
+              derivative);
+  *accuracy = INFINITY;
+  if (derivative >= s->points - 1) return STEIF_OK;
+  sunrealtype *d = stf_allocate(f->ctx, 2 * (size_t)f->inputs, sizeof *d);
   if (!d) return STEIF_NO_MEMORY;
   sunrealtype difference = 0, size = 0;
-  differentiate(f, s->t0, 1, s->points, d);
-  if (s->points > 2) differentiate(f, s->t0, 1, s->points - 1, d + f->n);
-  for (sunindextype i = 0; i < f->n; i++) {
-    difference = fmax(difference, fabs(d[i] - d[f->n + i]));
+  differentiate(f, t, derivative, s->points, d);
+  differentiate(f, t, derivative, s->points - 1, d + f->inputs);
+  for (sunindextype i = 0; i < f->inputs; i++) {
+    difference = fmax(difference, fabs(d[i] - d[f->inputs + i]));
     size = fmax(size, fabs(d[i]));
   }
   *accuracy = difference > 0 ? difference / size : 0;
@@ -182,7 +190,7 @@ static int rows(steif_context *ctx, const char *path, const char *text, sunindex
 static int arrange(steif_function *f, const char *path, const sunrealtype *all)
 {
   stf_samples *s = &f->samples;
-  const size_t width = (size_t)f->n + 1, last = (size_t)s->count - 1;
+  const size_t width = (size_t)f->inputs + 1, last = (size_t)s->count - 1;
   s->t0 = all[0];
   s->h = (all[last * width] - all[0]) / (sunrealtype)last;
   STEIF_CHECK(s->h > 0 && isfinite(s->h), f->ctx, STEIF_BAD_INPUT,
@@ -200,44 +208,45 @@ static int arrange(steif_function *f, const char *path, const sunrealtype *all)
   return STEIF_OK;
 }
 
-static int fill(steif_function *f, const char *path, const char *text, int points,
-                sunrealtype *accuracy)
+static int fill(steif_function *f, const char *path, const char *text, SUNMatrix B, int points)
 {
   stf_samples *s = &f->samples;
-  STEIF_TRY(rows(f->ctx, path, text, f->n, NULL, &s->count));
+  if (B) STEIF_TRY(stf_function_input(f, B));
+  const size_t n = (size_t)f->inputs;
+  STEIF_TRY(rows(f->ctx, path, text, f->inputs, NULL, &s->count));
   const int wanted = points ? points : s->count < POINTS ? (int)s->count : POINTS;
   STEIF_CHECK(wanted >= 2 && wanted <= POINTS_MOST, f->ctx, STEIF_BAD_INPUT,
               "formulas over %d points; take from 2 to %d", wanted, POINTS_MOST);
   STEIF_CHECK(s->count >= wanted, f->ctx, STEIF_BAD_INPUT,
               "%s has %lld samples and the formulas take %d; give more samples or fewer points",
               path, (long long)s->count, wanted);
-  STEIF_CHECK((size_t)f->n <= strlen(text) / (size_t)s->count, f->ctx, STEIF_BAD_INPUT,
-              "%s is too short for %lld components; write t,f_1,... in each line", path,
-              (long long)f->n);
+  STEIF_CHECK(n <= strlen(text) / (size_t)s->count, f->ctx, STEIF_BAD_INPUT,
+              "%s is too short for %zu components; write t,f_1,... in each line", path, n);
   s->points = wanted;
-  s->value = stf_claim(f->pool, (size_t)s->count * (size_t)f->n, sizeof *s->value);
+  s->value = stf_claim(f->pool, (size_t)s->count * n, sizeof *s->value);
   s->weights = stf_claim(f->pool, (size_t)wanted, sizeof *s->weights);
   if (!s->value || !s->weights) return STEIF_NO_MEMORY;
-  sunrealtype *all = stf_allocate(f->ctx, (size_t)s->count * ((size_t)f->n + 1), sizeof *all);
+  sunrealtype *all = stf_allocate(f->ctx, (size_t)s->count * (n + 1), sizeof *all);
   if (!all) return STEIF_NO_MEMORY;
-  int code = rows(f->ctx, path, text, f->n, all, &s->count);
+  int code = rows(f->ctx, path, text, f->inputs, all, &s->count);
   if (code == STEIF_OK) code = arrange(f, path, all);
   stf_release(f->ctx, all);
-  if (code == STEIF_OK && accuracy) code = estimate(f, accuracy);
   return code;
 }
 
 steif_function *steif_function_samples(steif_context *ctx, const char *path, sunindextype n,
-                                       int points, sunrealtype *accuracy)
+                                       SUNMatrix B, int points, sunrealtype *accuracy)
 {
   stf_plain plain;
   char *text = stf_input_text(ctx, path);
   steif_function *f = text ? stf_function_new(ctx, n) : NULL;
   int code = f ? stf_plain_begin(ctx, &plain) : STEIF_OK;
   if (f && code == STEIF_OK) {
-    code = fill(f, path, text, points, accuracy);
+    code = fill(f, path, text, B, points);
     stf_plain_end(&plain);
   }
+  if (f && code == STEIF_OK && accuracy)
+    code = steif_function_accuracy(f, f->samples.t0, 1, accuracy);
   if (code != STEIF_OK) steif_function_free(&f);
   if (text) stf_release(ctx, text);
   return f;

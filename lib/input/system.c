@@ -56,7 +56,7 @@ static void block(builder *b, SUNMatrix M, sunindextype row, sunindextype column
     }
 }
 
-enum { MASS, DAMPING, STIFFNESS, CONSTRAINT, PARTS };
+enum { MASS, DAMPING, STIFFNESS, CONSTRAINT, PARTS, INPUT = PARTS };
 typedef void (*blocks)(builder *b, SUNMatrix *part, sunindextype n);
 
 static void blocks_of_E(builder *b, SUNMatrix *part, sunindextype n)
@@ -74,7 +74,13 @@ static void blocks_of_F(builder *b, SUNMatrix *part, sunindextype n)
   block(b, part[CONSTRAINT], n, 2 * n, true);
 }
 
-static SUNMatrix build(steif_context *ctx, blocks fill, SUNMatrix *part, sunindextype size)
+static void blocks_of_B(builder *b, SUNMatrix *part, sunindextype n)
+{
+  block(b, part[INPUT], n, 0, false);
+}
+
+static SUNMatrix build(steif_context *ctx, blocks fill, SUNMatrix *part, sunindextype rows,
+                       sunindextype size)
 {
   const sunindextype n = stf_input_rows(part[MASS]);
   builder b = {stf_allocate(ctx, (size_t)size + 1, sizeof *b.next), NULL};
@@ -85,7 +91,7 @@ static SUNMatrix build(steif_context *ctx, blocks fill, SUNMatrix *part, suninde
     const sunindextype of_column = b.next[j];
     b.next[j] = count, count += of_column;
   }
-  b.M = SUNSparseMatrix(size, size, count, CSC_MAT, steif_sundials(ctx));
+  b.M = SUNSparseMatrix(rows, size, count, CSC_MAT, steif_sundials(ctx));
   if (b.M) {
     memcpy(SM_INDEXPTRS_S(b.M), b.next, ((size_t)size + 1) * sizeof *b.next);
     fill(&b, part, n);
@@ -93,7 +99,7 @@ static SUNMatrix build(steif_context *ctx, blocks fill, SUNMatrix *part, suninde
     STEIF_FAIL(ctx, STEIF_NO_MEMORY,
                "no memory for a system of %lld unknowns; make the problem "
                "smaller",
-               (long long)size);
+               (long long)rows);
   }
   stf_release(ctx, b.next);
   return b.M;
@@ -111,8 +117,9 @@ static int mechanical(steif_context *ctx, const char *path, SUNMatrix *part, SUN
   if (part[DAMPING]) STEIF_TRY(sized(ctx, path, "D", part[DAMPING], n, n, "the size of M"));
   const sunindextype m = part[CONSTRAINT] ? stf_input_rows(part[CONSTRAINT]) : 0;
   if (m) STEIF_TRY(sized(ctx, path, "G", part[CONSTRAINT], m, n, "a column for each of M"));
-  *E = build(ctx, blocks_of_E, part, 2 * n + m);
-  *F = *E ? build(ctx, blocks_of_F, part, 2 * n + m) : NULL;
+  const sunindextype all = 2 * n + m;
+  *E = build(ctx, blocks_of_E, part, all, all);
+  *F = *E ? build(ctx, blocks_of_F, part, all, all) : NULL;
   return *F ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
@@ -198,5 +205,37 @@ int steif_system_read(steif_context *ctx, const char *path_E, const char *path_F
   if (*E) SUNMatDestroy(*E);
   if (*F) SUNMatDestroy(*F);
   *E = *F = NULL;
+  return code;
+}
+
+/* ---- inputs ---------------------------------------------------------------------------------- */
+
+/* B in the rows of M q'' of the system in (q, v, l), where there is no E. */
+static int lift(steif_context *ctx, const char *path, SUNMatrix *part, SUNMatrix *B)
+{
+  STEIF_TRY(variable(ctx, path, "E", part + MASS));
+  if (part[MASS]) return STEIF_OK;
+  STEIF_TRY(variable(ctx, path, "M", part + MASS));
+  if (!part[MASS]) return STEIF_OK;
+  STEIF_TRY(variable(ctx, path, "G", part + CONSTRAINT));
+  const sunindextype n = stf_input_rows(part[MASS]), columns = stf_input_columns(*B);
+  STEIF_TRY(sized(ctx, path, "B", *B, n, columns, "the rows of M"));
+  const sunindextype m = part[CONSTRAINT] ? stf_input_rows(part[CONSTRAINT]) : 0;
+  part[INPUT] = *B;
+  *B = build(ctx, blocks_of_B, part, 2 * n + m, columns);
+  return *B ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+int steif_input_read(steif_context *ctx, const char *path, SUNMatrix *B)
+{
+  SUNMatrix part[PARTS + 1] = {NULL};
+  STEIF_CHECK(B, ctx, STEIF_BAD_INPUT, "room for B is needed, got NULL");
+  STEIF_TRY(variable(ctx, path, "B", B));
+  if (!*B) return STEIF_OK;
+  const int code = lift(ctx, path, part, B);
+  for (int i = 0; i <= PARTS; i++)
+    if (part[i]) SUNMatDestroy(part[i]);
+  if (code && *B) SUNMatDestroy(*B);
+  if (code) *B = NULL;
   return code;
 }

@@ -43,7 +43,7 @@ static void samples(steif_context *ctx, const char *text)
   if (!file || fputs(text, file) < 0 || fclose(file)) abort();
   for (sunindextype n = 1; n <= 2; n++) {
     steif_forget(ctx);
-    steif_function *f = steif_function_samples(ctx, path, n, n == 1 ? 0 : 2, &accuracy);
+    steif_function *f = steif_function_samples(ctx, path, n, NULL, n == 1 ? 0 : 2, &accuracy);
     if (f)
       check(ctx, f, n);
     else if (!steif_status(ctx))

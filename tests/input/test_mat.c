@@ -235,8 +235,33 @@ static void second_order_systems_become_first_order(void)
   steif_context_free(&ctx);
 }
 
+/* B of E x' + F x = B u as it is, of M q'' + ... = B u in the rows of v. */
+static void inputs_are_found_beside_systems(void)
+{
+  const variable E = {"E", 'd', 2, 2, {1, 0, 0, 1}}, M = {"M", 'd', 2, 2, {3.5, 0, 0, 4.5}},
+                 G = {"G", 's', 1, 2, {2.25, -8}}, B = {"B", 'd', 2, 1, {-1.5, 6.25}},
+                 tall = {"B", 's', 3, 1, {1, 0, 2}};
+  steif_context *ctx = steif_context_new(NULL);
+  SUNMatrix b;
+  CHECK(!steif_input_read(ctx, mat_file(3, (const variable[]){E, B, M}), &b));
+  CU_ASSERT_FATAL(b != NULL);
+  CHECK(SM_ROWS_D(b) == 2 && at(b, 0, 0) == -1.5 && at(b, 1, 0) == 6.25);
+  SUNMatDestroy(b);
+  CHECK(!steif_input_read(ctx, mat_file(3, (const variable[]){M, G, B}), &b));
+  CU_ASSERT_FATAL(b != NULL);
+  CHECK(SM_ROWS_S(b) == 5 && SM_COLUMNS_S(b) == 1);
+  for (int i = 0; i < 5; i++) CHECK(at(b, i, 0) == (i == 2 ? -1.5 : i == 3 ? 6.25 : 0));
+  SUNMatDestroy(b);
+  CHECK(!steif_input_read(ctx, mat_file(2, (const variable[]){M, G}), &b) && !b);
+  CHECK(steif_input_read(ctx, mat_file(2, (const variable[]){M, tall}), &b) == STEIF_BAD_INPUT);
+  SAYS(ctx, "B is 3 x 1 and should be 2 x 1, the rows of M");
+  CHECK(!b && steif_input_read(ctx, in_folder("no.mat"), &b));
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_mat[] = {
   {"two Matrix Market files are a system", two_matrix_market_files_are_a_system},
+  {"B of an input is found beside its system", inputs_are_found_beside_systems},
   {"variables of every type are read", variables_of_every_type_are_read},
   {"what is no real matrix is refused", what_is_no_real_matrix_is_refused},
   {"files that are cut off give no matrix", cut_files_give_no_matrix},

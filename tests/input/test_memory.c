@@ -86,7 +86,7 @@ static int everything(steif_context *ctx)
   if (!code) code = steif_matrix_write(ctx, F, out_path);
   if (!code && !(f = steif_function_read(ctx, text_path, 3, E))) code = steif_status(ctx);
   if (!code && !(g = steif_function_parse(ctx, "t; t; t^2.5", 3, F))) code = steif_status(ctx);
-  if (!code && !(h = steif_function_samples(ctx, csv_path, 3, 3, &accuracy)))
+  if (!code && !(h = steif_function_samples(ctx, csv_path, 3, NULL, 3, &accuracy)))
     code = steif_status(ctx);
   if (!code && steif_function_breaks(f, 0, 9, 1, &time) != 1) code = -99;
   steif_function_free(&f), steif_function_free(&g), steif_function_free(&h);
@@ -151,7 +151,7 @@ static void an_evaluation_allocates_nothing(void)
   prepare();
   steif_context *ctx = steif_context_new(NULL);
   steif_function *f = steif_function_read(ctx, text_path, 3, NULL),
-                 *g = steif_function_samples(ctx, csv_path, 3, 3, NULL);
+                 *g = steif_function_samples(ctx, csv_path, 3, NULL, 3, NULL);
   N_Vector v = N_VNew_Serial(3, steif_sundials(ctx));
   const long before = asked;
   for (int k = 0; k <= 64; k++) {

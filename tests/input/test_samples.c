@@ -34,7 +34,7 @@ static void first_derivatives_have_the_error_of_theory(void)
   for (int m = 6; m <= 8; m += 2)
     for (double h = 0.1; h > 0.005; h /= 10) {
       double accuracy = -1;
-      steif_function *f = steif_function_samples(ctx, sampled(0, h, 20), 2, m, &accuracy);
+      steif_function *f = steif_function_samples(ctx, sampled(0, h, 20), 2, NULL, m, &accuracy);
       const double theory = (m % 2 ? 1 : -1) * pow(h, m - 1) * exact(0, m) / m,
                    error = ask(ctx, f, 2, 0, 0, 1) - exact(0, 1);
       /* Later terms are O(m w h) of the leading one; rounding is some eps / h. */
@@ -59,7 +59,7 @@ static void second_derivatives_fall_by_their_order(void)
     for (int k = 1; k < m; k++) harmonic += 1. / k;
     for (int i = 0; i < 2; i++) {
       const double h = i ? 0.01 : 0.1;
-      steif_function *f = steif_function_samples(ctx, sampled(0, h, 20), 2, m, NULL);
+      steif_function *f = steif_function_samples(ctx, sampled(0, h, 20), 2, NULL, m, NULL);
       error[i] = fabs(ask(ctx, f, 2, 0, 0, 2) - exact(0, 2));
       steif_function_free(&f);
     }
@@ -79,7 +79,7 @@ static void polynomials_are_exact(void)
     const double t = -0.5 + 0.25 * i;
     sprintf(text + strlen(text), "%.17g,%.17g\n", t, pow(t, 5) - 2 * t * t + 3);
   }
-  steif_function *f = steif_function_samples(ctx, put("poly.csv", text), 1, 6, NULL);
+  steif_function *f = steif_function_samples(ctx, put("poly.csv", text), 1, NULL, 6, NULL);
   if (!f) printf("\n  %s", steif_message(ctx));
   static const double times[] = {-0.5, -0.4, 0, 0.33, 1, 1.25, 2, 2.2, 2.25};
   for (int i = 0; i < 9; i++) {
@@ -105,20 +105,52 @@ static void polynomials_are_exact(void)
   steif_context_free(&ctx);
 }
 
+/* f = B u with B = (0 1; 2 0; 1 -1) from samples of u. The error of a derivative of each order is at
+ * most what it is estimated to be. */
+static void inputs_are_sampled(void)
+{
+  static const double entry[] = {0, 2, 1, 1, 0, -1};
+  steif_context *ctx = steif_context_new(NULL);
+  SUNMatrix B = SUNDenseMatrix(3, 2, steif_sundials(ctx));
+  memcpy(SM_DATA_D(B), entry, sizeof entry);
+  steif_function *f = steif_function_samples(ctx, sampled(0, 0.01, 30), 3, B, 0, NULL);
+  CU_ASSERT_FATAL(f != NULL);
+  for (int d = 0; d < 5; d++) {
+    double accuracy = -1;
+    const double u = exact(0, d), v = 2 * u - (d == 1), size = fmax(fabs(u), fabs(v));
+    CHECK(!steif_function_accuracy(f, 0, d, &accuracy));
+    CHECK(fabs(ask(ctx, f, 3, 0, 0, d) - v) <= 2 * accuracy * size + 1e-15);
+    CHECK(fabs(ask(ctx, f, 3, 1, 0, d) - 2 * u) <= 4 * accuracy * size + 1e-15);
+    CHECK(fabs(ask(ctx, f, 3, 2, 0, d) - (u - v)) <= 3 * accuracy * size + 1e-15);
+    CHECK(d ? accuracy < 1e-3 && accuracy > 0 : accuracy < 1e-9);
+  }
+  double accuracy = -1;
+  CHECK(!steif_function_accuracy(f, 0, 7, &accuracy) && isinf(accuracy));
+  CHECK(steif_function_accuracy(f, 0, -1, &accuracy) == STEIF_BAD_INPUT);
+  steif_function_free(&f);
+  f = steif_function_parse(ctx, "t; t^2; 1", 3, NULL);
+  CHECK(f && !steif_function_accuracy(f, 0, 2, &accuracy) && accuracy == 0);
+  steif_function_free(&f);
+  CHECK(!steif_function_samples(ctx, in_folder("samples.csv"), 2, B, 0, NULL));
+  SAYS(ctx, "B has 3 rows and f has 2 components");
+  SUNMatDestroy(B);
+  steif_context_free(&ctx);
+}
+
 /* E6: 8 points with w h near 0.03 are the default. */
 static void the_default_is_eight_points(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   double accuracy, eight;
-  steif_function *f = steif_function_samples(ctx, sampled(0.4, 0.01, 30), 2, 0, &accuracy),
-                 *g = steif_function_samples(ctx, in_folder("samples.csv"), 2, 8, &eight);
+  steif_function *f = steif_function_samples(ctx, sampled(0.4, 0.01, 30), 2, NULL, 0, &accuracy),
+                 *g = steif_function_samples(ctx, in_folder("samples.csv"), 2, NULL, 8, &eight);
   CHECK(f && g && accuracy == eight && accuracy > 0 && accuracy < 1e-9);
   CHECK(ask(ctx, f, 2, 0, 0.4, 2) == ask(ctx, g, 2, 0, 0.4, 2));
   CLOSE(ask(ctx, f, 2, 0, 0.4, 1), exact(0.4, 1), 1e-10);
   /* Between samples the formula is central: its error is far below the one-sided bound. */
   CLOSE(ask(ctx, f, 2, 0, 0.5551, 0), exact(0.5551, 0), 1e-14);
   steif_function_free(&f), steif_function_free(&g);
-  f = steif_function_samples(ctx, sampled(0, 0.01, 3), 2, 0, NULL);
+  f = steif_function_samples(ctx, sampled(0, 0.01, 3), 2, NULL, 0, NULL);
   CLOSE(ask(ctx, f, 2, 0, 0, 1), exact(0, 1), 1e-3);
   CHECK(isnan(ask(ctx, f, 2, 0, 0, 3)));
   steif_function_free(&f);
@@ -132,7 +164,7 @@ static void at_a_sample_the_formula_looks_forward(void)
   char text[2048] = "";
   for (int i = 0; i < 20; i++)
     sprintf(text + strlen(text), "%.17g %.17g\n", 0.1 * i, i < 7 ? 55.5 : 0.25 * i);
-  steif_function *f = steif_function_samples(ctx, put("jump.csv", text), 1, 5, NULL);
+  steif_function *f = steif_function_samples(ctx, put("jump.csv", text), 1, NULL, 5, NULL);
   CLOSE(ask(ctx, f, 1, 0, 0.7, 1), 2.5, 1e-12);
   CLOSE_FLOOR(ask(ctx, f, 1, 0, 0.7, 2), 0, 1e-10, 1);
   steif_function_free(&f);
@@ -171,13 +203,13 @@ static void bad_files_are_refused_with_the_line(void)
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     steif_forget(ctx);
     double accuracy;
-    steif_function *f = steif_function_samples(ctx, put("bad.csv", cases[i].text), cases[i].n,
+    steif_function *f = steif_function_samples(ctx, put("bad.csv", cases[i].text), cases[i].n, NULL,
                                                cases[i].points, &accuracy);
     CHECK(!f && steif_status(ctx) == cases[i].code);
     SAYS(ctx, cases[i].words);
     steif_function_free(&f);
   }
-  CHECK(!steif_function_samples(ctx, in_folder("gone.csv"), 1, 0, NULL));
+  CHECK(!steif_function_samples(ctx, in_folder("gone.csv"), 1, NULL, 0, NULL));
   CHECK(steif_status(ctx) == STEIF_IO);
   steif_context_free(&ctx);
 }
@@ -186,6 +218,7 @@ CU_TestInfo tests_of_samples[] = {
   {"first derivatives have the error of theory", first_derivatives_have_the_error_of_theory},
   {"second derivatives fall by their order", second_derivatives_fall_by_their_order},
   {"polynomials are exact at and between samples", polynomials_are_exact},
+  {"f = B u from samples of u, with its accuracy", inputs_are_sampled},
   {"the default is eight points", the_default_is_eight_points},
   {"at a sample the formula looks forward", at_a_sample_the_formula_looks_forward},
   {"bad files are refused with the line", bad_files_are_refused_with_the_line},
