@@ -35,6 +35,8 @@ if(TARGET steif_program)
   house_test(workprec -DPROGRAM=$<TARGET_FILE:steif_program>)
   house_test(c2d -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/c2d)
   house_test(energy -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/energy)
+  house_test(experiments -DPROGRAM=$<TARGET_FILE:steif_program>
+             -DFOLDER=${PROJECT_BINARY_DIR}/experiments)
   house_test(hamiltonian -DPROGRAM=$<TARGET_FILE:steif_program>
              -DFOLDER=${PROJECT_BINARY_DIR}/hamiltonian)
   house_test(commands -DPROGRAM=$<TARGET_FILE:steif_program> -DREADME=${PROJECT_SOURCE_DIR}/README.md)

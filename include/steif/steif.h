@@ -10,6 +10,7 @@
 #include <steif/diagnose.h>
 #include <steif/discrete.h>
 #include <steif/energy.h>
+#include <steif/experiment.h>
 #include <steif/hamiltonian.h>
 #include <steif/impulse.h>
 #include <steif/input.h>

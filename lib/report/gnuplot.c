@@ -11,13 +11,16 @@
 
 extern char **environ;
 
-/* A single-quoted gnuplot string: only the quote itself is special in it. */
+/* A single-quoted gnuplot string, in which only the quote itself is special: pieces joined by the
+ * quote in double quotes, for two doubled quotes side by side are not understood. */
 static void quoted(FILE *script, const char *text)
 {
   putc('\'', script);
   for (; text && *text; text++) {
-    if (*text == '\'') putc('\'', script);
-    putc((unsigned char)*text < ' ' ? ' ' : *text, script);
+    if (*text == '\'')
+      fputs("'.\"'\".'", script);
+    else
+      putc((unsigned char)*text < ' ' ? ' ' : *text, script);
   }
   putc('\'', script);
 }

@@ -164,7 +164,7 @@ static void png_comes_from_gnuplot(void)
   const steif_curve curve[] = {{.label = "it's {a_b}", .count = 4, .x = x, .y = y, .marks = 1},
                                {.label = "b", .count = 0}};
   const steif_plot plot = {
-    .title = "'; system 'false'; '", .log_x = 1, .log_y = 1, .count = 2, .curve = curve};
+    .title = "q''; system 'false'; '", .log_x = 1, .log_y = 1, .count = 2, .curve = curve};
   steif_context *ctx = steif_context_new(NULL);
   temporary("'$(touch x)`\"|.png");
   const int code = steif_plot_save(ctx, &plot, path);
