@@ -12,6 +12,7 @@ set(room_of_energy stability)
 set(room_of_hamiltonian stability)
 set(room_of_lyapunov stability)
 set(room_of_phi matfun)
+set(room_of_glm table)
 
 file(READ ${SOURCE}/CMakeLists.txt text)
 file(READ ${SOURCE}/README.md readme)

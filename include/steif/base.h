@@ -1,10 +1,10 @@
 /* steif/base.h: status codes, the context with its last message, specs such as "radau:s=3".
  *
- * Every function that can fail returns an int: 0 is success, a positive value is recoverable (the
- * caller may try a smaller step), a negative value is final. Constructors return NULL on failure.
- * In both cases the context keeps the code and one sentence with the values, the place and the
- * remedy: read it with steif_message(). The library never prints, exits or aborts, and it has no
- * global state; one context must not be used by two threads at the same time.
+ * Every function that can fail returns an int: 0 is success, a positive value is recoverable
+ * (the caller may try a smaller step), a negative value is final. Constructors return NULL on
+ * failure. In both cases the context keeps the code and one sentence with the values, the place
+ * and the remedy: read it with steif_message(). The library never prints, exits or aborts, and
+ * it has no global state; one context must not be used by two threads at the same time.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_BASE_H
@@ -58,8 +58,8 @@ typedef struct steif_setup {
   int threads;                                   /* for independent factorisations; 0: all cores */
 } steif_setup;
 
-/* NULL if memory is short. steif_context_free accepts NULL and sets the pointer to NULL; free it
- * after everything that was made from it. */
+/* NULL if memory is short. steif_context_free accepts NULL and sets the pointer to NULL; free
+ * it after everything that was made from it. */
 STEIF_EXPORT steif_context *steif_context_new(const steif_setup *setup);
 STEIF_EXPORT void steif_context_free(steif_context **ctx);
 
@@ -78,14 +78,15 @@ STEIF_EXPORT const char *steif_code_remedy(int code);
 /* Version of the library at run time, "0.1.0". */
 STEIF_EXPORT const char *steif_version(void);
 
-/* A spec is a name with parameters: "radau:s=5", "heat:n=400", "dirk:alexander2" (a bare word is
- * the parameter with the empty key), "bdf:p=3,start=cq". Letters, digits and . - + _ only. */
-enum { STEIF_SPEC_PARAMS = 8, STEIF_SPEC_WORD = 48 };
+/* A spec is a name with parameters: "radau:s=5", "heat:n=400", "dirk:alexander2" (a bare word
+ * is the parameter with the empty key), "bdf:p=3,start=cq". Letters, digits and . - + _ only;
+ * in values also / for paths. */
+enum { STEIF_SPEC_PARAMS = 8, STEIF_SPEC_WORD = 48, STEIF_SPEC_VALUE = 200 };
 typedef struct steif_spec {
   char name[STEIF_SPEC_WORD];
   int count;
   struct {
-    char key[STEIF_SPEC_WORD], value[STEIF_SPEC_WORD];
+    char key[STEIF_SPEC_WORD], value[STEIF_SPEC_VALUE];
   } param[STEIF_SPEC_PARAMS];
 } steif_spec;
 

@@ -1,7 +1,8 @@
 /* steif/method.h: the methods there are; how they are named and what they claim.
  *
  * A method is a family with parameters: be, bdf:p=1..6, dirk:TABLE, gauss:s=, radau:s=, radau1a:s=,
- * lobatto3c:s=, euler, rk4; the baselines cvode, ida, arkode; and auto, which chooses by size, storage,
+ * lobatto3c:s=, euler, rk4; general linear methods glm:TABLE (glm:nord22, glm:ab,p=3, glm:file=PATH: glm.h);
+ * the baselines cvode, ida, arkode; and auto, which chooses by size, storage,
  * index and tolerance (steif_method_used tells what and why).
  *
  * Splitting methods, symplectic, with equal steps, for separable problems (.positions of problem.h):
@@ -45,8 +46,8 @@ STEIF_EXPORT int steif_method_at(steif_context *ctx, size_t i, steif_method_info
 STEIF_EXPORT int steif_method_find(steif_context *ctx, const char *spec, steif_method_info *info);
 
 /* One step of the method on y' = lambda y as a matrix: with z = h lambda, history maps to history
- * by M(z), r x r, by rows, entries (re, im). r = 1 for Runge-Kutta (M = R), p for BDF. M NULL asks
- * for r only. z infinite gives the limit. STEIF_UNSUPPORTED for splitting methods, whose step on
+ * by M(z), r x r, by rows, entries (re, im). r = 1 for Runge-Kutta (M = R), p for BDF, k for general
+ * linear methods. M NULL asks for r only. z infinite gives the limit. STEIF_UNSUPPORTED for splitting methods, whose step on
  * y' = lambda y is no function of z. */
 STEIF_EXPORT int steif_method_propagator(steif_context *ctx, const char *spec,
                                          const sunrealtype z[2], int *r, sunrealtype *M);

@@ -87,7 +87,8 @@ STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);
 STEIF_EXPORT int steif_dense(steif_solver *s, sunrealtype t, N_Vector y);
 
 /* Stage values of the last step of a Runge-Kutta method: vectors X_i at t_n + c_i h with quadrature
- * weights b_i; *count = 0 for methods without stages. The vectors are the solver's. */
+ * weights b_i (b = NULL: a general linear method, which has none); *count = 0 for methods without
+ * stages. The vectors are the solver's. */
 STEIF_EXPORT int steif_stages(steif_solver *s, int *count, const sunrealtype **c,
                               const sunrealtype **b, N_Vector **X);
 

@@ -12,6 +12,7 @@
 #include <steif/energy.h>
 #include <steif/experiment.h>
 #include <steif/hamiltonian.h>
+#include <steif/glm.h>
 #include <steif/impulse.h>
 #include <steif/input.h>
 #include <steif/lyapunov.h>

@@ -1,15 +1,17 @@
-/* steif/table.h: coefficients of Runge-Kutta methods, given or built, and what can be computed of
- * them: nodes, order conditions, stability function, splits.
+/* steif/table.h: coefficients of Runge-Kutta and general linear methods, given or built, and
+ * what can be computed of them: nodes, order conditions, stability function, splits.
  *
  * A table holds A (s x s, by rows), b, c of the method
  *   Y_i = y_n + h sum_j a_ij Y_j',   y_{n+1} = y_n + h sum_j b_j Y_j',   Y_j at t_n + c_j h.
- * Entries of the shelf are constant data; families with any number of stages build theirs.
+ * Tables of kind STEIF_GLM hold U, V, C, D, xi of glm.h instead. Entries of the shelf are
+ * constant data; families with any number of stages build theirs.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_TABLE_H
 #define STEIF_TABLE_H
 
 #include <steif/base.h>
+#include <steif/glm.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,7 +20,8 @@ extern "C" {
 enum steif_table_kind {
   STEIF_EXPLICIT,   /* strictly lower triangular A */
   STEIF_DIRK,       /* lower triangular A; a_11 = 0 allowed (explicit first stage) */
-  STEIF_COLLOCATION /* full A */
+  STEIF_COLLOCATION, /* full A */
+  STEIF_GLM         /* general linear: .general, no A and b */
 };
 
 enum steif_claim {
@@ -28,8 +31,6 @@ enum steif_claim {
   STEIF_SYMPLECTIC = 8,           /* b_i a_ij + b_j a_ji = b_i b_j */
   STEIF_SYMMETRIC = 16            /* its own adjoint */
 };
-
-enum { STEIF_STAGES = 32 };       /* largest number of stages */
 
 typedef struct steif_table steif_table;
 struct steif_table {
@@ -49,12 +50,17 @@ struct steif_table {
    * what else depends on s. */
   int (*build)(steif_context *ctx, const steif_spec *spec, steif_table *self, sunrealtype *A,
                sunrealtype *b, sunrealtype *c);
+  /* STEIF_GLM: name, k, r, U, V, C, D, xi (and order with W), completed by the look-up ... */
+  const steif_glm *general;
+  /* ... or filled in from the parameters, with the claims. */
+  int (*fill)(steif_context *ctx, const steif_spec *spec, steif_table *self, steif_glm *glm);
 };
 
 /* Table i of the shelf (families unbuilt), NULL past the end. */
 STEIF_EXPORT const steif_table *steif_table_at(size_t i);
 
-/* A complete table from a spec: "gauss:s=3", "alexander2". NULL with the message set; free it. */
+/* A complete table from a spec: "gauss:s=3", "alexander2". NULL with the message set; free it.
+ * */
 STEIF_EXPORT steif_table *steif_table_new(steif_context *ctx, const char *spec);
 STEIF_EXPORT void steif_table_free(steif_context *ctx, steif_table **table);
 

@@ -11,23 +11,24 @@ static bool letter(char c)
   return isalnum((unsigned char)c) || c == '.' || c == '-' || c == '+' || c == '_';
 }
 
-/* Copy a word from *at into out; false when it is empty or too long. */
-static bool word(const char **at, char *out)
+/* Copy a word from *at into out, with the mark `extra` taken as a letter; false when it is empty or
+ * too long. */
+static bool word(const char **at, char *out, size_t room, char extra)
 {
   size_t used = 0;
-  while (letter(**at) && used < STEIF_SPEC_WORD - 1) out[used++] = *(*at)++;
+  while ((letter(**at) || (**at && **at == extra)) && used < room - 1) out[used++] = *(*at)++;
   out[used] = 0;
-  return used > 0 && !letter(**at);
+  return used > 0 && !letter(**at) && !(**at && **at == extra);
 }
 
 static bool parameter(const char **at, steif_spec *spec)
 {
   if (spec->count == STEIF_SPEC_PARAMS) return false;
   char *key = spec->param[spec->count].key, *value = spec->param[spec->count].value;
-  if (!word(at, key)) return false;
+  if (!word(at, key, STEIF_SPEC_WORD, 0)) return false;
   if (**at == '=') {
     ++*at;
-    if (!word(at, value)) return false;
+    if (!word(at, value, STEIF_SPEC_VALUE, '/')) return false;
   } else {
     strcpy(value, key);
     *key = 0;
@@ -43,13 +44,13 @@ int steif_spec_parse(steif_context *ctx, const char *text, steif_spec *spec)
   STEIF_CHECK(spec && text, ctx, STEIF_BAD_INPUT, "a spec and a text are needed, got NULL");
   memset(spec, 0, sizeof *spec);
   const char *at = text;
-  bool good = word(&at, spec->name);
+  bool good = word(&at, spec->name, STEIF_SPEC_WORD, 0);
   for (char mark = ':'; good && *at; mark = ',')
     good = *at == mark && (at++, parameter(&at, spec));
   STEIF_CHECK(
     good, ctx, STEIF_BAD_INPUT,
     "cannot read '%.60s' near position %d: write name:key=value,key=value with words of "
-    "letters, digits and . - + _, each key once, at most %d parameters",
+    "letters, digits and . - + _ (values also /), each key once, at most %d parameters",
     text, (int)(at - text), STEIF_SPEC_PARAMS);
   return STEIF_OK;
 }

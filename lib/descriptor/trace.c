@@ -48,8 +48,8 @@ static int pair_stages(steif_context *ctx, steif_solver *s, const char *method, 
   const sunrealtype *b, *c;
   N_Vector *X;
   STEIF_TRY(steif_stages(s, &count, &c, &b, &X));
-  STEIF_CHECK(count > 0, ctx, STEIF_UNSUPPORTED,
-              "%s has no stages to pair with the test function: use convention R, P or C",
+  STEIF_CHECK(count > 0 && b, ctx, STEIF_UNSUPPORTED,
+              "%s has no stages with weights to pair with the test function: use convention R, P or C",
               method);
   for (int j = 0; j < count; j++) {
     const sunrealtype g = steif_test_function(t + c[j] * h, 0);

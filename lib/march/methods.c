@@ -49,6 +49,10 @@ static const char *const fixed[] = {
   "radau:s=2",   "radau:s=3",     "radau:s=4",     "radau:s=5",     "radau:s=7", "radau1a:s=2",
   "radau1a:s=3", "lobatto3c:s=2", "lobatto3c:s=3", "lobatto3c:s=4", "rodas4",    "rodas4p",
   "rodas4p2",    "rodas5p",       "symeuler:first=q", "verlet:first=drift",
+  "glm:ab,p=2",  "glm:ab,p=3",    "glm:ab,p=4",    "glm:am,p=2",    "glm:am,p=3", "glm:am,p=4",
+  "glm:bdf,p=3", "glm:dimsim1",   "glm:dimsim2",   "glm:nord22",
+  "glm:nordsieck,of=bdf,p=2", "glm:nordsieck,of=bdf,p=4",
+  "glm:nordsieck,of=am,p=3",  "glm:nordsieck,of=am,p=5",
 };
 /* clang-format on */
 
@@ -66,9 +70,9 @@ static bool spec_at(size_t i, char *text, size_t size)
     return snprintf(text, size, "%s", stf_exponential_rb[i].name) > 0;
   i -= stf_exponential_rb_count;
   for (size_t k = 0; k < stf_table_count; k++) {
-    const bool dirk = stf_table_shelf[k].item->kind == STEIF_DIRK;
-    if (stf_table_shelf[k].item->kind == STEIF_COLLOCATION || i--) continue;
-    return snprintf(text, size, "%s%s", dirk ? "dirk:" : "", stf_table_shelf[k].name) > 0;
+    const enum steif_table_kind kind = stf_table_shelf[k].item->kind;
+    if (kind == STEIF_COLLOCATION || kind == STEIF_GLM || i--) continue;
+    return snprintf(text, size, "%s%s", kind == STEIF_DIRK ? "dirk:" : "", stf_table_shelf[k].name) > 0;
   }
   if (i-- == 0) return snprintf(text, size, "auto") > 0;
   return i < stf_engine_count && snprintf(text, size, "%s", stf_engine_shelf[i].name) > 0;

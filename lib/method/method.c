@@ -16,7 +16,14 @@ static const steif_method *family(const char *name)
 
 static const char *family_of(enum steif_table_kind kind)
 {
-  return kind == STEIF_EXPLICIT ? "erk" : kind == STEIF_DIRK ? "dirk" : "irk";
+  static const char *const names[] = {"erk", "dirk", "irk", "glm"};
+  return names[kind];
+}
+
+/* What stands before the name of a table of this kind, NULL for nothing. */
+static const char *prefix(enum steif_table_kind kind)
+{
+  return kind == STEIF_DIRK ? "dirk" : kind == STEIF_GLM ? "glm" : NULL;
 }
 
 static bool on_shelf(const char *name)
@@ -29,8 +36,8 @@ static bool on_shelf(const char *name)
 /* The names a method may begin with, for suggestions. */
 static int unknown(steif_context *ctx, const steif_spec *spec)
 {
-  const char *names[64] = {"be", "bdf", "dirk", "cvode", "ida", "arkode"};
-  size_t count = 6;
+  const char *names[64] = {"be", "bdf", "dirk", "glm", "cvode", "ida", "arkode"};
+  size_t count = 7;
   for (size_t i = 0; i < stf_rodas_count; i++) names[count++] = stf_rodas_tables[i].name;
   for (size_t i = 0; i < stf_splitting_count; i++) names[count++] = stf_splittings[i].name;
   for (size_t i = 0; i < stf_exponential_rk_count; i++)
@@ -38,26 +45,43 @@ static int unknown(steif_context *ctx, const steif_spec *spec)
   for (size_t i = 0; i < stf_exponential_rb_count; i++)
     names[count++] = stf_exponential_rb[i].name;
   for (size_t i = 0; i < stf_table_count && count < 64; i++)
-    if (stf_table_shelf[i].item->kind != STEIF_DIRK) names[count++] = stf_table_shelf[i].name;
+    if (!prefix(stf_table_shelf[i].item->kind)) names[count++] = stf_table_shelf[i].name;
   return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME,
                     "no method '%s'; did you mean '%s'? 'steif list "
                     "methods' shows all",
                     spec->name, stf_nearest(spec->name, names, count, sizeof *names));
 }
 
-/* dirk:TABLE */
-static int dirk_table(steif_context *ctx, const steif_spec *spec, steif_table **table)
+/* dirk:TABLE, glm:TABLE,key=value and glm:file=PATH: the spec of the table. */
+static int table_spec(steif_context *ctx, const steif_spec *spec, steif_spec *inner)
 {
   const char *name = stf_spec_word(spec, "");
-  STEIF_CHECK(name, ctx, STEIF_BAD_INPUT, "'dirk' needs the name of a table: dirk:alexander2");
-  *table = steif_table_new(ctx, name);
+  *inner = *spec;
+  if (!name && stf_spec_word(spec, "file")) return STEIF_OK;
+  STEIF_CHECK(name, ctx, STEIF_BAD_INPUT, "'%s' needs the name of a table: %s", spec->name,
+              *spec->name == 'd' ? "dirk:alexander2" : "glm:nord22, glm:ab,p=3, glm:file=PATH");
+  STEIF_CHECK(strlen(name) < sizeof inner->name, ctx, STEIF_UNKNOWN_NAME,
+              "no table is named '%s'", name);
+  strcpy(inner->name, name);
+  inner->count = 0;
+  for (int i = 0; i < spec->count; i++)
+    if (*spec->param[i].key) inner->param[inner->count++] = spec->param[i];
+  return STEIF_OK;
+}
+
+static int named_table(steif_context *ctx, const steif_spec *spec, enum steif_table_kind kind,
+                       steif_table **table)
+{
+  steif_spec inner;
+  STEIF_TRY(table_spec(ctx, spec, &inner));
+  *table = stf_table_build(ctx, &inner);
   if (!*table) return steif_status(ctx);
-  if ((*table)->kind == STEIF_DIRK) return STEIF_OK;
+  if ((*table)->kind == kind) return STEIF_OK;
+  const char *before = prefix((*table)->kind);
   steif_table_free(ctx, table);
-  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME,
-                    "table '%s' is not diagonally implicit: use it by its "
-                    "own name",
-                    name);
+  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "table '%s' is %s: write '%s%s%s'", inner.name,
+                    kind == STEIF_DIRK ? "not diagonally implicit" : "no general linear method",
+                    before ? before : "", before ? ":" : "", inner.name);
 }
 
 int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_method **method,
@@ -84,17 +108,20 @@ int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_meth
     *method = family(rk ? "etd" : "exprb");
     return STEIF_OK;
   }
-  if (!strcmp(spec->name, "dirk")) {
-    *method = family("dirk");
-    return dirk_table(ctx, spec, table);
+  const bool dirk = !strcmp(spec->name, "dirk");
+  if (dirk || !strcmp(spec->name, "glm")) {
+    *method = family(spec->name);
+    return named_table(ctx, spec, dirk ? STEIF_DIRK : STEIF_GLM, table);
   }
   if (!on_shelf(spec->name)) return unknown(ctx, spec);
   *table = stf_table_build(ctx, spec);
   if (!*table) return steif_status(ctx);
   *method = family(family_of((*table)->kind));
-  if ((*table)->kind != STEIF_DIRK) return STEIF_OK;
+  const char *before = prefix((*table)->kind);
+  if (!before) return STEIF_OK;
   steif_table_free(ctx, table);
-  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "write 'dirk:%s' for this table", spec->name);
+  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "write '%s:%s' for this table", before,
+                    spec->name);
 }
 
 int steif_method_propagator(steif_context *ctx, const char *text, const sunrealtype z[2],

@@ -9,13 +9,21 @@ void zgeev_(const char *left, const char *right, const int *n, double *a, const 
 
 enum { SCRATCH = 8 }; /* complex work of zgeev per row; 2 would do */
 
+static int propagate(stf_growth *growth, const sunrealtype z[2], sunrealtype *M)
+{
+  return growth->method->propagator(growth->ctx, &growth->spec, growth->table, z, &growth->r, M);
+}
+
 int stf_growth_open(stf_growth *growth, steif_context *ctx, const char *method)
 {
-  *growth = (stf_growth){.ctx = ctx, .method = method};
+  *growth = (stf_growth){.ctx = ctx, .name = method};
   STEIF_CHECK(method, ctx, STEIF_BAD_INPUT,
               "no method was named: give one such as \"bdf:p=3\"");
+  STEIF_TRY(steif_spec_parse(ctx, method, &growth->spec));
+  STEIF_TRY(stf_method_find(ctx, &growth->spec, &growth->method, &growth->table));
   const sunrealtype origin[2] = {0, 0};
-  STEIF_TRY(steif_method_propagator(ctx, method, origin, &growth->r, NULL));
+  const int code = propagate(growth, origin, NULL);
+  if (code) return stf_growth_close(growth), code;
   const size_t r = (size_t)growth->r;
   growth->M = stf_allocate(ctx, 2 * r * r, sizeof *growth->M);
   growth->work = stf_allocate(ctx, (2 + 2 * SCRATCH + 2) * r, sizeof *growth->work);
@@ -28,6 +36,7 @@ void stf_growth_close(stf_growth *growth)
 {
   stf_release(growth->ctx, growth->M);
   stf_release(growth->ctx, growth->work);
+  steif_table_free(growth->ctx, &growth->table);
   growth->M = growth->work = NULL;
 }
 
@@ -40,20 +49,19 @@ static int eigenvalues(stf_growth *growth)
     STEIF_CHECK(
       isfinite(growth->M[i]), growth->ctx, STEIF_NOT_FINITE,
       "the step of %s on y' = lambda y is not finite here: z hits a pole of the method",
-      growth->method);
+      growth->name);
   zgeev_("N", "N", &n, growth->M, &n, w, NULL, &one, NULL, &one, work, &lwork, rwork, &info);
   STEIF_CHECK(info == 0, growth->ctx, STEIF_NO_CONVERGENCE,
               "the eigenvalues of the %d x %d step matrix of %s did not converge (zgeev: %d)",
-              n, n, growth->method, info);
+              n, n, growth->name, info);
   return STEIF_OK;
 }
 
 int stf_growth_eigenvalues(stf_growth *growth, sunrealtype re, sunrealtype im)
 {
   const sunrealtype z[2] = {re, im};
-  int r = growth->r;
-  STEIF_TRY(steif_method_propagator(growth->ctx, growth->method, z, &r, growth->M));
-  if (r > 1) return eigenvalues(growth);
+  STEIF_TRY(propagate(growth, z, growth->M));
+  if (growth->r > 1) return eigenvalues(growth);
   growth->work[0] = growth->M[0];
   growth->work[1] = growth->M[1];
   return STEIF_OK;

@@ -3,17 +3,20 @@
 #ifndef STF_STABILITY_H
 #define STF_STABILITY_H
 
-#include "base.h"
-#include <steif/method.h>
+#include "method.h"
 #include <steif/stability.h>
 
 enum { STF_SCAN_PER_DECADE = 16 };
 
-/* rho(M(z)) - 1 along rays and at points; room for the matrix and LAPACK is taken once. A failure
+/* rho(M(z)) - 1 along rays and at points; the method is looked up and room for the matrix
+ * and LAPACK is taken once. A failure
  * is kept in `code` and every later value is 0, so that loops need not ask. */
 typedef struct stf_growth {
   steif_context *ctx;
-  const char *method;
+  const char *name;
+  steif_spec spec;
+  const steif_method *method;
+  steif_table *table;
   int r, code;
   sunrealtype *M;    /* r x r complex */
   sunrealtype *work; /* zgeev: eigenvalues, work, rwork */

@@ -1,6 +1,7 @@
 /* table.c: look a table up by its spec, build families, copy what is constant.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table.h"
+#include <stdio.h>
 #include <string.h>
 
 enum { SQUARE = STEIF_STAGES * STEIF_STAGES };
@@ -19,6 +20,9 @@ const steif_table *steif_table_at(size_t i)
 int stf_table_check(steif_context *ctx, const steif_table *table)
 {
   STEIF_CHECK(table, ctx, STEIF_BAD_INPUT, "a table is needed, got NULL");
+  STEIF_CHECK(table->kind != STEIF_GLM, ctx, STEIF_UNSUPPORTED,
+              "table '%s' is a general linear method, which has no A and b: see steif/glm.h",
+              table->name ? table->name : "");
   STEIF_CHECK(
     table->A && table->b, ctx, STEIF_BAD_INPUT,
     "table '%s' has no coefficients; a family is built by steif_table_new(ctx, \"%s:s=3\")",
@@ -73,9 +77,65 @@ static int fill(steif_context *ctx, const steif_spec *spec, owned *o)
   return STEIF_OK;
 }
 
+/* The same for general linear methods. */
+typedef struct owned_general {
+  steif_table table;
+  steif_glm glm;
+} owned_general;
+
+/* "ab:p=3" */
+static void set_name(const steif_spec *spec, steif_glm *g)
+{
+  size_t used = (size_t)snprintf(g->name, sizeof g->name, "%s", spec->name);
+  for (int i = 0; i < spec->count && used < sizeof g->name; i++)
+    used += (size_t)snprintf(g->name + used, sizeof g->name - used, "%c%s=%s", i ? ',' : ':',
+                             spec->param[i].key, spec->param[i].value);
+}
+
+static int fill_general(steif_context *ctx, const steif_spec *spec, owned_general *o)
+{
+  steif_table *t = &o->table;
+  steif_glm *g = &o->glm;
+  if (t->fill)
+    STEIF_TRY(t->fill(ctx, spec, t, g));
+  else {
+    STEIF_TRY(stf_spec_only(ctx, spec, (const char *const[]){NULL}));
+    *g = *t->general;
+  }
+  if (!*g->name) set_name(spec, g);
+  STEIF_TRY(steif_glm_complete(ctx, g));
+  t->general = g, t->s = g->r, t->order = g->order, t->stage_order = g->stage_order;
+  return STEIF_OK;
+}
+
+static steif_table *build_general(steif_context *ctx, const steif_spec *spec,
+                                  const steif_table *item)
+{
+  owned_general *o = stf_allocate(ctx, 1, sizeof *o);
+  if (!o) return NULL;
+  o->table = *item;
+  steif_table *table = &o->table;
+  if (fill_general(ctx, spec, o)) steif_table_free(ctx, &table);
+  return table;
+}
+
+/* glm:file=PATH */
+static int fill_from_file(steif_context *ctx, const steif_spec *spec, steif_table *self,
+                          steif_glm *glm)
+{
+  (void)self;
+  STEIF_TRY(stf_spec_only(ctx, spec, (const char *const[]){"file", NULL}));
+  return stf_table_read(ctx, stf_spec_word(spec, "file"), glm);
+}
+
+static const steif_table of_file = {
+  .name = "file", .about = "a tableau from a text file", .kind = STEIF_GLM, .fill = fill_from_file};
+
 steif_table *stf_table_build(steif_context *ctx, const steif_spec *spec)
 {
-  const steif_table *item = find(ctx, spec->name);
+  const bool file = !strcmp(spec->name, "glm") && stf_spec_word(spec, "file");
+  const steif_table *item = file ? &of_file : find(ctx, spec->name);
+  if (item && item->kind == STEIF_GLM) return build_general(ctx, spec, item);
   owned *o = item ? stf_allocate(ctx, 1, sizeof *o) : NULL;
   if (!o) return NULL;
   o->table = *item;

@@ -16,8 +16,13 @@ extern const size_t stf_table_count;
 
 /* From a parsed spec. */
 steif_table *stf_table_build(steif_context *ctx, const steif_spec *spec);
-/* Refuse NULL, families that are not built, and numbers of stages out of range. */
+/* Refuse NULL, families that are not built, general linear methods, and numbers of stages out
+ * of range. */
 int stf_table_check(steif_context *ctx, const steif_table *table);
+
+/* The table of a text file, and its text. */
+int stf_table_read(steif_context *ctx, const char *path, steif_glm *glm);
+int stf_table_parse(steif_context *ctx, const char *path, const char *text, steif_glm *glm);
 
 /* Nodes of collocation on [0, 1], ascending, to the last bit of double (computed in long
  * double): Gauss (roots of P_s), Radau right (c_s = 1), left (c_1 = 0), Lobatto (both). */

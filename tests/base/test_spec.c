@@ -20,6 +20,9 @@ static void good_specs_are_taken_apart(void)
   CHECK(!strcmp(stf_spec_word(&s, "case"), "H-inc"));
   CHECK(steif_spec_parse(ctx, "x_1:a.b=-2.5e+3", &s) == STEIF_OK);
   CHECK(!strcmp(s.param[0].key, "a.b") && !strcmp(s.param[0].value, "-2.5e+3"));
+  CHECK(steif_spec_parse(ctx, "glm:file=../some/where.glm,p=3", &s) == STEIF_OK);
+  CHECK(!strcmp(stf_spec_word(&s, "file"), "../some/where.glm") && s.count == 2);
+  CHECK(steif_spec_parse(ctx, "glm:some/where", &s) == STEIF_BAD_INPUT); /* paths are values */
   steif_context_free(&ctx);
 }
 

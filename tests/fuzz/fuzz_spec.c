@@ -39,7 +39,7 @@ static void look_up(steif_context *ctx, const steif_spec *spec)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-  char text[1024], again[2 * (STEIF_SPEC_PARAMS + 1) * STEIF_SPEC_WORD];
+  char text[1024], again[2 * (STEIF_SPEC_PARAMS + 1) * STEIF_SPEC_VALUE];
   if (size >= sizeof text) return 0;
   memcpy(text, data, size);
   text[size] = 0;

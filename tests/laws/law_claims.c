@@ -20,7 +20,7 @@ static void stability_is_as_claimed(void)
     CHECK(region.a_stable == a && region.l_stable == l && region.zero_stable);
     seen++;
   }
-  CHECK(seen > 20);
+  CHECK(seen > 40);
   steif_context_free(&ctx);
 }
 
@@ -42,6 +42,7 @@ static void symmetric_methods_undo_themselves(void)
   for (size_t i = 0; steif_method_at(ctx, i, &info) == STEIF_OK; i++) {
     if (info.order == 0 || info.stages == 0 || !strncmp(info.name, "b", 1)) continue;
     if (!strcmp(info.family, "sympl") || law_exponential(&info)) continue;
+    if (!strcmp(info.family, "glm")) continue;
     const double complex z = 0.37 - 1.19 * I;
     const double off = cabs(step(ctx, info.name, z) * step(ctx, info.name, -z) - 1);
     CHECK((off < 1e-13) == ((info.claims & STEIF_SYMMETRIC) != 0));

@@ -1,18 +1,18 @@
 /* dirk.c: diagonally implicit Runge-Kutta methods with one nonzero diagonal entry gamma, stage
  * after stage with one real shift 1/(gamma h); an explicit first stage takes the last slope.
  *
- *   Y_i = y_n + h sum_{j<i} a_ij K_j + Z_i,  K_i = Z_i / (gamma h),  F(t_n + c_i h, Y_i, K_i) = 0.
- * Error estimate: h sum (b_i - bhat_i) K_i filtered by (E/(gamma h) - A)^{-1} E/(gamma h).
+ *   Y_i = y_n + h sum_{j<i} a_ij K_j + Z_i,  K_i = Z_i / (gamma h),  F(t_n + c_i h, Y_i, K_i) =
+ * 0. Error estimate: h sum (b_i - bhat_i) K_i filtered by (E/(gamma h) - A)^{-1} E/(gamma h).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "method.h"
+#include "chain.h"
 
 typedef struct state {
   const steif_table *table;
-  int s, first; /* first implicit stage, 0 or 1 */
-  sunrealtype gamma;
-  N_Vector *K, *old, *X; /* slopes of the attempt and of the last step; stage values */
-  N_Vector base, offset, Z, before;
+  stf_chain chain;
+  int s, first;  /* first implicit stage, 0 or 1 */
+  N_Vector *old; /* slopes of the last step */
+  N_Vector before;
   bool accurate; /* stiffly accurate */
   bool stepped;
 } state;
@@ -21,11 +21,12 @@ static int check(stf_step *s, state *e)
 {
   const steif_table *T = e->table;
   e->first = T->A[0] == 0;
-  e->gamma = T->A[e->first * (T->s + 1)];
   for (int i = e->first; i < T->s; i++)
-    STEIF_CHECK(T->A[i * (T->s + 1)] == e->gamma && e->gamma > 0, s->ctx, STEIF_UNSUPPORTED,
-                "table '%s' has different diagonal entries %g and %g: only one shift is served",
-                T->name, e->gamma, T->A[i * (T->s + 1)]);
+    STEIF_CHECK(
+      T->A[i * (T->s + 1)] > 0, s->ctx, STEIF_UNSUPPORTED,
+      "table '%s' has the diagonal entry %g at stage %d: explicit stages are served at the "
+      "beginning only",
+      T->name, T->A[i * (T->s + 1)], i + 1);
   STEIF_CHECK(
     !e->first || s->yp_known, s->ctx, STEIF_UNSUPPORTED,
     "'dirk:%s' begins with the slope y'(t0), which form %s of problem '%s' does not give: "
@@ -42,104 +43,61 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 {
   (void)spec;
   state *e = s->state;
-  stf_split split;
   e->table = table, e->s = table->s;
   e->accurate = table->claims & STEIF_STIFFLY_ACCURATE;
+  e->chain = (stf_chain){.s = e->s, .k = 1, .A = table->A, .c = table->c};
   STEIF_TRY(check(s, e));
-  STEIF_TRY(stf_split_single(s->pool, 1 / e->gamma, &split));
-  STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
-  e->K = stf_claim_vectors(s->pool, e->s, s->y);
+  STEIF_TRY(stf_chain_open(s, table->name, &e->chain));
   e->old = stf_claim_vectors(s->pool, e->s, s->y);
-  e->X = stf_claim_vectors(s->pool, e->s, s->y);
-  e->base = stf_claim_vector(s->pool, s->y);
-  e->offset = stf_claim_vector(s->pool, s->y);
-  e->Z = stf_claim_vector(s->pool, s->y);
   e->before = stf_claim_vector(s->pool, s->y);
   s->error_order = table->order_hat < table->order ? table->order_hat : table->order;
   s->error_tolerance = 1;
-  return e->K && e->old && e->X && e->base && e->offset && e->Z && e->before ? STEIF_OK
-                                                                             : STEIF_NO_MEMORY;
+  return e->old && e->before ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-/* Z begins with the slope before it. */
-static void guess(stf_step *s, int i, sunrealtype gh)
+static int estimate(stf_step *s)
 {
   state *e = s->state;
-  N_Vector slope = i ? e->K[i - 1] : e->stepped && !s->restart ? e->old[e->s - 1] : NULL;
-  slope ? stf_scale(&s->system.space, gh, slope, e->Z) : stf_zero(&s->system.space, e->Z);
-}
-
-/* Stage i: K_i and X_i from the slopes before it. */
-static int stage(stf_step *s, int i, sunrealtype h)
-{
-  state *e = s->state;
-  const stf_space *space = &s->system.space;
-  const sunrealtype gh = e->gamma * h;
-  stf_combine(space, i, e->table->A + i * e->s, e->K, e->base);
-  stf_sum(space, 1, s->y, h, e->base, e->base);
-  const stf_stages g = {.t = s->t,
-                        .h = h,
-                        .c = e->table->c + i,
-                        .base = s->absolute ? NULL : &e->base,
-                        .offset = s->absolute ? &e->offset : NULL,
-                        .Z = &e->Z};
-  if (s->absolute) {
-    stf_scale(space, -1 / gh, e->base, e->offset);
-    STEIF_TRY(stf_solve_stages(s, &g));
-    stf_copy(space, e->Z, e->X[i]);
-    stf_sum(space, 1 / gh, e->Z, -1 / gh, e->base, e->K[i]);
-    return STEIF_OK;
-  }
-  if (!s->system.linear) guess(s, i, gh);
-  STEIF_TRY(stf_solve_stages(s, &g));
-  stf_sum(space, 1, e->base, 1, e->Z, e->X[i]);
-  stf_scale(space, 1 / gh, e->Z, e->K[i]);
-  return STEIF_OK;
-}
-
-static int estimate(stf_step *s, sunrealtype h)
-{
-  state *e = s->state;
-  const stf_space *space = &s->system.space;
   sunrealtype weight[STEIF_STAGES];
-  for (int i = 0; i < e->s; i++) weight[i] = (e->table->b[i] - e->table->bhat[i]) / e->gamma;
-  (void)h;
-  stf_combine(space, e->s, weight, e->K, e->base);
-  STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', e->base, s->error));
-  return steif_pencil_solve(s->system.pencil, 0, 1, &s->error, NULL);
+  for (int i = 0; i < e->s; i++)
+    weight[i] = (e->table->b[i] - e->table->bhat[i]) / e->chain.gamma;
+  stf_combine(&s->system.space, e->s, weight, e->chain.K, e->chain.base);
+  return stf_chain_filter(s, &e->chain);
 }
 
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
+  stf_chain *chain = &e->chain;
   if (e->first) {
     const bool start = !e->stepped || (s->restart && s->yp_known);
-    stf_copy(space, start ? s->yp : e->old[e->s - 1], e->K[0]);
-    stf_copy(space, s->y, e->X[0]);
+    stf_copy(space, start ? s->yp : e->old[e->s - 1], chain->K[0]);
+    stf_copy(space, s->y, chain->X[0]);
   }
-  for (int i = e->first; i < e->s; i++) STEIF_TRY(stage(s, i, h));
+  chain->guess = e->stepped && !s->restart ? e->old[e->s - 1] : NULL;
+  STEIF_TRY(stf_chain_run(s, chain, e->first, &s->y, h));
   if (e->accurate)
-    stf_copy(space, e->X[e->s - 1], s->next);
+    stf_copy(space, chain->X[e->s - 1], s->next);
   else {
-    stf_combine(space, e->s, e->table->b, e->K, s->next);
+    stf_combine(space, e->s, e->table->b, chain->K, s->next);
     stf_sum(space, 1, s->y, h, s->next, s->next);
   }
-  return s->adaptive ? estimate(s, h) : STEIF_OK;
+  return s->adaptive ? estimate(s) : STEIF_OK;
 }
 
 static void commit(stf_step *s)
 {
   state *e = s->state;
   N_Vector *K = e->old, y = e->before;
-  e->old = e->K, e->K = K;
+  e->old = e->chain.K, e->chain.K = K;
   e->before = s->y, s->y = s->next, s->next = y;
   e->stepped = true;
   if (s->system.form == STEIF_IMPLICIT) stf_copy(&s->system.space, e->old[e->s - 1], s->yp);
 }
 
-/* Both end values, the slope at the end (last stage of a stiffly accurate method) and the slope at
- * the start (explicit first stage): of degree 1 to 3, as many as the method gives. */
+/* Both end values, the slope at the end (last stage of a stiffly accurate method) and the slope
+ * at the start (explicit first stage): of degree 1 to 3, as many as the method gives. */
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
   const state *e = s->state;
@@ -162,7 +120,7 @@ static int stages(const stf_step *s, int *count, const sunrealtype **c, const su
                   N_Vector **X)
 {
   const state *e = s->state;
-  *count = e->s, *c = e->table->c, *b = e->table->b, *X = e->X;
+  *count = e->s, *c = e->table->c, *b = e->table->b, *X = e->chain.X;
   return STEIF_OK;
 }
 

@@ -1,6 +1,6 @@
 /* text.c: files as text: opened with a reason when they cannot be, whole or line by line.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "input.h"
+#include "text.h"
 #include <ctype.h>
 #include <errno.h>
 #include <stdint.h>
