@@ -33,6 +33,7 @@ extern "C" {
 enum steif_code {
   STEIF_OK = 0,
   STEIF_RETRY = 1,           /* a callback or a stage failed recoverably: try a smaller step */
+  STEIF_EVENT = 2,           /* a terminal event ended the run; no failure */
   STEIF_NO_MEMORY = -1,      /* an allocation failed */
   STEIF_BAD_INPUT = -2,      /* an argument is out of range, inconsistent or missing */
   STEIF_UNKNOWN_NAME = -3,   /* no method, problem, table or parameter of that name */
@@ -45,7 +46,10 @@ enum steif_code {
   STEIF_STEP_SIZE = -10,     /* the step became too small for the clock */
   STEIF_IO = -11,            /* a file could not be read or written */
   STEIF_BASELINE = -12,      /* CVODE, IDA or ARKODE gave up; the sentence says why */
-  STEIF_NOT_CERTIFIED = -13  /* a verdict or tolerance could not be guaranteed */
+  STEIF_NOT_CERTIFIED = -13, /* a verdict or tolerance could not be guaranteed */
+  STEIF_TIME_LIMIT = -14,    /* options.max_seconds have passed */
+  STEIF_STOPPED = -15,       /* options.stop was set */
+  STEIF_INFEASIBLE = -16     /* a declared constraint such as y_i >= 0 cannot be kept */
 };
 
 typedef struct steif_context steif_context;

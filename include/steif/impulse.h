@@ -95,6 +95,10 @@ STEIF_EXPORT int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F
                                     void *user, const steif_analysis *analysis,
                                     const steif_structure *structure, steif_impulse *impulse);
 STEIF_EXPORT void steif_impulse_clear(steif_context *ctx, steif_impulse *impulse);
+/* y becomes x(t+) of a problem of the descriptor form that arrives with x(t-) = y, for
+ * options.settle; a reaction that wants the impulses calls steif_impulse_find itself. */
+STEIF_EXPORT int steif_settle_jump(steif_context *ctx, const steif_problem *problem,
+                                   sunrealtype t, N_Vector y, N_Vector yp);
 
 /* Pi_s = Phi_{-1} E (slow) into P, n x n by columns: dense pencils only. */
 STEIF_EXPORT int steif_projector_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,

@@ -46,6 +46,17 @@ typedef int (*steif_product)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x,
                              void *user);
 /* y(t) (or y and yp at the start; yp may be NULL). */
 typedef int (*steif_state)(sunrealtype t, N_Vector y, N_Vector yp, void *user);
+/* Several numbers that depend on (t, y): invariants, or event functions; a CVRootFn fits. */
+typedef int (*steif_values)(sunrealtype t, N_Vector y, sunrealtype *value, void *user);
+/* What is to be done at an event at time t, fired[i] = 1 (g_i was rising), -1 (falling), 0 (not this
+ * one). y may be changed, and anything that the callbacks read. Returns an enum steif_reaction, or
+ * < 0: the run fails. */
+typedef int (*steif_react)(sunrealtype t, N_Vector y, const int *fired, void *user);
+enum steif_reaction {
+  STEIF_CONTINUE, /* neither y nor f has changed */
+  STEIF_RESTART,  /* go on from the y left here, without history */
+  STEIF_FINISH    /* the run ends here */
+};
 
 enum steif_form { STEIF_ODE = 1, STEIF_MASS = 2, STEIF_IMPLICIT = 4, STEIF_DESCRIPTOR = 8 };
 
@@ -66,6 +77,12 @@ typedef struct steif_reference {
   int digits;                    /* significant digits that are right; 0: not stated */
   const char *source;
 } steif_reference;
+
+typedef struct steif_event {
+  const char *name; /* NULL: g1, g2, ... */
+  int direction;    /* 1: when g rises, -1: when it falls, 0: both */
+  int terminal;     /* 1: the run ends at the first of them */
+} steif_event;
 
 struct steif_problem {
   const char *name, *about;  /* about: one sentence and a citation */
@@ -105,7 +122,13 @@ struct steif_problem {
   steif_state exact;         /* closed solution, if there is one */
   const steif_reference *reference;
   int invariants;            /* number of conserved quantities ... */
-  int (*invariant)(sunrealtype t, N_Vector y, sunrealtype *value, void *user); /* ... all of them */
+  steif_values invariant;    /* ... all of them */
+  int events;                /* number of event functions g_i(t, y) ... */
+  steif_values event;        /* ... all of them; see solver.h */
+  const steif_event *event_list; /* of each; NULL: both directions, none ends the run */
+  steif_react react;         /* NULL: events are noted only */
+  const sunrealtype *event_times; /* of the first events where they are known, ascending */
+  int event_time_count;
   const sunrealtype *breaks; /* declared discontinuities of f inside (t0, t1), ascending */
   int break_count;
   /* A separable problem: the first `positions` components are q, the others p; q' depends on (t, p)

@@ -15,6 +15,19 @@
  * A stage that Newton's iteration cannot solve is never accepted: with given steps the run stops
  * with STEIF_NO_CONVERGENCE and its sentence; with chosen steps the step is made smaller.
  *
+ * Events are times at which a function g_i(t, y) of the problem changes its sign, or arrives at 0.
+ * They are looked for on the dense output of every accepted step, of every method alike, and
+ * located to 4 rounding errors of t; the time reported is the one behind the change.
+ * Within a step g is sampled at five Chebyshev points; where the polynomial through them comes
+ * back after a change of sign, g itself is asked. An odd number of changes between two samples is
+ * never missed; an even number is when they lie closer than this polynomial tells.
+ *   Changes within 128 rounding errors of t are one event.
+ *   A function that is 0, at the start or for a while, is silent until it has left 0 and comes
+ *   back; leaving is no event. Jumps and poles of g are changes of sign like any other.
+ *   NaN stops the run with STEIF_NOT_FINITE and the name of the function.
+ * problem.react may change y or f at an event: the step then ends there, dense output keeps the
+ * side before, steif_solution shows the one behind it, and the run begins anew from it.
+ *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_SOLVER_H
 #define STEIF_SOLVER_H
@@ -52,9 +65,21 @@ typedef struct steif_options {
                                NULL: that of the spec, else ramp */
   int suppress_algebraic;   /* IDA: leave algebraic components out of the error test */
   int consistent;           /* IDA: 1 IDACalcIC(YA_YDP_INIT), 2 IDACalcIC(Y_INIT) first */
-  /* Called after every accepted step with the step just made; nonzero stops the run. */
+  /* Called after every accepted step with the step just made; nonzero stops the run. Before an
+   * event is reacted to, t is the event and y the side before it; when the run begins anew there,
+   * once more with the side behind it. */
   int (*observe)(steif_solver *s, sunrealtype t, N_Vector y, void *user);
-  void *observer;
+  /* Called at every event before problem.react, which explains `fired`; nonzero stops the run. */
+  int (*notice)(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, void *user);
+  void *observer;                     /* user of both */
+  /* Called before the run begins anew behind problem.react: make y consistent and find y' (yp holds
+   * 0 and may stay so); returns a code. steif_settle (diagnose.h) and steif_settle_jump (impulse.h)
+   * fit. NULL: y stays; algebraic components that are then wrong may stop the run. */
+  int (*settle)(steif_context *ctx, const steif_problem *problem, sunrealtype t, N_Vector y,
+                N_Vector yp);
+  sunrealtype max_seconds;            /* limit on the time of a call by the clock; 0: none */
+  const volatile int *stop;           /* set to nonzero, by a signal handler for example, it lets
+                                         the call return STEIF_STOPPED after the step at hand */
 } steif_options;
 
 /* What a run has cost. cpu_s counts processor seconds inside solve calls (all threads). */
@@ -71,7 +96,9 @@ STEIF_EXPORT steif_solver *steif_solver_new(steif_context *ctx, const steif_prob
                                             const char *method, const steif_options *options);
 STEIF_EXPORT void steif_solver_free(steif_solver **s);
 
-/* Advance until t and put the solution there (dense output between steps). */
+/* Advance until t and put the solution there (dense output between steps). STEIF_EVENT: a terminal
+ * event came first, its time and solution are shown. After STEIF_TIME_LIMIT, STEIF_STOPPED and a
+ * stop by observe or notice the run may go on by another call. */
 STEIF_EXPORT int steif_solve_to(steif_solver *s, sunrealtype t);
 /* Advance by one accepted step. */
 STEIF_EXPORT int steif_solve_step(steif_solver *s);

@@ -8,6 +8,7 @@ static const struct {
 } codes[] = {
   {STEIF_OK, "ok", "nothing to do"},
   {STEIF_RETRY, "retry", "a stage failed recoverably; a smaller step may succeed"},
+  {STEIF_EVENT, "event", "nothing to do: the problem declares that this event ends the run"},
   {STEIF_NO_MEMORY, "no memory", "make the problem smaller or give the process more memory"},
   {STEIF_BAD_INPUT, "bad input", "correct the argument that the sentence names"},
   {STEIF_UNKNOWN_NAME, "unknown name", "list what there is with 'steif list'"},
@@ -22,6 +23,9 @@ static const struct {
   {STEIF_BASELINE, "baseline failed",
    "see the sentence; the same problem may suit a steif method"},
   {STEIF_NOT_CERTIFIED, "not certified", "read the numbers as an estimate only"},
+  {STEIF_TIME_LIMIT, "time limit", "raise max_seconds, or loosen the tolerance"},
+  {STEIF_STOPPED, "stopped", "go on by another call, or use what was computed"},
+  {STEIF_INFEASIBLE, "infeasible", "correct the constraint or the model, or tighten the tolerance"},
 };
 
 static size_t row(int code)

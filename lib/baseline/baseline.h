@@ -33,6 +33,7 @@ typedef struct stf_baseline {
   stf_merge merge;      /* of sparse E and A */
   N_Vector atol;        /* NULL: one number for all components */
   N_Vector work, start; /* start: residual of a failed start (IDA) */
+  N_Vector *pair;       /* for slopes at a start */
   struct {
     const char *who; /* the callback that failed last, NULL: none */
     int verdict;     /* what it returned; 0: it returned a value that is not finite */
@@ -107,6 +108,8 @@ bool stf_baseline_finite(N_Vector v);
 int stf_baseline_ready(stf_baseline *base, stf_run *run, sunrealtype *t_stop);
 /* Time from which the next step begins anew: just behind a break, where f has its new value. */
 sunrealtype stf_baseline_renew(stf_baseline *base);
+/* The run was changed at an event: the next step begins anew. `state` is of any engine. */
+int stf_baseline_renewed(stf_run *run, void *state);
 /* Statistics of the run from the counters of the package. */
 void stf_baseline_count(stf_baseline *base, const steif_stats *now);
 

@@ -93,7 +93,8 @@ static int mass_slopes(stf_baseline *base)
   const size_t n = (size_t)run->problem->n;
   sunindextype *count = stf_allocate(run->ctx, 2 * n, sizeof *count);
   sunrealtype *value = stf_allocate(run->ctx, n, sizeof *value);
-  N_Vector *v = stf_claim_vectors(run->pool, 2, run->like);
+  if (!base->pair) base->pair = stf_claim_vectors(run->pool, 2, run->like);
+  N_Vector *v = base->pair;
   int code = count && value && v ? STEIF_OK : STEIF_NO_MEMORY;
   if (!code && !stf_lower_residual(run->t, run->y, run->yp, v[0], base) && !zero(v[0])) {
     N_VScale(-1, v[0], v[0]);

@@ -43,6 +43,14 @@ sunrealtype stf_baseline_renew(stf_baseline *base)
   return nextafter(base->run->t, INFINITY);
 }
 
+int stf_baseline_renewed(stf_run *run, void *state)
+{
+  stf_baseline *base = state;
+  (void)run;
+  base->restart = true;
+  return STEIF_OK;
+}
+
 void stf_baseline_count(stf_baseline *base, const steif_stats *now)
 {
   stf_run *run = base->run;

@@ -50,7 +50,7 @@ static void accept(steif_solver *s, sunrealtype h, sunrealtype t)
   step->h_try = h;
   step->method->commit(step);
   step->h = h, step->t = t, step->count++;
-  step->newton.fresh = false, step->restart = false;
+  step->newton.fresh = step->restart = step->ended = false;
 }
 
 /* What a refused attempt with a given step means for the run. */
@@ -61,10 +61,9 @@ static int given(steif_solver *s)
   stf_step *step = &s->step;
   const steif_options *o = &s->options;
   const bool mesh = o->mesh != NULL;
-  const sunrealtype t = mesh
-                          ? o->mesh[s->mesh_at + 1]
-                          : s->t1 - (sunrealtype)(s->total - step->count - 1) * step->h_equal;
-  const sunrealtype h = mesh ? t - step->t : step->h_equal;
+  const sunrealtype t = mesh ? o->mesh[s->mesh_at + 1]
+                             : s->t1 - (sunrealtype)(s->total - s->mesh_at - 1) * step->h_equal;
+  const sunrealtype h = mesh || step->restart ? t - step->t : step->h_equal;
   if (!(step->method->traits & STF_EXPLICIT)) STEIF_TRY(renew_weights(s, h));
   const int code = step->method->attempt(step, h);
   if (code) return give_up(s, code);
@@ -189,13 +188,14 @@ static bool passed(const steif_solver *s, sunrealtype at)
   return before(at) - s->step.t <= 8 * STF_EPS * fabs(s->step.t);
 }
 
-/* Slopes from before the break are of no use; the ode form tells the new ones. */
+/* Slopes from before a break or an event are of no use; the ode form tells the new ones. */
 static int begin_anew(steif_solver *s)
 {
   stf_step *step = &s->step;
   step->t = nextafter(step->t, INFINITY);
-  step->yp_known = false;
-  if (step->system.form == STEIF_ODE) {
+  step->yp_known = s->watch && s->watch->settled;
+  if (s->watch) s->watch->settled = false;
+  if (!step->yp_known && step->system.form == STEIF_ODE) {
     const int code = stf_system_rhs(&step->system, step->t, step->y, step->yp);
     if (code < 0) return code;
     step->yp_known = code == STEIF_OK;
@@ -210,7 +210,6 @@ static int free_step(steif_solver *s, sunrealtype t_stop)
 {
   const steif_problem *p = s->problem;
   stf_step *step = &s->step;
-  if (step->restart) STEIF_TRY(begin_anew(s));
   while (s->next_break < p->break_count && passed(s, p->breaks[s->next_break])) s->next_break++;
   const bool breaks = s->next_break < p->break_count && p->breaks[s->next_break] < t_stop;
   if (!breaks) return chosen(s, t_stop);
@@ -229,6 +228,7 @@ int stf_advance(steif_solver *s, sunrealtype t_stop)
     "%ld steps made at t = %.12g of problem '%s', the limit: raise max_steps or loosen the "
     "tolerance",
     step->count, step->t, s->problem->name);
+  if (step->restart) STEIF_TRY(begin_anew(s));
   return step->adaptive ? free_step(s, t_stop) : given(s);
 }
 

@@ -34,6 +34,8 @@ typedef struct steif_engine {
   int (*step)(stf_run *run, void *state, sunrealtype t_stop);
   /* The solution at a time inside the last step. */
   int (*dense)(stf_run *run, void *state, sunrealtype t, N_Vector y);
+  /* The next step begins anew from (run->t, run->y); run->yp holds slopes, or 0 where unknown. */
+  int (*renew)(stf_run *run, void *state);
   void (*close)(stf_run *run, void *state);
 } steif_engine;
 

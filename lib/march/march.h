@@ -4,6 +4,7 @@
 #define STF_MARCH_H
 
 #include "engine.h"
+#include "event.h"
 #include "method.h"
 #include <steif/solver.h>
 
@@ -17,12 +18,17 @@ struct steif_solver {
   N_Vector serial, shown, dense,
     atols; /* serial: our own prototype vector, if none was given */
   sunrealtype t_shown;
+  sunrealtype end;            /* the solution is known up to here */
+  stf_watch *watch;           /* of events; NULL: none */
+  bool attended;              /* stf_attended */
+  bool finished;              /* by an event */
+  bool asked;                 /* the observer wishes to stop */
   stf_step step;              /* a method of ours ... */
   const steif_engine *engine; /* ... or a baseline */
   void *engine_state;
   stf_run run;
   long total, rejected; /* equal steps in all; refused attempts */
-  size_t mesh_at;
+  long mesh_at;         /* given steps: intervals of the mesh or grid left behind */
   int next_break;
   sunrealtype h_next, h_old, error_old; /* chosen steps */
   bool after_reject, failed;
@@ -38,6 +44,15 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
 
 /* One accepted step of a method of ours, not beyond t_stop when steps are chosen. */
 int stf_advance(steif_solver *s, sunrealtype t_stop);
+
+/* Is there more to do after a step than to go on? */
+bool stf_attended(const steif_solver *s);
+
+/* Show y at t to the observer; what it wishes is kept. */
+void stf_observe(steif_solver *s, sunrealtype t, N_Vector y);
+
+/* Dense output of the last step as the method made it, unchecked. */
+int stf_dense(steif_solver *s, sunrealtype t, N_Vector y);
 
 /* First length of a chosen step. */
 sunrealtype stf_first_step(const steif_solver *s);

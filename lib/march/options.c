@@ -46,6 +46,8 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
               ctx, STEIF_BAD_INPUT,
               "max_steps = %ld, iterations = %d, newton = %g must not be negative",
               o->max_steps, o->iterations, o->newton);
+  STEIF_CHECK(o->max_seconds >= 0, ctx, STEIF_BAD_INPUT,
+              "max_seconds = %g must not be negative; 0 means no limit", o->max_seconds);
   if (o->mesh) STEIF_TRY(check_mesh(ctx, o, p->t0));
   STEIF_CHECK(isfinite(o->t1) && o->t1 > p->t0, ctx, STEIF_BAD_INPUT,
               "the end t1 = %g must lie after the start t0 = %g of problem '%s'", o->t1, p->t0,

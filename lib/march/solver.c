@@ -1,10 +1,9 @@
-/* solver.c: the solver object: make it from a problem, a spec and options; step; show.
+/* solver.c: the solver object: made from a problem, a spec and options.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "march.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 const steif_engine *stf_engine_find(const char *name)
 {
@@ -209,14 +208,17 @@ static int open(steif_solver *s, const char *method)
   if (!form) return steif_status(s->ctx);
   STEIF_TRY(stf_options_complete(s->ctx, s->problem, &s->options));
   STEIF_TRY(check_vector(s->ctx, s->problem, &s->options));
-  s->t1 = s->options.t1, s->t_shown = s->problem->t0;
+  s->t1 = s->options.t1, s->t_shown = s->end = s->problem->t0;
   STEIF_TRY(open_vectors(s, &y, &yp));
   snprintf(s->method, sizeof s->method, "%s", method);
   if (!strcmp(method, "auto"))
     method = stf_choose(s->problem, &s->options, form, s->method, sizeof s->method);
   STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
   s->engine = stf_engine_find(spec.name);
-  return s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp);
+  STEIF_TRY(s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp));
+  STEIF_TRY(stf_watch_open(s));
+  s->attended = stf_attended(s);
+  return STEIF_OK;
 }
 
 steif_solver *steif_solver_new(steif_context *ctx, const steif_problem *problem,
@@ -245,131 +247,4 @@ void steif_solver_free(steif_solver **s)
   stf_pool_free(&(*s)->pool);
   stf_release(ctx, *s);
   *s = NULL;
-}
-
-/* -- running -------------------------------------------------------------------------------------- */
-
-static sunrealtype now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return (sunrealtype)t.tv_sec + 1e-9 * (sunrealtype)t.tv_nsec;
-}
-
-sunrealtype steif_time(const steif_solver *s) { return s->t_shown; }
-
-const char *steif_method_used(const steif_solver *s) { return s->method; }
-
-N_Vector steif_solution(steif_solver *s) { return s->shown; }
-
-/* Time reached by accepted steps. */
-static sunrealtype reached(const steif_solver *s) { return s->engine ? s->run.t : s->step.t; }
-
-static int step_once(steif_solver *s)
-{
-  const int code =
-    s->engine ? s->engine->step(&s->run, s->engine_state, s->t1) : stf_advance(s, s->t1);
-  if (code) {
-    s->failed = true, s->failure = code > 0 ? steif_status(s->ctx) : code;
-    snprintf(s->why, sizeof s->why, "%s", steif_message(s->ctx));
-    return s->failure;
-  }
-  s->shown = s->engine ? s->run.y : s->step.y;
-  s->t_shown = reached(s);
-  if (!s->options.observe) return STEIF_OK;
-  const int wish = s->options.observe(s, s->t_shown, s->shown, s->options.observer);
-  STEIF_CHECK(wish == 0, s->ctx, STEIF_CALLBACK, "the observer stopped the run at t = %.12g",
-              s->t_shown);
-  return STEIF_OK;
-}
-
-static int ready(steif_solver *s)
-{
-  STEIF_CHECK(!s->failed, s->ctx, s->failure,
-              "the run had failed before, at t = %.12g (%s): make a new solver", reached(s),
-              s->why);
-  return STEIF_OK;
-}
-
-int steif_solve_step(steif_solver *s)
-{
-  STEIF_TRY(ready(s));
-  STEIF_CHECK(reached(s) < s->t1, s->ctx, STEIF_BAD_INPUT,
-              "the run is at its end t1 = %.12g: no step is left", s->t1);
-  const sunrealtype before = now();
-  const int code = step_once(s);
-  s->cpu_s += now() - before;
-  if (!code) steif_forget(s->ctx);
-  return code;
-}
-
-/* Show the solution at t inside the last step. */
-static int show(steif_solver *s, sunrealtype t)
-{
-  STEIF_TRY(steif_dense(s, t, s->dense));
-  s->shown = s->dense, s->t_shown = t;
-  return STEIF_OK;
-}
-
-int steif_solve_to(steif_solver *s, sunrealtype t)
-{
-  STEIF_TRY(ready(s));
-  STEIF_CHECK(isfinite(t) && t >= s->problem->t0 &&
-                t <= s->t1 * (1 + (s->t1 > 0 ? 1e-14 : -1e-14)),
-              s->ctx, STEIF_BAD_INPUT,
-              "t = %.17g lies outside the interval [%.17g, %.17g] of the "
-              "run: set options.t1",
-              t, s->problem->t0, s->t1);
-  if (t > s->t1) t = s->t1;
-  const sunrealtype before = now();
-  int code = STEIF_OK;
-  while (!code && reached(s) < t) code = step_once(s);
-  if (!code && reached(s) > t) code = show(s, t);
-  if (!code && reached(s) == t) s->shown = s->engine ? s->run.y : s->step.y, s->t_shown = t;
-  s->cpu_s += now() - before;
-  if (!code) steif_forget(s->ctx);
-  return code;
-}
-
-int steif_dense(steif_solver *s, sunrealtype t, N_Vector y)
-{
-  const sunrealtype end = reached(s), h = s->engine ? s->run.stats.h_last : s->step.h;
-  const sunrealtype slack = 1e-12 * (fabs(end) + h);
-  STEIF_CHECK(s->engine || s->step.count > 0, s->ctx, STEIF_BAD_INPUT,
-              "no step has been made yet");
-  STEIF_CHECK(t >= end - h - slack && t <= end + slack, s->ctx, STEIF_BAD_INPUT,
-              "t = %.17g lies outside the last step [%.17g, %.17g]", t, end - h, end);
-  return s->engine ? s->engine->dense(&s->run, s->engine_state, t, y)
-                   : s->step.method->dense(&s->step, t, y);
-}
-
-int steif_stages(steif_solver *s, int *count, const sunrealtype **c, const sunrealtype **b,
-                 N_Vector **X)
-{
-  *count = 0;
-  if (s->engine || !s->step.method->stages || s->step.count == 0) return STEIF_OK;
-  return s->step.method->stages(&s->step, count, c, b, X);
-}
-
-const steif_stats *steif_statistics(steif_solver *s)
-{
-  steif_stats *out = &s->stats;
-  if (s->engine)
-    *out = s->run.stats;
-  else {
-    const stf_step *step = &s->step;
-    const steif_pencil_stats *pencil =
-      step->system.pencil ? steif_pencil_statistics(step->system.pencil) : NULL;
-    *out = (steif_stats){.steps = step->count,
-                         .rejected = s->rejected,
-                         .nfe = step->system.nfe,
-                         .nje = step->system.nje,
-                         .newton = step->newton.sweeps,
-                         .newton_fails = step->newton.fails,
-                         .h_last = step->h};
-    if (pencil) out->nlu = pencil->factors + pencil->refactors, out->nsolve = pencil->solves;
-    out->nlu += step->factors, out->nsolve += step->solves;
-  }
-  out->cpu_s = s->cpu_s;
-  return out;
 }

@@ -57,6 +57,7 @@ struct stf_step {
   bool yp_known, adaptive, absolute; /* absolute: stages solved for Y, not for Y - y_n */
   bool refused;                      /* this attempt repeats one that was refused */
   bool restart;      /* the next step follows a discontinuity: no history before t */
+  bool ended;        /* stf_hermite has the slope at the end of the last step */
   sunrealtype h_try; /* of the trial */
   N_Vector next, error, weights;
   long factors, solves;                      /* made by a family without the pencil */

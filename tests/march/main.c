@@ -4,7 +4,7 @@
 
 extern CU_TestInfo tests_of_steps[], tests_of_run[], tests_of_options[], tests_of_dense[],
   tests_of_digits[], tests_of_counts[], tests_of_breaks[], tests_of_engines[],
-  tests_of_weights[];
+  tests_of_weights[], tests_of_events[], tests_of_reactions[], tests_of_limits[];
 
 SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "run", .pTests = tests_of_run},
@@ -14,4 +14,7 @@ SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "counts", .pTests = tests_of_counts},
            {.pName = "breaks", .pTests = tests_of_breaks},
            {.pName = "engines", .pTests = tests_of_engines},
-           {.pName = "weights", .pTests = tests_of_weights})
+           {.pName = "weights", .pTests = tests_of_weights},
+           {.pName = "events", .pTests = tests_of_events},
+           {.pName = "reactions", .pTests = tests_of_reactions},
+           {.pName = "limits", .pTests = tests_of_limits})

@@ -278,5 +278,6 @@ const steif_engine steif_engine_arkode = {
   .open = open,
   .step = step,
   .dense = dense,
+  .renew = stf_baseline_renewed,
   .close = close,
 };

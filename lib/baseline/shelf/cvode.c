@@ -155,5 +155,6 @@ const steif_engine steif_engine_cvode = {
   .open = open,
   .step = step,
   .dense = dense,
+  .renew = stf_baseline_renewed,
   .close = close,
 };

@@ -180,14 +180,13 @@ static void collect(ida *s)
   stf_baseline_count(&s->base, &n);
 }
 
-/* Behind a break; y' is f of that side where the form tells it. */
+/* Behind a break or an event; y' is found where the form tells it and it is not known. */
 static int renew(ida *s)
 {
   stf_run *run = s->base.run;
-  const sunrealtype t = stf_baseline_renew(&s->base);
-  if (run->form == STEIF_ODE && stf_baseline_rhs(t, run->y, run->yp, &s->base))
-    return IDA_FIRST_RES_FAIL;
-  return IDAReInit(s->memory, t, run->y, run->yp);
+  run->t = stf_baseline_renew(&s->base);
+  if (stf_start_slopes(&s->base)) return IDA_FIRST_RES_FAIL;
+  return IDAReInit(s->memory, run->t, run->y, run->yp);
 }
 
 static int step(stf_run *run, void *state, sunrealtype t_stop)
@@ -227,5 +226,6 @@ const steif_engine steif_engine_ida = {
   .open = open,
   .step = step,
   .dense = dense,
+  .renew = stf_baseline_renewed,
   .close = close,
 };

@@ -4,7 +4,7 @@
 
 typedef struct state {
   const steif_table *table;
-  N_Vector *K, work, end_slope; /* end_slope: f(t, y) of the trial's end, for dense output */
+  N_Vector *K, work, end_slope; /* end_slope: f at the end of the last step, for dense output */
   N_Vector before;              /* y and slope at the start of the last step */
   N_Vector slope;
 } state;

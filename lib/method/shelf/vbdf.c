@@ -74,7 +74,7 @@ static int solve(stf_step *s, sunrealtype h)
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
-  if (s->restart) e->points = 1, e->k = 1, e->wait = 2;
+  if (s->restart) e->points = 1, e->k = 1, e->wait = 2, e->t[0] = s->t;
   if (!s->refused) e->refusals = 0;
   if (++e->refusals > 4) e->k = 1; /* the history is not to be trusted */
   if (e->k > e->points) e->k = e->points;
