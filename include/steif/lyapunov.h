@@ -1,19 +1,22 @@
-/* steif/lyapunov.h: Lyapunov exponents of numerical solutions, and whether steps are short enough.
+/* steif/lyapunov.h: Lyapunov exponents of numerical solutions, and whether steps are short
+ * enough.
  *
- * A Runge-Kutta method or a BDF with equal steps turns W' = J(t, y(t)) W along its own solution
- * of y' = f(t, y) into a linear recurrence. Discrete QR after every step,
+ * A Runge-Kutta, multistep or general linear method with equal steps turns W' = J(t, y(t)) W
+ * along its own solution of y' = f(t, y) into a linear recurrence. Discrete QR after every
+ * step,
  *   W_n = Q_n R_n,  W <- W R_n^{-1},  exponent_i = mean of ln (R_n)_ii / h,
- * gives the exponents of that recurrence: those of the problem as h -> 0, and the verdict on the
- * step itself where the problem decays and the numbers grow (Steyer and Van Vleck, arXiv
- * 1709.02059; Dieci and Van Vleck, SIAM J. Numer. Anal. 40, 2002). For a BDF, W_n is the
- * combination ell X_n of the history X_n that its parasitic roots leave alone, ell V = ell.
+ * gives the exponents of that recurrence: those of the problem as h -> 0, and the verdict on
+ * the step itself where the problem decays and the numbers grow (Steyer and Van Vleck, arXiv
+ * 1709.02059; Dieci and Van Vleck, SIAM J. Numer. Anal. 40, 2002). W_n is the combination
+ * ell X_n of the history X_n that the parasitic modes leave alone, ell V = ell (glm.h).
  *
  *   steif_lyapunov_options o = {.h = 0.01, .t1 = 500, .transient = 20};
  *   sunrealtype exponent[3];
  *   steif_lyapunov(ctx, &lorenz, "rk4", &o, exponent, NULL, NULL);
  *
  * The problem is an ode with .f and .jac on serial vectors. Tables (gauss:s=2, dirk:alexander2,
- * rk4, ...) and be, bdf:p=2 .. 6 have such a recurrence here; others give STEIF_UNSUPPORTED.
+ * rk4, ...), be, bdf:p=2 .. 6 and glm:TABLE have such a recurrence; others give
+ * STEIF_UNSUPPORTED.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_LYAPUNOV_H
@@ -45,17 +48,19 @@ typedef struct steif_lyapunov_facts {
 } steif_lyapunov_facts;
 
 /* exponent: count values in the order of QR, which descends as the run grows. interval (may be
- * NULL): count pairs, the smallest and largest average over a window, estimates of the Sacker-Sell
- * spectrum. Every step costs the same. With a long h the parasitic roots of a BDF may lead before
- * the exponents of small solutions. STEIF_NOT_FINITE: blow-up, or a direction is lost. */
+ * NULL): count pairs, the smallest and largest average over a window, estimates of the
+ * Sacker-Sell spectrum. Every step costs the same. With a long h the parasitic roots of a BDF
+ * may lead before the exponents of small solutions. STEIF_NOT_FINITE: blow-up, or a direction
+ * is lost. */
 STEIF_EXPORT int steif_lyapunov(steif_context *ctx, const steif_problem *problem,
                                 const char *method, const steif_lyapunov_options *options,
                                 sunrealtype *exponent, sunrealtype *interval,
                                 steif_lyapunov_facts *facts);
 
-/* One solution x_n of the recurrence, from y0, of a linear problem x' = A(t) x (a forcing is left
- * out): how it grows and how far every step is from the exact flow. History of a BDF: from rk4.
- * N steps, w_n = ell X_n, t_n the oldest time in X_n. */
+/* One solution x_n of the recurrence, from y0, of a linear problem x' = A(t) x (a forcing is
+ * left out): how it grows and how far every step is from the exact flow. History of a BDF: from
+ * rk4; of other methods: fitted to exact values in the first step. N steps, w_n = ell X_n, t_n
+ * the oldest time in X_n. */
 typedef struct steif_growth_facts {
   long steps;
   sunrealtype mu;        /* max over n >= N/2 of ln(|w_n| / |x_0|) / (t_n - t_0) */
@@ -64,6 +69,7 @@ typedef struct steif_growth_facts {
   sunrealtype lte_mean, lte_max; /* |x_{n+1} - X(t_{n+1}, t_n) x_n|, X the exact flow (Gauss, order
                                     12, with substeps) */
   sunrealtype residual_mean, residual_max; /* of the BDF formula on the exact solution; else NaN */
+  sunrealtype local_mean, local_max; /* the same on the exact solution through x_n */
   sunrealtype tau_max;   /* largest ratio of consecutive lte; the first 50 are left out when there
                             are 100 */
   sunrealtype norm_max, norm_end; /* of x_n */
@@ -74,6 +80,23 @@ STEIF_EXPORT int steif_growth_measure(steif_context *ctx, const steif_problem *p
                                       const char *method,
                                       const steif_lyapunov_options *options,
                                       steif_growth_facts *facts);
+
+/* The one-step map of a linear problem that the recurrence settles on: after burn_in steps of
+ * any n columns, W_n = ell X_n and Z_n, the solution itself at t_n, have maps
+ *   Phi_w = W_{n+1} W_n^{-1},   Phi_f = Z_{n+1} Z_n^{-1}
+ * that depend on the columns no more. Phi_f is off the exact X(t_{n+1}, t_n) by O(h^{p+1});
+ * Phi_w by O(h^2) as a rule, whatever p is, since W_n = Z_n + O(h) (the change of coordinates
+ * is bounded, so the exponents are the same). */
+typedef struct steif_underlying {
+  long burn_in;                        /* in; 0: twice as many as take the parasitic modes
+                                          of h = 0 below 1e-15, 64 at least; out */
+  sunrealtype *Phi_w, *Phi_f, *exact;  /* room for n x n each, by rows */
+} steif_underlying;
+
+/* start: k blocks n x n by rows at t0; NULL: u_j I. */
+STEIF_EXPORT int steif_underlying_find(steif_context *ctx, const steif_problem *problem,
+                                       const char *method, sunrealtype h,
+                                       const sunrealtype *start, steif_underlying *out);
 
 #ifdef __cplusplus
 }

@@ -33,6 +33,18 @@ static bool on_shelf(const char *name)
   return false;
 }
 
+/* Methods that choose order and step themselves are run by the solver only. */
+static int foreign(steif_context *ctx, const char *name)
+{
+  static const char *const names[] = {"auto", "cvode", "ida", "arkode"};
+  for (int i = 0; i < 4; i++)
+    STEIF_CHECK(strcmp(name, names[i]), ctx, STEIF_UNSUPPORTED,
+                "'%s' chooses its %s: it has no one step on y' = lambda y; take a method of given "
+                "order such as bdf:p=3",
+                name, i ? "order and step" : "method");
+  return STEIF_OK;
+}
+
 /* The names a method may begin with, for suggestions. */
 static int unknown(steif_context *ctx, const steif_spec *spec)
 {
@@ -113,6 +125,7 @@ int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_meth
     *method = family(spec->name);
     return named_table(ctx, spec, dirk ? STEIF_DIRK : STEIF_GLM, table);
   }
+  STEIF_TRY(foreign(ctx, spec->name));
   if (!on_shelf(spec->name)) return unknown(ctx, spec);
   *table = stf_table_build(ctx, spec);
   if (!*table) return steif_status(ctx);

@@ -1,20 +1,20 @@
-/* growth.c: growth and one-step defects of a numerical solution of x' = A(t) x.
- *
- * The exact flow over a step is that of Gauss's method of order 12 with substeps: h |A| is below 1/2
- * in each of them (while that needs at most 64), so its error is that of rounding.
+/* growth.c: growth and one-step defects of a numerical solution of x' = A(t) x. The exact flow
+ * over a step is that of Gauss's method of order 12 with substeps.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "variation.h"
 #include <math.h>
 #include <string.h>
 
-enum { SUBSTEPS = 64, LEFT_OUT = 50 };
+enum { LEFT_OUT = 50 };
 
 typedef struct column {
   stf_variation v, flow, start;
-  sunrealtype *z, *old, *y; /* exact column: k blocks, the oldest first; flow of x; scratch */
+  sunrealtype *x, *old; /* the solution, and where the flow takes the one before */
+  sunrealtype *z, *y;   /* exact column: k blocks, the oldest first; scratch */
   sunrealtype size0, lte_old;
   long defects, ratios, residuals;
+  bool multistep;
   sunrealtype log_half, t_half; /* ln |w| where the second half begins */
   steif_growth_facts out;
 } column;
@@ -33,36 +33,10 @@ static sunrealtype distance(int d, const sunrealtype *x, const sunrealtype *y)
   return sum;
 }
 
-/* |J| of the last step by row sums. */
-static sunrealtype size_of(const stf_variation *v)
+static int exact_step(column *c, sunrealtype t, sunrealtype h, sunrealtype *x)
 {
-  sunrealtype most = 0;
-  for (int i = 0; i < v->formula.r * v->d; i++) {
-    sunrealtype row = 0;
-    for (int j = 0; j < v->d; j++) row += fabs(v->J[i * v->d + j]);
-    most = fmax(most, row);
-  }
-  return most;
+  return stf_variation_carry(&c->flow, t, h, stf_variation_substeps(&c->v, h), x);
 }
-
-/* x := one column carried from t over h by `count` steps of v. */
-static int carry(stf_variation *v, sunrealtype t, sunrealtype h, int count, sunrealtype *x)
-{
-  const size_t bytes = (size_t)v->d * sizeof *x;
-  v->t = v->t0 = t, v->count = 0, v->h = h / count;
-  memcpy(v->X, x, bytes);
-  for (int i = 0; i < count; i++) STEIF_TRY(stf_variation_step(v));
-  memcpy(x, v->X, bytes);
-  return STEIF_OK;
-}
-
-static int exact_step(column *c, sunrealtype t, sunrealtype *x)
-{
-  const sunrealtype wanted = ceil(2 * c->v.h * (1 + size_of(&c->v)));
-  return carry(&c->flow, t, c->v.h, wanted < SUBSTEPS ? (int)wanted : SUBSTEPS, x);
-}
-
-static sunrealtype *newest(const column *c) { return c->v.X + (c->v.formula.k - 1) * c->v.d; }
 
 /* ---- what is measured ---- */
 
@@ -92,70 +66,121 @@ static void defect(column *c, sunrealtype lte)
 
 static void size(column *c)
 {
-  c->out.norm_end = norm(c->v.d, newest(c));
+  c->out.norm_end = norm(c->v.d, c->x);
   c->out.norm_max = fmax(c->out.norm_max, c->out.norm_end);
 }
 
-/* z_{n+1} - sum U_j z_j - h beta J z_{n+1} at the exact solution; z moves on. */
-static int residual(column *c, sunrealtype t)
+/* |x_k - sum U_j x_j - h beta J x_k| of k + 1 blocks, the oldest first, J of the step just
+ * made. */
+static sunrealtype formula(column *c, const sunrealtype *x)
 {
-  const stf_formula *g = &c->v.formula;
+  const steif_glm *g = c->v.g;
   const int d = c->v.d, k = g->k;
-  sunrealtype *z = c->z + k * d;
-  memcpy(z, z - d, (size_t)d * sizeof *z);
-  STEIF_TRY(exact_step(c, t, z));
   for (int a = 0; a < d; a++) {
-    c->y[a] = z[a];
-    for (int j = 0; j < k; j++) c->y[a] -= g->U[j] * c->z[j * d + a];
-    for (int b = 0; b < d; b++) c->y[a] -= c->v.h * g->C[0] * c->v.J[a * d + b] * z[b];
+    c->y[a] = x[k * d + a];
+    for (int j = 0; j < k; j++) c->y[a] -= g->U[j] * x[j * d + a];
+    for (int b = 0; b < d; b++) c->y[a] -= c->v.h * g->C[0] * c->v.J[a * d + b] * x[k * d + b];
   }
-  const sunrealtype left = norm(d, c->y);
+  return norm(d, c->y);
+}
+
+static void average(sunrealtype value, long count, sunrealtype *mean, sunrealtype *most)
+{
+  *most = fmax(*most, value);
+  *mean += (value - *mean) / (sunrealtype)count;
+}
+
+/* Of the exact solution (z moves on) and of the one through the value before the step, `old`
+ * after it. */
+static int residuals(column *c, sunrealtype t, const sunrealtype *before)
+{
+  const int d = c->v.d, k = c->v.g->k;
+  const size_t bytes = (size_t)d * sizeof *before;
+  sunrealtype *z = c->z + k * d, *local = z + d;
+  memcpy(z, z - d, bytes);
+  STEIF_TRY(exact_step(c, t, c->v.h, z));
+  average(formula(c, c->z), ++c->residuals, &c->out.residual_mean, &c->out.residual_max);
   memmove(c->z, c->z + d, (size_t)(k * d) * sizeof *z);
-  c->out.residual_max = fmax(c->out.residual_max, left);
-  c->out.residual_mean += (left - c->out.residual_mean) / (sunrealtype)++c->residuals;
+  memcpy(local + k * d, c->old, bytes), memcpy(local + (k - 1) * d, before, bytes);
+  for (int j = k - 2; j >= 0; j--) {
+    memcpy(local + j * d, local + (j + 1) * d, bytes);
+    STEIF_TRY(exact_step(c, t - (k - 2 - j) * c->v.h, -c->v.h, local + j * d));
+  }
+  average(formula(c, local), c->residuals, &c->out.local_mean, &c->out.local_max);
   return STEIF_OK;
 }
 
 /* ---- the run ---- */
 
 /* x_0 .. x_{k-1} by rk4, and the exact column beside them. */
-static int begin(column *c, bool multistep)
+static int begin_multistep(column *c)
 {
-  const int d = c->v.d, k = c->v.formula.k;
-  const sunrealtype t0 = c->v.t0, h = c->v.h, *y0 = c->v.problem->y0;
-  const size_t bytes = (size_t)d * sizeof *y0;
-  memcpy(c->v.X, y0, bytes), memcpy(c->z, y0, bytes);
-  c->size0 = c->out.norm_max = norm(d, y0);
-  STEIF_CHECK(c->size0 > 0, c->v.ctx, STEIF_BAD_INPUT,
-              "'%s' starts at 0, and so it stays: give another y0", c->v.problem->name);
-  STEIF_TRY(stf_variation_matrix(&c->v, 0, t0, c->v.y));
+  const int d = c->v.d, k = c->v.g->k;
+  const sunrealtype t0 = c->v.t0, h = c->v.h;
+  const size_t bytes = (size_t)d * sizeof *c->z;
+  memcpy(c->v.X, c->x, bytes), memcpy(c->z, c->x, bytes);
   for (int j = 1; j < k; j++) {
     const sunrealtype t = t0 + (j - 1) * h;
     sunrealtype *x = c->v.X + j * d, *z = c->z + j * d;
     memcpy(x, x - d, bytes), memcpy(z, z - d, bytes);
-    STEIF_TRY(carry(&c->start, t, h, 1, x));
-    STEIF_TRY(exact_step(c, t, z));
+    STEIF_TRY(stf_variation_carry(&c->start, t, h, 1, x));
+    STEIF_TRY(exact_step(c, t, h, z));
     c->out.norm_max = fmax(c->out.norm_max, norm(d, x));
   }
+  memcpy(c->x, c->v.X + (k - 1) * d, bytes);
   c->v.t0 = t0 + (k - 1) * h, c->v.t = c->v.t0;
-  c->out.mu = -INFINITY, c->log_half = NAN;
-  c->out.residual_mean = c->out.residual_max = multistep ? 0 : NAN;
   return STEIF_OK;
 }
 
-static int follow(column *c, bool multistep)
+/* X_0 fitted to exact values in the first step. */
+static int begin_general(column *c)
 {
-  const int k = c->v.formula.k;
+  const steif_glm *g = c->v.g;
+  const int d = c->v.d, count = stf_glm_powers(g), n = count + 1;
+  sunrealtype first[STEIF_PAST * (STEIF_PAST + 1)];
+  stf_glm_first(g, count, first);
+  memset(c->v.X, 0, (size_t)(g->k * d) * sizeof *c->x);
+  memcpy(c->old, c->x, (size_t)d * sizeof *c->x);
+  for (int i = 0; i < n; i++) {
+    const sunrealtype step = c->v.h / (count ? count : 1);
+    if (i) STEIF_TRY(exact_step(c, c->v.t0 + (i - 1) * step, step, c->old));
+    for (int j = 0; j < g->k; j++)
+      for (int a = 0; a < d; a++) c->v.X[j * d + a] += first[j * n + i] * c->old[a];
+  }
+  return STEIF_OK;
+}
+
+static int begin(column *c)
+{
+  const int d = c->v.d;
+  memcpy(c->x, c->v.problem->y0, (size_t)d * sizeof *c->x);
+  c->size0 = c->out.norm_max = norm(d, c->x);
+  STEIF_CHECK(c->size0 > 0, c->v.ctx, STEIF_BAD_INPUT,
+              "'%s' starts at 0, and so it stays: give another y0", c->v.problem->name);
+  STEIF_TRY(stf_variation_matrix(&c->v, 0, c->v.t0, c->v.y));
+  c->out.mu = -INFINITY, c->log_half = NAN;
+  if (c->multistep) return begin_multistep(c);
+  c->out.residual_mean = c->out.residual_max = NAN;
+  c->out.local_mean = c->out.local_max = NAN;
+  return begin_general(c);
+}
+
+static int follow(column *c)
+{
+  const int behind = c->multistep ? c->v.g->k - 1 : 0;
+  const size_t bytes = (size_t)c->v.d * sizeof *c->x;
+  sunrealtype *before = c->y + c->v.d;
   growth(c, 0);
-  for (long n = 1; n + k - 1 <= c->out.steps; n++) {
+  for (long n = 1; n + behind <= c->out.steps; n++) {
     const sunrealtype t = c->v.t;
-    memcpy(c->old, newest(c), (size_t)c->v.d * sizeof *c->old);
+    memcpy(c->old, c->x, bytes), memcpy(before, c->x, bytes);
     STEIF_TRY(stf_variation_step(&c->v));
-    STEIF_TRY(exact_step(c, t, c->old));
-    defect(c, distance(c->v.d, newest(c), c->old));
+    STEIF_TRY(exact_step(c, t, c->v.h, c->old));
+    stf_variation_solution(&c->v, c->x);
+    defect(c, distance(c->v.d, c->x, c->old));
     size(c);
     growth(c, n);
-    if (multistep) STEIF_TRY(residual(c, t));
+    if (c->multistep) STEIF_TRY(residuals(c, t, before));
     STEIF_CHECK(
       isfinite(c->out.norm_end) && isfinite(c->out.lte_max), c->v.ctx, STEIF_NOT_FINITE,
       "the solution of '%s' by %s overflows at t = %.12g: end the run before, or take a "
@@ -178,14 +203,14 @@ static int open(stf_pool *pool, steif_context *ctx, const steif_problem *p, cons
               p->name);
   STEIF_TRY(stf_variation_open(pool, ctx, p, "gauss:s=6", h, t1, 1, 1, &c->flow));
   STEIF_TRY(stf_variation_open(pool, ctx, p, "rk4", h, t1, 1, 1, &c->start));
-  const int k = c->v.formula.k;
+  const int k = c->v.g->k;
   STEIF_CHECK(c->out.steps >= k, ctx, STEIF_BAD_INPUT,
               "%ld steps are too few: %s needs %d values to begin with", c->out.steps, method,
               k);
   const size_t d = (size_t)c->v.d;
-  c->z = stf_claim(pool, (STF_PAST + 3) * d, sizeof *c->z);
+  c->z = stf_claim(pool, (2 * ((size_t)k + 1) + 4) * d, sizeof *c->z);
   if (!c->z) return STEIF_NO_MEMORY;
-  c->old = c->z + (STF_PAST + 1) * d, c->y = c->old + d;
+  c->x = c->z + 2 * ((size_t)k + 1) * d, c->old = c->x + d, c->y = c->old + d;
   return STEIF_OK;
 }
 
@@ -197,12 +222,12 @@ int steif_growth_measure(steif_context *ctx, const steif_problem *problem, const
   STEIF_CHECK(problem && method && options && facts, ctx, STEIF_BAD_INPUT,
               "a problem, a method, options and room for the facts are needed");
   STEIF_TRY(steif_method_find(ctx, method, &info));
-  const bool multistep = !strcmp(info.family, "bdf");
+  c.multistep = !strcmp(info.family, "bdf");
   stf_pool *pool = stf_pool_new(ctx);
   if (!pool) return STEIF_NO_MEMORY;
   int code = open(pool, ctx, problem, method, options, &c);
-  if (code == STEIF_OK) code = begin(&c, multistep);
-  if (code == STEIF_OK) code = follow(&c, multistep);
+  if (code == STEIF_OK) code = begin(&c);
+  if (code == STEIF_OK) code = follow(&c);
   if (code == STEIF_OK) *facts = c.out;
   stf_pool_free(&pool);
   return code;

@@ -53,7 +53,8 @@ static int room(stf_pool *pool, spectrum *s)
   return STEIF_OK;
 }
 
-/* A step, and X made orthonormal in the principal coordinate; ln R_ii are left on R's diagonal. */
+/* A step, and X made orthonormal in the principal coordinate; ln R_ii are left on R's diagonal.
+ * */
 static int turn(spectrum *s)
 {
   stf_variation *v = &s->v;
@@ -64,16 +65,16 @@ static int turn(spectrum *s)
     "a direction of the variational equation of '%s' vanished or overflowed in the step "
     "of %s to t = %.12g: take a smaller h, or fewer exponents",
     v->problem->name, v->method, v->t);
-  stf_renormalise(v->formula.k * v->d, v->m, s->R, v->X);
+  stf_renormalise(v->g->k * v->d, v->m, s->R, v->X);
   return STEIF_OK;
 }
 
 static sunrealtype trace(const stf_variation *v)
 {
   sunrealtype sum = 0;
-  for (int i = 0; i < v->formula.r; i++)
+  for (int i = 0; i < v->g->r; i++)
     for (int a = 0; a < v->d; a++)
-      sum += v->formula.weight[i] * v->J[(i * v->d + a) * v->d + a];
+      sum += v->weight[i] * v->J[(i * v->d + a) * v->d + a];
   return sum;
 }
 

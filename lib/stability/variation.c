@@ -59,15 +59,15 @@ int stf_variation_matrix(stf_variation *v, int at, sunrealtype t, N_Vector y)
 static int linear_matrices(stf_variation *v)
 {
   if (v->filled && v->problem->linear) return STEIF_OK;
-  for (int i = 0; i < v->formula.r; i++)
-    STEIF_TRY(stf_variation_matrix(v, i, v->t + v->formula.xi[i] * v->h, v->y));
+  for (int i = 0; i < v->g->r; i++)
+    STEIF_TRY(stf_variation_matrix(v, i, v->t + v->g->xi[i] * v->h, v->y));
   v->filled = true;
   return STEIF_OK;
 }
 
 static int explicit_matrices(stf_variation *v)
 {
-  const stf_formula *g = &v->formula;
+  const steif_glm *g = v->g;
   sunrealtype *y = N_VGetArrayPointer(v->y), *Y = N_VGetArrayPointer(v->stage);
   for (int i = 0; i < g->r; i++) {
     const sunrealtype t = v->t + g->xi[i] * v->h;
@@ -96,7 +96,7 @@ static int implicit_matrices(stf_variation *v)
   int count;
   const sunrealtype *b, *c;
   N_Vector *Y;
-  const stf_formula *g = &v->formula;
+  const steif_glm *g = v->g;
   STEIF_TRY(steif_solve_step(v->solver));
   const sunrealtype made = steif_time(v->solver) - v->t;
   STEIF_CHECK(
@@ -115,7 +115,7 @@ static int implicit_matrices(stf_variation *v)
 /* base = sum_j U_ij X_j + sum_{l < last} C_il K_l */
 static void stage_base(stf_variation *v, int i, int last)
 {
-  const stf_formula *g = &v->formula;
+  const steif_glm *g = v->g;
   const int size = v->d * v->m;
   memset(v->base, 0, (size_t)size * sizeof *v->base);
   for (int j = 0; j < g->k; j++)
@@ -144,7 +144,7 @@ static void stage_slope(stf_variation *v, int i)
 static void block(stf_variation *v, int i, int l, int n, int row, int column)
 {
   const int d = v->d;
-  const sunrealtype c = v->h * v->formula.C[i * v->formula.r + l];
+  const sunrealtype c = v->h * v->g->C[i * v->g->r + l];
   const sunrealtype *J = v->J + (size_t)i * (size_t)d * (size_t)d;
   for (int a = 0; a < d; a++)
     for (int b = 0; b < d; b++)
@@ -153,7 +153,7 @@ static void block(stf_variation *v, int i, int l, int n, int row, int column)
 
 static bool stage_by_stage(stf_variation *v)
 {
-  const stf_formula *g = &v->formula;
+  const steif_glm *g = v->g;
   for (int i = 0; i < g->r; i++) {
     stage_base(v, i, i);
     stage_slope(v, i);
@@ -166,7 +166,7 @@ static bool stage_by_stage(stf_variation *v)
 
 static bool all_stages(stf_variation *v)
 {
-  const int d = v->d, r = v->formula.r;
+  const int d = v->d, r = v->g->r;
   for (int i = 0; i < r; i++) {
     stage_base(v, i, 0);
     stage_slope(v, i);
@@ -177,7 +177,7 @@ static bool all_stages(stf_variation *v)
 
 static void advance(stf_variation *v)
 {
-  const stf_formula *g = &v->formula;
+  const steif_glm *g = v->g;
   const int size = v->d * v->m;
   for (int i = 0; i < g->k; i++) {
     sunrealtype *out = v->next + i * size;
@@ -199,7 +199,8 @@ int stf_variation_step(stf_variation *v)
             : v->solver ? implicit_matrices(v)
                         : explicit_matrices(v));
   STEIF_CHECK(
-    v->formula.lower ? stage_by_stage(v) : all_stages(v), v->ctx, STEIF_SINGULAR,
+    stf_glm_shape(v->g) != STEIF_COLLOCATION ? stage_by_stage(v) : all_stages(v), v->ctx,
+    STEIF_SINGULAR,
     "the stages of %s on the variational equation of '%s' are singular at t = %.12g with "
     "h = %g: 1/h meets the spectrum of J; change h a little",
     v->method, v->problem->name, v->t, v->h);
@@ -212,6 +213,50 @@ void stf_variation_principal(const stf_variation *v, sunrealtype *w)
 {
   const int size = v->d * v->m;
   memset(w, 0, (size_t)size * sizeof *w);
-  for (int j = 0; j < v->formula.k; j++)
-    for (int e = 0; e < size; e++) w[e] += v->formula.ell[j] * v->X[j * size + e];
+  for (int j = 0; j < v->g->k; j++)
+    for (int e = 0; e < size; e++) w[e] += v->g->ell[j] * v->X[j * size + e];
+}
+
+void stf_variation_solution(const stf_variation *v, sunrealtype *x)
+{
+  const steif_glm *g = v->g;
+  const int size = v->d * v->m;
+  memset(x, 0, (size_t)size * sizeof *x);
+  for (int i = 0; i < 2 * g->k + g->r; i++) {
+    if (v->finish[i] == 0) continue;
+    const int f = i - g->k, b = f - g->r;
+    const sunrealtype *data = f < 0   ? v->X + i * size
+                              : b < 0 ? v->K + f * size
+                                      : v->next + b * size;
+    for (int e = 0; e < size; e++) x[e] += v->finish[i] * data[e];
+  }
+}
+
+int stf_variation_carry(stf_variation *v, sunrealtype t, sunrealtype h, int count,
+                        sunrealtype *x)
+{
+  const size_t bytes = (size_t)(v->d * v->m) * sizeof *x;
+  v->t = v->t0 = t, v->count = 0, v->h = h / count;
+  memcpy(v->X, x, bytes);
+  for (int i = 0; i < count; i++) STEIF_TRY(stf_variation_step(v));
+  memcpy(x, v->X, bytes);
+  return STEIF_OK;
+}
+
+sunrealtype stf_variation_size(const stf_variation *v)
+{
+  sunrealtype most = 0;
+  for (int i = 0; i < v->g->r * v->d; i++) {
+    sunrealtype row = 0;
+    for (int j = 0; j < v->d; j++) row += fabs(v->J[i * v->d + j]);
+    most = fmax(most, row);
+  }
+  return most;
+}
+
+int stf_variation_substeps(const stf_variation *v, sunrealtype h)
+{
+  enum { MOST = 64 };
+  const sunrealtype wanted = ceil(2 * fabs(h) * (1 + stf_variation_size(v)));
+  return wanted < MOST ? (int)wanted : MOST;
 }

@@ -1,37 +1,26 @@
-/* variation.h: one step of a method on W' = J(t, y) W as a general linear method.
+/* variation.h: one step of a method on W' = J(t, y) W as a general linear method (glm.h).
  *
  *   K_i = h J_i (sum_j U_ij X_j + sum_l C_il K_l),  X+ = V X + D K,  J_i at t_n + xi_i h,
- * t_n the time of the newest block of X. Runge-Kutta: k = 1, U = V = 1, C = A, D = b^T. BDF: the
- * last k values, the oldest first.
+ * t_n the time of the newest block of X.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_VARIATION_H
 #define STF_VARIATION_H
 
 #include "base.h"
+#include "general.h"
 #include <steif/lyapunov.h>
 #include <steif/method.h>
 #include <steif/solver.h>
-#include <steif/table.h>
-
-enum { STF_PAST = 6 };
-
-typedef struct stf_formula {
-  int k, r;
-  bool lower, explicit_; /* C lower triangular; strictly */
-  sunrealtype U[STEIF_STAGES * STF_PAST], V[STF_PAST * STF_PAST], D[STF_PAST * STEIF_STAGES];
-  sunrealtype C[STEIF_STAGES * STEIF_STAGES], xi[STEIF_STAGES];
-  sunrealtype ell[STF_PAST], weight[STEIF_STAGES]; /* ell V = ell, weight = ell D */
-} stf_formula;
-
-int stf_formula_find(steif_context *ctx, const char *method, stf_formula *formula);
 
 /* Blocks are d x m by rows; X holds k of them. */
 typedef struct stf_variation {
   steif_context *ctx;
   const steif_problem *problem;
   const char *method;
-  stf_formula formula;
+  steif_glm *g;
+  sunrealtype weight[STEIF_STAGES]; /* ell D */
+  sunrealtype finish[STF_LEAST];    /* the solution in (X+; K; X) */
   int d, m;
   bool linear, filled;
   sunrealtype h, t, t0; /* t = t0 + count h */
@@ -53,11 +42,21 @@ int stf_variation_step(stf_variation *v);
 int stf_variation_matrix(stf_variation *v, int at, sunrealtype t, N_Vector y);
 /* w = sum_j ell_j X_j, d x m. */
 void stf_variation_principal(const stf_variation *v, sunrealtype *w);
+/* The solution at t after a step, d x m. */
+void stf_variation_solution(const stf_variation *v, sunrealtype *x);
+/* x (d x m) at t, carried over h by `count` steps of a Runge-Kutta method. */
+int stf_variation_carry(stf_variation *v, sunrealtype t, sunrealtype h, int count,
+                        sunrealtype *x);
+/* |J| of the last step by row sums, and the steps of Gauss's method of order 12 over h in which
+ * h |J| is below 1/2, as long as 64 do: its error is then that of rounding. */
+sunrealtype stf_variation_size(const stf_variation *v);
+int stf_variation_substeps(const stf_variation *v, sunrealtype h);
 
 /* Number of equal steps of at most h in [t0, t1]; refuses nonsense. */
 int stf_equal_steps(steif_context *ctx, sunrealtype h, sunrealtype span, long *steps);
 
-/* B := A^{-1} B by rows, A (n x n) and B (n x m) overwritten; false when a pivot is 0 or NaN. */
+/* B := A^{-1} B by rows, A (n x n) and B (n x m) overwritten; false when a pivot is 0 or NaN.
+ * */
 bool stf_eliminate(int n, int m, sunrealtype *A, sunrealtype *B);
 /* W = Q R, R (m x m) with positive diagonal into R, W (d x m) destroyed; false when a diagonal
  * entry is 0 or not finite. */

@@ -58,7 +58,7 @@ static int open_vectors(stf_pool *pool, stf_variation *v)
   STEIF_TRY(stf_claim_owner(pool, v->y, destroy_vector));
   memcpy(N_VGetArrayPointer(v->y), p->y0, (size_t)p->n * sizeof *p->y0);
   N_Vector *more = stf_claim_vectors(pool, 5, v->y);
-  v->f = stf_claim_vectors(pool, v->formula.r, v->y);
+  v->f = stf_claim_vectors(pool, v->g->r, v->y);
   if (!more || !v->f) return STEIF_NO_MEMORY;
   v->fy = more[0], v->stage = more[1];
   for (int i = 0; i < 3; i++) v->slope[i] = more[2 + i];
@@ -71,9 +71,9 @@ static int open_vectors(stf_pool *pool, stf_variation *v)
 
 static int open_blocks(stf_pool *pool, stf_variation *v)
 {
-  const stf_formula *g = &v->formula;
+  const steif_glm *g = v->g;
   const size_t d = (size_t)v->d, m = (size_t)v->m, k = (size_t)g->k, r = (size_t)g->r;
-  const size_t order = g->lower ? d : r * d;
+  const size_t order = stf_glm_shape(g) != STEIF_COLLOCATION ? d : r * d;
   v->X = stf_claim(pool, k * d * m, sizeof *v->X);
   v->next = stf_claim(pool, k * d * m, sizeof *v->X);
   v->K = stf_claim(pool, r * d * m, sizeof *v->X);
@@ -84,7 +84,8 @@ static int open_blocks(stf_pool *pool, stf_variation *v)
   return all ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-/* J at y0 and at y0 + (1 + |y0|) times two irrational directions is the same, entry by entry. */
+/* J at y0 and at y0 + (1 + |y0|) times two irrational directions is the same, entry by entry.
+ * */
 static int probe(stf_variation *v)
 {
   const size_t size = (size_t)v->d * (size_t)v->d;
@@ -105,12 +106,36 @@ static int probe(stf_variation *v)
 
 static int open_trajectory(stf_pool *pool, stf_variation *v, sunrealtype t1)
 {
-  if (v->linear || v->formula.explicit_) return STEIF_OK;
+  if (v->linear || (stf_glm_shape(v->g) == STEIF_EXPLICIT && v->g->k == 1)) return STEIF_OK;
   steif_options o = steif_defaults();
   o.h = v->h, o.t1 = t1, o.max_steps = 1L << 50;
   v->solver = steif_solver_new(v->ctx, v->problem, v->method, &o);
   if (!v->solver) return steif_status(v->ctx);
   return stf_claim_owner(pool, v->solver, destroy_solver);
+}
+
+typedef struct owned {
+  steif_context *ctx;
+  steif_glm *g;
+} owned;
+
+static void destroy_method(void *owner)
+{
+  owned *o = owner;
+  steif_glm_free(o->ctx, &o->g);
+}
+
+static int open_method(stf_pool *pool, stf_variation *v)
+{
+  owned *o = stf_claim(pool, 1, sizeof *o);
+  if (!o) return STEIF_NO_MEMORY;
+  o->ctx = v->ctx, o->g = v->g = steif_glm_new(v->ctx, v->method);
+  if (!v->g) return steif_status(v->ctx);
+  STEIF_TRY(stf_claim_owner(pool, o, destroy_method));
+  const steif_glm *g = v->g;
+  for (int l = 0; l < g->r; l++)
+    for (int j = 0; j < g->k; j++) v->weight[l] += g->ell[j] * g->D[j * g->r + l];
+  return stf_glm_solution(v->ctx, g, v->finish);
 }
 
 int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem,
@@ -120,7 +145,7 @@ int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *
   STEIF_CHECK(problem && method, ctx, STEIF_BAD_INPUT, "a problem and a method are needed");
   *v = (stf_variation){.ctx = ctx, .problem = problem, .method = method, .h = h, .m = m};
   STEIF_TRY(suits(ctx, problem));
-  STEIF_TRY(stf_formula_find(ctx, method, &v->formula));
+  STEIF_TRY(open_method(pool, v));
   v->d = (int)problem->n, v->t = v->t0 = problem->t0;
   STEIF_CHECK(m >= 1 && m <= v->d, ctx, STEIF_BAD_INPUT,
               "%d exponents were asked for: '%s' has 1 to %d", m, problem->name, v->d);
@@ -128,7 +153,8 @@ int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *
   STEIF_TRY(open_blocks(pool, v));
   v->linear = linear > 0 || problem->linear;
   if (linear == 0 && !v->linear) STEIF_TRY(probe(v));
-  for (int j = 0; j < v->formula.k; j++)
-    for (int i = 0; i < m; i++) v->X[(j * v->d + i) * m + i] = 1;
+  for (int j = 0; j < v->g->k; j++)
+    for (int i = 0; i < m; i++)
+      v->X[(j * v->d + i) * m + i] = v->g->W[j * (v->g->order + 1)]; /* u */
   return open_trajectory(pool, v, t1);
 }

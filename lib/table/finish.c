@@ -52,3 +52,45 @@ int stf_glm_combination(steif_context *ctx, const steif_glm *g, const sunrealtyp
     if (fabs(d[i]) < 16 * STF_EPS) d[i] = 0;
   return STEIF_OK;
 }
+
+int stf_glm_solution(steif_context *ctx, const steif_glm *g, sunrealtype *d)
+{
+  sunrealtype target[STEIF_PAST + 2] = {1};
+  bool found;
+  if (g->k == 1) return *d = 1 / g->W[0], STEIF_OK; /* Runge-Kutta of any order */
+  STEIF_TRY(stf_glm_combination(ctx, g, target, false, d, &found));
+  STEIF_CHECK(found, ctx, STEIF_UNSUPPORTED,
+              "'%s' does not hold the solution to order %d in what its steps leave", g->name,
+              g->order);
+  return STEIF_OK;
+}
+
+/* c = Vandermonde^{-1} y for the nodes i / count, X_i = sum_j W_ij j! c_j. */
+void stf_glm_first(const steif_glm *g, int count, sunrealtype *weights)
+{
+  const int n = count + 1;
+  stf_complex M[STEIF_PAST * STEIF_PAST + STF_LEAST],
+    inverse[STEIF_PAST * STEIF_PAST + STF_LEAST];
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++) {
+      M[i * n + j] = j ? M[i * n + j - 1] * ((long double)i / count) : 1;
+      inverse[i * n + j] = i == j;
+    }
+  (void)stf_solve(n, n, M, inverse, 0);
+  for (int i = 0; i < g->k; i++)
+    for (int j = 0; j < n; j++) {
+      long double sum = 0, factorial = 1;
+      for (int m = 0; m < n; m++, factorial *= m)
+        sum += g->W[i * (g->order + 1) + m] * factorial * creall(inverse[m * n + j]);
+      weights[i * n + j] = (sunrealtype)sum;
+    }
+}
+
+int stf_glm_powers(const steif_glm *g)
+{
+  int highest = g->order;
+  for (; highest > 0; highest--)
+    for (int i = 0; i < g->k; i++)
+      if (g->W[i * (g->order + 1) + highest] != 0) return highest;
+  return 0;
+}

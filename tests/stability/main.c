@@ -6,7 +6,11 @@ extern CU_TestInfo tests_of_region[], tests_of_boundary[], tests_of_order[],
   tests_of_lyapunov[], tests_of_growth[], tests_of_energy[], tests_of_kepler[],
   tests_of_stepmap[], tests_of_hamiltonian[];
 
-SUITE_MAIN({.pName = "region", .pTests = tests_of_region},
+extern CU_TestInfo tests_of_underlying[], tests_of_general_regions[];
+
+SUITE_MAIN({.pName = "underlying", .pTests = tests_of_underlying},
+           {.pName = "general regions", .pTests = tests_of_general_regions},
+           {.pName = "region", .pTests = tests_of_region},
            {.pName = "boundary", .pTests = tests_of_boundary},
            {.pName = "order", .pTests = tests_of_order},
            {.pName = "lyapunov", .pTests = tests_of_lyapunov},

@@ -1,8 +1,8 @@
 /* test_growth.c: BDF2 on the problem of Steyer and Van Vleck: growth, defects, residuals.
  *
- * Reference values: the recurrence in double with the closed fundamental matrix, and a second time in
- * 40 digits with LU solves and Gauss quadrature; x_1 by the classical Runge-Kutta method. mu_last of
- * h = 0.00075: the recurrence in 30 digits.
+ * Reference values: the recurrence in double with the closed fundamental matrix, and a second
+ * time in 40 digits with LU solves and Gauss quadrature; x_1 by the classical Runge-Kutta
+ * method. mu_last of h = 0.00075: the recurrence in 30 digits.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stability.h"
@@ -73,8 +73,8 @@ static void published_tables(void)
   }
 }
 
-/* Both columns of the closed fundamental matrix: what is left of a method of order 6 with small steps,
- * and one-step defects of Gauss (s = 3) that shrink like h^7. */
+/* Both columns of the closed fundamental matrix: what is left of a method of order 6 with small
+ * steps, and one-step defects of Gauss (s = 3) that shrink like h^7. */
 static void accurate_steps_follow_the_fundamental_matrix(void)
 {
   for (int column = 1; column <= 2; column++) {
@@ -98,7 +98,8 @@ static void accurate_steps_follow_the_fundamental_matrix(void)
   }
 }
 
-/* beta -> 0 leaves two scalar equations: |x| = e^{a sin t + b1 t}, growth per time from closed form. */
+/* beta -> 0 leaves two scalar equations: |x| = e^{a sin t + b1 t}, growth per time from closed
+ * form. */
 static void growth_of_a_scalar_equation_is_the_closed_one(void)
 {
   steif_growth_facts g = {0};
@@ -126,6 +127,49 @@ static void bad_questions_are_refused(void)
   CHECK(strstr(message, "change h") != NULL);
 }
 
+/* Residuals of BDF2 on the exact solution through the last value, recurrence and flow as above.
+ * */
+static void local_residuals(void)
+{
+  static const struct {
+    double h, t1, mean, max;
+  } row[] = {{0.75, 39.75, 1.88e5, 3.19e6},
+             {0.075, 39.975, 3.02e-4, 1.15e-3},
+             {0.0075, 39.9975, 1.27e-7, 1.16e-6}};
+  char message[400];
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    steif_growth_facts g = {0};
+    CHECK(measure("steyer", "bdf:p=2", row[i].h, row[i].t1, &g, message) == STEIF_OK);
+    CLOSE(g.local_mean, row[i].mean, 3e-3);
+    CLOSE(g.local_max, row[i].max, 5e-3);
+  }
+}
+
+/* One-step defects of general linear methods: the error constant times h^{p+1} x^(p+1), x =
+ * exp(-0.9 t): mean over [0, 4] of 0.9^{p+1} e^{-0.9 t} is 0.9^p (1 - e^{-3.6}) / 4. */
+static void defects_of_general_methods(void)
+{
+  static const struct {
+    const char *method;
+    int p;
+    double error;
+  } row[] = {{"glm:nord22", 2, 5 / 24.}, {"glm:dimsim1", 2, -1 / 6.}, {"glm:ab,p=3", 3, -3 / 8.},
+             {"glm:am,p=3", 3, 1 / 24.}, {"glm:bdf,p=2", 2, 1 / 3.},
+             {"glm:nordsieck,of=bdf,p=3", 3, 1 / 4.}};
+  const double h = 0.01;
+  char message[400];
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    steif_growth_facts g = {0};
+    const int code = measure("dahlquist:re=-0.9,im=0", row[i].method, h, 4, &g, message);
+    if (code) printf("\n  %s: %s", row[i].method, message);
+    CHECK(code == STEIF_OK && isnan(g.residual_mean) && isnan(g.local_max));
+    const double mean =
+      fabs(row[i].error) * pow(h, row[i].p + 1) * pow(0.9, row[i].p) * (1 - exp(-3.6)) / 4;
+    CLOSE(g.lte_mean, mean, 0.05);
+    CLOSE(g.mu, -0.9, 0.01);
+  }
+}
+
 CU_TestInfo tests_of_growth[] = {
   {"the tables of Steyer and Van Vleck, computed with a correct start", published_tables},
   {"accurate steps follow the closed fundamental matrix",
@@ -133,4 +177,6 @@ CU_TestInfo tests_of_growth[] = {
   {"the growth of a scalar equation is the closed one",
    growth_of_a_scalar_equation_is_the_closed_one},
   {"bad questions are refused with a sentence", bad_questions_are_refused},
+  {"residuals on local solutions", local_residuals},
+  {"defects of general linear methods", defects_of_general_methods},
   CU_TEST_INFO_NULL};

@@ -1,4 +1,5 @@
-/* test_lyapunov.c: exponents of numerical solutions against Floquet multipliers and closed forms.
+/* test_lyapunov.c: exponents of numerical solutions against Floquet multipliers and closed
+ * forms.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stability.h"
 #include "suite.h"
@@ -26,8 +27,9 @@ static int exponents(const char *problem, const char *method, const steif_lyapun
   return code;
 }
 
-/* Floquet exponents of the recurrence with h = 2 pi / 64: logarithms of the eigenvalues of the product
- * of 64 step matrices, in double, and QR over 30 periods after 30, which agree to 1e-10. */
+/* Floquet exponents of the recurrence with h = 2 pi / 64: logarithms of the eigenvalues of the
+ * product of 64 step matrices, in double, and QR over 30 periods after 30, which agree to
+ * 1e-10. */
 static const char triangular[] = "steyer:a=1.2,b1=-0.3,b2=-0.8,beta=1,omega=0",
                   rotating[] = "steyer:a=1.2,b1=-0.3,b2=-0.8,beta=1,omega=1";
 static const struct row {
@@ -41,6 +43,12 @@ static const struct row {
   {triangular, "dirk:alexander2", {-0.300267617268, -0.800889120572}},
   {triangular, "radau:s=2", {-0.300005868239, -0.800041113971}},
   {triangular, "gauss:s=2", {-0.299999963610, -0.799999452007}},
+  {triangular, "glm:dimsim2", {-0.300263968237, -0.800883493517}},
+  {triangular, "glm:nord22", {-0.301408273175, -0.804870774541}},
+  {triangular, "glm:nordsieck,of=bdf,p=2", {-0.302307969824, -0.808253881601}},
+  {rotating, "glm:dimsim2", {-0.298792280715, -0.802338956317}},
+  {rotating, "glm:nord22", {-0.293395884403, -0.812617418769}},
+  {rotating, "glm:bdf,p=3", {-0.301347592018, -0.798498083517}},
   {rotating, "be", {-0.437349935320, -0.564420570116}},
   {rotating, "dirk:cranknicolson", {-0.297542254914, -0.804808955690}},
   {rotating, "bdf:p=2", {-0.289103668164, -0.820567437567}},
@@ -64,8 +72,8 @@ static void floquet_exponents_are_found(void)
   }
 }
 
-/* The same for equation (3) with a = 1.2, b = -0.14, -0.15, beta = 10 and h = 2 pi / m: BDF2 grows up to
- * m = 87 although the problem decays. */
+/* The same for equation (3) with a = 1.2, b = -0.14, -0.15, beta = 10 and h = 2 pi / m: BDF2
+ * grows up to m = 87 although the problem decays. */
 static void stability_is_lost_between_87_and_88_steps(void)
 {
   static const struct {
@@ -145,7 +153,9 @@ static void constant_systems_give_the_logarithms_of_R(void)
 {
   static const char *const methods[] = {
     "be",      "dirk:cranknicolson", "bdf:p=2",       "rk4",   "dirk:alexander2", "gauss:s=3",
-    "bdf:p=4", "radau:s=3",          "lobatto3c:s=2", "euler", "dirk:trbdf2",     "bdf:p=3"};
+    "bdf:p=4", "radau:s=3",          "lobatto3c:s=2", "euler", "dirk:trbdf2",     "bdf:p=3",
+    "glm:ab,p=2", "glm:am,p=3",      "glm:dimsim1",   "glm:dimsim2", "glm:nord22",
+    "glm:nordsieck,of=am,p=4"};
   steif_context *ctx = steif_context_new(NULL);
   for (int linear = -1; linear <= 1; linear += 2) /* along a trajectory, and without one */
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
@@ -160,6 +170,26 @@ static void constant_systems_give_the_logarithms_of_R(void)
   steif_context_free(&ctx);
 }
 
+/* The same systems in figures: logarithms of principal roots over h, computed by the
+ * characteristic polynomials in double. */
+static void constant_systems_have_known_exponents(void)
+{
+  static const struct {
+    const char *method;
+    double exponent[2];
+  } row[] = {{"glm:ab,p=2", {-0.9956145409, -2.8768207245}},
+             {"glm:am,p=3", {-0.9999567758, -2.9962416069}},
+             {"glm:dimsim1", {-0.9982033528, -2.9437106060}},
+             {"glm:nord22", {-1.0021913509, -3.0682606132}},
+             {"bdf:p=2", {-1.0036357984, -3.1301677249}},
+             {"rk4", {-0.9999990942, -2.9997397598}}};
+  steif_context *ctx = steif_context_new(NULL);
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+    for (int j = 0; j < 2; j++)
+      CLOSE(closed(ctx, row[i].method, 0.1, j ? -3 : -1), row[i].exponent[j], 2e-10);
+  steif_context_free(&ctx);
+}
+
 static void an_oscillator_has_the_exponents_zero(void)
 {
   static const char *const methods[] = {"gauss:s=2", "gauss:s=1", "dirk:cranknicolson"};
@@ -171,8 +201,8 @@ static void an_oscillator_has_the_exponents_zero(void)
   }
 }
 
-/* (0.906, 0, -14.572): J. C. Sprott, Lyapunov exponent and dimension of the Lorenz attractor. The sum
- * is the trace -41/3; by rk4 with h = 0.01 it is -13.666564. */
+/* (0.906, 0, -14.572): J. C. Sprott, Lyapunov exponent and dimension of the Lorenz attractor.
+ * The sum is the trace -41/3; by rk4 with h = 0.01 it is -13.666564. */
 static void lorenz_has_its_exponents(void)
 {
   static const char *const methods[] = {"rk4", "gauss:s=2"};
@@ -267,9 +297,10 @@ static void bad_questions_are_refused(void)
   CHECK(refused(&p, "gauss:s=2", good, "t =") < 0);
 }
 
-/* lambda(t) = L + D cos(2 pi m t / h) has the mean -1 and decays; with h = 0.1 the numbers grow or decay
- * by where the stages see it. Rates by M(h lambda(t_n + c h)); 1/h ln R of the constant lambda = 1
- * where all stages see 1. For m = 1 the claim of theorem 3.4 fails for nodes c that are not whole. */
+/* lambda(t) = L + D cos(2 pi m t / h) has the mean -1 and decays; with h = 0.1 the numbers grow
+ * or decay by where the stages see it. Rates by M(h lambda(t_n + c h)); 1/h ln R of the
+ * constant lambda = 1 where all stages see 1. For m = 1 the claim of theorem 3.4 fails for
+ * nodes c that are not whole. */
 static void sampled_at_its_crests_a_decay_grows(void)
 {
   static const struct {
@@ -348,6 +379,7 @@ static void hunger_is_reported(void)
 
 CU_TestInfo tests_of_lyapunov[] = {
   {"the exponents of periodic problems are Floquet's", floquet_exponents_are_found},
+  {"constant systems have known exponents", constant_systems_have_known_exponents},
   {"BDF2 loses stability between 88 and 87 steps a period",
    stability_is_lost_between_87_and_88_steps},
   {"averages over windows fill the spectral intervals", windows_give_the_spectral_intervals},

@@ -37,29 +37,6 @@ static bool uses(const steif_glm *g, int j)
 
 /* ---- opening ---- */
 
-/* c = Vandermonde^{-1} y for nodes i / p, X_0 = sum_j W_ij j! c_j. */
-static int first_weights(stf_step *s, state *e)
-{
-  const int n = e->begin.count + 1;
-  stf_complex M[POWERS * POWERS], inverse[POWERS * POWERS];
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) {
-      M[i * n + j] = j ? M[i * n + j - 1] * ((long double)i / (n - 1)) : 1;
-      inverse[i * n + j] = i == j;
-    }
-  e->first = stf_claim(s->pool, (size_t)(e->k * n), sizeof *e->first);
-  if (!e->first) return STEIF_NO_MEMORY;
-  (void)stf_solve(n, n, M, inverse, 0);
-  for (int i = 0; i < e->k; i++)
-    for (int j = 0; j < n; j++) {
-      long double sum = 0, factorial = 1;
-      for (int m = 0; m < n; m++, factorial *= m)
-        sum += e->g->W[i * (e->p + 1) + m] * factorial * creall(inverse[m * n + j]);
-      e->first[i * n + j] = (sunrealtype)sum;
-    }
-  return STEIF_OK;
-}
-
 static int rows(stf_step *s, state *e)
 {
   const steif_glm *g = e->g;
@@ -73,10 +50,7 @@ static int rows(stf_step *s, state *e)
     found = found && (e->known[j] || !uses(g, j));
     e->dense = e->dense && e->known[j];
   }
-  STEIF_CHECK(e->known[0], s->ctx, STEIF_UNSUPPORTED,
-              "'%s' does not hold the solution to order %d in what its steps leave", g->name,
-              e->p);
-  memcpy(e->finish, e->z, (size_t)e->data * sizeof *e->z);
+  STEIF_TRY(stf_glm_solution(s->ctx, g, e->finish));
   STEIF_CHECK(
     found || s->h_equal > 0, s->ctx, STEIF_UNSUPPORTED,
     "'%s' cannot change its step: X does not determine Nordsieck's vector; give equal "
@@ -113,11 +87,12 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(rows(s, e));
   STEIF_CHECK(!s->adaptive || e->estimates, s->ctx, STEIF_UNSUPPORTED,
               "'%s' has no error estimate: give steps with h", g->name);
-  int count = e->p;
-  while (count > 0 && !uses(g, count)) count--;
+  const int count = stf_glm_powers(g);
   const bool explicit_ = stf_glm_shape(g) == STEIF_EXPLICIT;
   STEIF_TRY(stf_begin_open(s, count, e->p, explicit_, &e->begin));
-  STEIF_TRY(first_weights(s, e));
+  e->first = stf_claim(s->pool, (size_t)(e->k * (count + 1)), sizeof *e->first);
+  if (!e->first) return STEIF_NO_MEMORY;
+  stf_glm_first(g, count, e->first);
   STEIF_TRY(stf_chain_open(s, g->name, &e->chain));
   e->at = stf_claim_vectors(s->pool, e->k, s->y);
   e->past = stf_claim_vectors(s->pool, e->k, s->y);
