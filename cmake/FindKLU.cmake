@@ -1,4 +1,4 @@
-# KLU with AMD, BTF, COLAMD, and CHOLMOD, of which the parts under the LGPL are used (Core, Check):
+# KLU with AMD, BTF, COLAMD, and CHOLMOD, of which parts under the LGPL are used (Core, Check, Partition):
 # through SuiteSparse's own packages (7.x) or by looking for the files. Defines the target steif_klu.
 find_package(KLU CONFIG QUIET)
 find_package(CHOLMOD CONFIG QUIET)

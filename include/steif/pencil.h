@@ -10,8 +10,10 @@
  *   steif_pencil_solve(p, 1, 1, &re, &im);              ((1 + 3i) E - A) x = b, in place
  *
  * Dense matrices use an in-line LU up to n = 16 and LAPACK above, band matrices LAPACK, sparse ones
- * KLU (64-bit indices, AMD ordering), operators a SUNLinearSolver; a complex shift on an operator
- * works on [Re; Im] as a ManyVector (its spectrum is mirrored: precondition with a real shift).
+ * KLU (64-bit indices, AMD ordering), and for real shifts of 200 unknowns and more a multifrontal LU
+ * in dense blocks, behind which KLU stands where pivots are bad. Operators use a SUNLinearSolver; a
+ * complex shift on an operator works on [Re; Im] as a ManyVector (its spectrum is mirrored:
+ * precondition with a real shift).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_PENCIL_H

@@ -81,7 +81,7 @@ int stf_columns(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im,
 /* All finite? Branch-free, since the answer is yes. */
 bool stf_all_finite(const double *x, size_t count);
 
-/* KLU's solve of a sparse slot and nothing around it, b in its own layout (complex: interleaved):
+/* The solve of a sparse slot and nothing around it, b in its own layout (complex: interleaved):
  * the floor that benchmarks compare with. */
 void stf_sparse_direct(steif_pencil *p, int slot, double *b);
 

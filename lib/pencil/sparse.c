@@ -1,9 +1,11 @@
 /* sparse.c: sparse pencils through KLU (T. A. Davis & E. Palamadai Natarajan, ACM TOMS 37 (3),
  * 2010): one symbolic analysis (AMD ordering, block triangular form) for all shifts, real and
- * complex; new values are refactored with the pivots in use while these stay good.
+ * complex; new values are refactored with the pivots in use while these stay good. Real shifts of large
+ * patterns go through dense blocks (fronts.h) as long as those find good pivots.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "pattern.h"
+#include "fronts.h"
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
@@ -14,6 +16,8 @@
 #define GROWTH 1e-5
 #define SLACK 1e-2
 
+enum { FRONTS = 200 }; /* unknowns from which on blocks of columns pay */
+
 typedef struct factors {
   klu_l_common common; /* one to a slot: slots are factored side by side */
   klu_l_numeric *numeric;
@@ -21,12 +25,17 @@ typedef struct factors {
   bool wide;     /* room for complex values */
   double growth; /* reciprocal, at the last factorisation with pivoting */
   double *value;
+  double *block, *stack; /* fronts: factors and scratch; block NULL: not used here */
+  int *pivot;
+  bool dense, refused; /* the factors in use are those of the fronts; they cannot serve here */
 } factors;
 
 typedef struct sparse {
   stf_pattern pattern;
   klu_l_common common;
   klu_l_symbolic *symbolic;
+  stf_fronts fronts; /* n = 0: none */
+  double *work;      /* of their solves */
   factors *slot[STEIF_PENCIL_SLOTS];
 } sparse;
 
@@ -57,11 +66,35 @@ static void forget(steif_pencil *p)
     if (!s->slot[k]) continue;
     drop(s->slot[k]);
     stf_release(p->ctx, s->slot[k]->value);
+    stf_release(p->ctx, s->slot[k]->block);
+    stf_release(p->ctx, s->slot[k]->stack);
+    stf_release(p->ctx, s->slot[k]->pivot);
     stf_release(p->ctx, s->slot[k]);
     s->slot[k] = NULL;
   }
   klu_l_free_symbolic(&s->symbolic, &s->common);
   stf_pattern_free(p, &s->pattern);
+  stf_fronts_free(p->ctx, &s->fronts);
+  stf_release(p->ctx, s->work);
+  s->work = NULL;
+}
+
+/* Fronts take over real shifts of large patterns, unless the block triangular form that KLU finds or
+ * its unsymmetric pattern is much sparser. */
+static int open_fronts(steif_pencil *p)
+{
+  sparse *s = p->state;
+  stf_fronts *f = &s->fronts;
+  const klu_l_symbolic *k = s->symbolic;
+  if (p->n < FRONTS || p->n > INT_MAX / 2 || k->structural_rank < k->n) return STEIF_OK;
+  STEIF_TRY(stf_fronts_open(p->ctx, &s->pattern, f));
+  if (k->lnz >= 0 && (double)f->size > 2 * (k->lnz + k->unz)) {
+    stf_fronts_free(p->ctx, f);
+    return STEIF_OK;
+  }
+  s->work =
+    stf_allocate(p->ctx, (size_t)(f->n + f->highest), STF_FRONTS_WIDE * sizeof *s->work);
+  return s->work ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 static int analyse(steif_pencil *p)
@@ -81,7 +114,7 @@ static int analyse(steif_pencil *p)
     "KLU refused the pattern of %lld unknowns and %lld entries: check the index arrays", n,
     nnz);
   p->stats.analyses++;
-  return STEIF_OK;
+  return open_fronts(p);
 }
 
 static int check(steif_pencil *p, const char *name, SUNMatrix M)
@@ -109,6 +142,15 @@ static int update(steif_pencil *p)
   return check(p, "A", p->A);
 }
 
+static int prepare_fronts(steif_pencil *p, factors *f)
+{
+  const stf_fronts *g = &((sparse *)p->state)->fronts;
+  f->block = stf_allocate(p->ctx, (size_t)g->size, sizeof *f->block);
+  f->stack = stf_allocate(p->ctx, (size_t)g->peak, sizeof *f->stack);
+  f->pivot = stf_allocate(p->ctx, (size_t)g->n, sizeof *f->pivot);
+  return f->block && f->stack && f->pivot ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
 static int prepare(steif_pencil *p, int slot, steif_shift shift)
 {
   sparse *s = p->state;
@@ -119,6 +161,7 @@ static int prepare(steif_pencil *p, int slot, steif_shift shift)
     if (!(f = s->slot[slot] = stf_allocate(p->ctx, 1, sizeof *f))) return STEIF_NO_MEMORY;
     defaults(&f->common);
   }
+  if (s->fronts.n && !wide && !f->block && !f->refused) STEIF_TRY(prepare_fronts(p, f));
   if (f->value && (f->wide || !wide)) return STEIF_OK;
   stf_release(p->ctx, f->value);
   f->value = stf_allocate(p->ctx, nnz, (wide ? 2 : 1) * sizeof(double));
@@ -180,6 +223,15 @@ static void factor(steif_pencil *p, int slot, steif_shift shift, stf_outcome *ou
     out->code = STEIF_NOT_FINITE;
     return;
   }
+  const bool before = f->dense;
+  if (!complex && f->block && !f->refused) {
+    f->dense = stf_fronts_factor(&s->fronts, f->value, f->block, f->pivot, f->stack);
+    f->refused = !f->dense;
+    out->factors = !before, out->refactors = before, out->fill = s->fronts.size;
+    if (f->dense) return;
+    out->factors = out->refactors = 0;
+  }
+  f->dense = false;
   if (f->numeric && f->complex != complex) drop(f);
   f->complex = complex;
   if (f->numeric && refactor(s, f))
@@ -197,6 +249,10 @@ static int columns(steif_pencil *p, int slot, int nrhs, double *b, sunindextype 
 {
   sparse *s = p->state;
   factors *f = s->slot[slot];
+  if (f->dense) {
+    stf_fronts_solve(&s->fronts, f->block, f->pivot, nrhs, b, ld, s->work);
+    return STEIF_OK;
+  }
   (f->complex ? klu_zl_solve : klu_l_solve)(s->symbolic, f->numeric, ld, nrhs, b, &f->common);
   return STEIF_OK;
 }
@@ -233,6 +289,17 @@ static inline void multiply(logs *l, double x)
   l->product = 1;
 }
 
+/* The diagonals of the fronts hold the reciprocals of the pivots. */
+static void of_fronts(const stf_fronts *f, const double *block, logs *l)
+{
+  for (int s = 0; s < f->count; s++) {
+    const stf_front *g = &f->front[s];
+    for (int k = 0; k < g->width; k++)
+      multiply(l, fabs(block[g->place + k * (g->width + g->below + (sunindextype)1)]));
+  }
+  flush(l, l->product);
+}
+
 int stf_pencil_logdet(steif_pencil *p, int slot, sunrealtype *log_abs_det)
 {
   STEIF_CHECK(p->backend == &stf_backend_sparse, p->ctx, STEIF_UNSUPPORTED,
@@ -241,8 +308,13 @@ int stf_pencil_logdet(steif_pencil *p, int slot, sunrealtype *log_abs_det)
   STEIF_CHECK(slot >= 0 && slot < p->slots && p->fresh[slot], p->ctx, STEIF_BAD_INPUT,
               "slot %d of %d has no factors: call steif_pencil_factor first", slot, p->slots);
   const factors *f = ((sparse *)p->state)->slot[slot];
-  const double *u = f->numeric->Udiag, *row = f->numeric->Rs;
   logs l = {.product = 1};
+  if (f->dense) {
+    of_fronts(&((sparse *)p->state)->fronts, f->block, &l);
+    *log_abs_det = -(l.sum + l.error);
+    return STEIF_OK;
+  }
+  const double *u = f->numeric->Udiag, *row = f->numeric->Rs;
   for (sunindextype k = 0; k < p->n; k++) {
     multiply(&l, f->complex ? hypot(u[2 * k], u[2 * k + 1]) : fabs(u[k]));
     if (row) multiply(&l, row[k]);

@@ -1,0 +1,45 @@
+/* order.c: fill-reducing orders.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "fronts.h"
+#include <amd.h>
+#include <cholmod.h>
+
+/* From here on nested dissection saves more in the factors than it costs. */
+enum { LARGE = 1500 };
+
+#ifdef STEIF_HAVE_METIS
+static bool dissect(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row,
+                    SuiteSparse_long *order)
+{
+  cholmod_common c;
+  if (!cholmod_l_start(&c)) return false;
+  c.print = 0;
+  cholmod_sparse A = {.nrow = (size_t)n,
+                      .ncol = (size_t)n,
+                      .nzmax = (size_t)ptr[n],
+                      .p = ptr,
+                      .i = row,
+                      .stype = 1,
+                      .itype = CHOLMOD_LONG,
+                      .xtype = CHOLMOD_PATTERN,
+                      .dtype = CHOLMOD_DOUBLE,
+                      .packed = 1};
+  const bool good = cholmod_l_metis(&A, NULL, 0, 1, order, &c) && c.status == CHOLMOD_OK;
+  cholmod_l_finish(&c);
+  return good;
+}
+#else
+static bool dissect(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row,
+                    SuiteSparse_long *order)
+{
+  (void)n, (void)ptr, (void)row, (void)order;
+  return false;
+}
+#endif
+
+int stf_order(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row,
+              SuiteSparse_long *order)
+{
+  if (n >= LARGE && dissect(n, ptr, row, order)) return STEIF_OK;
+  return amd_l_order(n, ptr, row, order, NULL, NULL) >= AMD_OK ? STEIF_OK : STEIF_NO_MEMORY;
+}
