@@ -10,12 +10,14 @@
 int exit_of(int code)
 {
   switch (code) {
-  case STEIF_OK: return EXIT_OK;
+  case STEIF_OK:
+  case STEIF_EVENT: return EXIT_OK;
   case STEIF_BAD_INPUT:
   case STEIF_UNKNOWN_NAME: return EXIT_USAGE;
   case STEIF_IO: return EXIT_FILE;
   case STEIF_SINGULAR: return EXIT_SINGULAR;
   case STEIF_NOT_CERTIFIED: return EXIT_UNCERTIFIED;
+  case STEIF_STOPPED: return EXIT_INTERRUPTED;
   default: return EXIT_FAILED;
   }
 }
@@ -158,8 +160,8 @@ static bool writable(const char *path)
 
 int check_outputs(const struct call *call)
 {
-  const char *const path[] = {call->csv, call->plot};
-  for (int i = 0; i < 2; i++)
+  const char *const path[] = {call->csv, call->plot, call->npz};
+  for (int i = 0; i < 3; i++)
     if (path[i] && !writable(path[i])) {
       say(call,
           "cannot write \"%s\": %s; name a file in a folder that exists and may be written",

@@ -8,6 +8,7 @@
 #include <steif/steif.h>
 
 enum { EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_FILE, EXIT_SINGULAR, EXIT_UNCERTIFIED };
+enum { EXIT_INTERRUPTED = 130 }; /* 128 + SIGINT, as shells have it */
 
 enum option_kind {
   FLAG,
@@ -47,7 +48,7 @@ struct call {
     const char *text;
   } given[GIVEN];
   bool json, quiet, help;
-  const char *csv, *plot;
+  const char *csv, *plot, *npz;
 };
 
 /* EXIT_OK, or the exit code after the sentence has been said. */

@@ -41,7 +41,7 @@ static int step(double t, N_Vector x, void *user)
     steif_report_real(k->shown, "t", t);
     steif_report_list(k->shown, "x", k->n, value);
   }
-  return k->call->plot ? trajectory_add(NULL, t, x, &k->path) : 0;
+  return k->call->plot ? trajectory_keep(&k->path, t, x) : 0;
 }
 
 static int output(struct record *k, const char *method)

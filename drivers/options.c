@@ -101,6 +101,8 @@ static int keep(struct call *call, const struct option *o, const char *text)
     call->csv = text;
   else if (!strcmp(o->name, "--plot"))
     call->plot = text;
+  else if (!strcmp(o->name, "--npz"))
+    call->npz = text;
   if (given(call, o->name))
     return refuse(call, "%s is given twice; leave one of them out", o->name);
   call->given[call->options].option = o;

@@ -1,7 +1,18 @@
 /* run.c: one integration and its line in a report.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "run.h"
+#include <signal.h>
 #include <string.h>
+
+static volatile int stop_flag;
+
+static void on_interrupt(int signal)
+{
+  (void)signal;
+  stop_flag = 1;
+}
+
+bool interrupted(void) { return stop_flag; }
 
 steif_options options_of(const struct call *call)
 {
@@ -15,6 +26,8 @@ steif_options options_of(const struct call *call)
   /* Whoever names a step has named the number of steps. */
   o.max_steps = whole_of(call, "--max-steps",
                          given(call, "--h") || given(call, "--hs") ? 1000000000 : o.max_steps);
+  o.max_seconds = real_of(call, "--max-seconds", 0);
+  o.stop = &stop_flag;
   o.start = word_of(call, "--start", NULL);
   for (int i = 0; i < 3; i++)
     if (!strcmp(word_of(call, "--storage", ""), name[i]))
@@ -36,10 +49,16 @@ outcome integrate(steif_context *ctx, const steif_problem *problem, const char *
   const double t1 = options->t1 > 0 ? options->t1 : problem->t1;
   steif_forget(ctx);
   steif_solver *s = steif_solver_new(ctx, problem, method, options);
+  /* The first SIGINT ends the run after a step, a second one the program. */
+  const struct sigaction ours = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+  struct sigaction before;
+  sigaction(SIGINT, NULL, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &ours, NULL);
   o.code = s ? steif_solve_to(s, t1) : steif_status(ctx);
+  sigaction(SIGINT, &before, NULL);
   snprintf(o.message, sizeof o.message, "%s", o.code == STEIF_OK ? "ok" : steif_message(ctx));
   if (s) o.t = steif_time(s), o.stats = *steif_statistics(s);
-  if (s && o.code == STEIF_OK)
+  if (s && (o.code == STEIF_OK || o.code == STEIF_EVENT))
     o.known =
       steif_problem_digits(ctx, problem, o.t, steif_solution(s),
                            tolerance_ratio(problem, options), &o.scd, &o.mescd) == STEIF_OK;

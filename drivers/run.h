@@ -31,17 +31,35 @@ void report_run(steif_report *r, const char *method, const steif_problem *proble
 void report_maybe(steif_report *r, const char *prefix, const char *key, bool there,
                   double value);
 
-/* The accepted steps of a run; an observer of steif_options. */
+/* The accepted steps of a run, or its solution at the times asked for, and its events. */
 typedef struct trajectory {
   const struct call *call;
+  const steif_problem *problem;
   size_t n, count, room;
-  double t1, *t, *y; /* y by steps, n values each */
-  bool short_of_memory;
+  double t0, t1, *t, *y; /* y by rows, n values each */
+  size_t asked, next;    /* times asked for, those kept already; 0: every step is kept */
+  double *at;
+  N_Vector between; /* the solution at one of them */
+  size_t events, event_room;
+  double *event_t, *event_which, *event_direction; /* one row per function that fired */
+  size_t *event_number; /* 0-based: functions that fire together have one number */
+  size_t happened;
+  bool short_of_memory, live;
+  double shown; /* when the progress line was written */
 } trajectory;
-int trajectory_add(steif_solver *s, sunrealtype t, N_Vector y, void *user);
+/* EXIT_OK, or an exit code after a sentence about --at. Observers are set in *options. */
+int trajectory_open(struct call *call, const steif_problem *problem, steif_options *options,
+                    trajectory *tr);
+/* One more row; nonzero when memory is short. */
+int trajectory_keep(trajectory *tr, double t, N_Vector y);
 void trajectory_free(trajectory *tr);
 int trajectory_save(const struct call *call, const trajectory *tr);
 int trajectory_plot(const struct call *call, const trajectory *tr, const char *title);
+/* Sheets "output" (times asked for) and "events" (--events). */
+void trajectory_fill(steif_report *r, const trajectory *tr);
+
+/* Was a run stopped by SIGINT? */
+bool interrupted(void);
 
 /* --rtol, --atol, --h, --t1, --start, --storage where given. */
 steif_options options_of(const struct call *call);
@@ -50,6 +68,8 @@ steif_options options_of(const struct call *call);
   {"--t1", POSITIVE, "T", "end of the integration (default: the problem's)"},                  \
     {"--start", WORD, "S",                                                                     \
      "starting procedure of multistep methods: exact, ramp, constant, cq"},                    \
+    {"--max-steps", COUNT, "N", "give up after N steps (default 1000000; --h: 1000000000)"},   \
+    {"--max-seconds", POSITIVE, "S", "give up after S seconds by the clock"},                  \
   {                                                                                            \
     "--storage", CHOICE, "dense|band|sparse", "storage of the matrices"                        \
   }

@@ -3,17 +3,30 @@
 #include "run.h"
 #include <string.h>
 
+/* What the invariants of the problem have lost or gained. */
+static void fill_drift(steif_report *r, steif_solver *s)
+{
+  enum { SHOWN = 16 };
+  sunrealtype drift[SHOWN];
+  int count = SHOWN;
+  if (s && steif_drift_now(s, &count, drift) == STEIF_OK && count > 0)
+    steif_report_list(r, "drift", (size_t)count, drift);
+}
+
 static void fill(steif_report *r, const char *const *word, const outcome *o, steif_solver *s,
-                 size_t n)
+                 const trajectory *tr)
 {
   steif_report_text(r, "problem", word[0]);
   steif_report_text(r, "method", word[1]);
-  if (s && strcmp(word[1], steif_method_used(s))) steif_report_text(r, "used", steif_method_used(s));
+  if (s && strcmp(word[1], steif_method_used(s)))
+    steif_report_text(r, "used", steif_method_used(s));
   report_status(r, "", o);
   steif_report_real(r, "t", o->t);
-  steif_report_list(r, "y", s ? n : 0, s ? N_VGetArrayPointer(steif_solution(s)) : NULL);
+  steif_report_list(r, "y", s ? tr->n : 0, s ? N_VGetArrayPointer(steif_solution(s)) : NULL);
   report_digits(r, "", o);
   report_stats(r, "stats.", o);
+  fill_drift(r, s);
+  trajectory_fill(r, tr);
 }
 
 /* What there is to show; a failed run is shown up to where it came. */
@@ -23,14 +36,14 @@ static int finish(struct call *call, const outcome *o, steif_solver *s, const tr
   snprintf(title, sizeof title, "%s by %s", call->word[0], call->word[1]);
   int code = o->code == STEIF_OK ? EXIT_OK : exit_of(o->code);
   steif_report *r = steif_report_new(call->ctx);
-  fill(r, call->word, o, s, tr->n);
+  fill(r, call->word, o, s, tr);
   const bool shown = call->json || s;
   int output = !r ? fail(call) : shown ? show(call, r) : EXIT_OK;
   steif_report_free(&r);
   if (o->code != STEIF_OK)
     say(call, "%s",
-        tr->short_of_memory ? "no memory for the trajectory; leave out --csv and "
-                              "--plot"
+        tr->short_of_memory ? "no memory for the trajectory; leave out --csv, --npz and "
+                              "--plot, or ask for fewer --points"
                             : o->message);
   if (s && output == EXIT_OK) output = trajectory_save(call, tr);
   if (s && output == EXIT_OK) output = trajectory_plot(call, tr, title);
@@ -42,11 +55,13 @@ static int run(struct call *call)
   steif_problem p;
   if (steif_problem_find(call->ctx, call->word[0], &p) != STEIF_OK) return fail(call);
   steif_options options = options_of(call);
-  trajectory tr = {.call = call, .n = (size_t)p.n, .t1 = options.t1 > 0 ? options.t1 : p.t1};
-  options.observe = trajectory_add, options.observer = &tr;
+  trajectory tr;
+  int code = trajectory_open(call, &p, &options, &tr);
   steif_solver *s = NULL;
-  const outcome o = integrate(call->ctx, &p, call->word[1], &options, &s);
-  const int code = finish(call, &o, s, &tr);
+  if (code == EXIT_OK) {
+    const outcome o = integrate(call->ctx, &p, call->word[1], &options, &s);
+    code = finish(call, &o, s, &tr);
+  }
   steif_solver_free(&s);
   trajectory_free(&tr);
   steif_problem_clear(call->ctx, &p);
@@ -58,15 +73,21 @@ static const struct option options[] = {
   {"--atol", POSITIVE, "A", "absolute tolerance (default: rtol times the problem's scale)"},
   {"--h", POSITIVE, "H", "equal steps instead of a tolerance"},
   RUN_OPTIONS,
+  {"--at", REALS, "T,T,...", "the solution at these ascending times instead of steps"},
+  {"--points", COUNT, "N", "the same at N equal distances from the start to the end"},
+  {"--events", FLAG, NULL, "a table of the events of the problem"},
+  {"--npz", OUTPUT, "FILE", "t, y and events as arrays for numpy.load"},
   {NULL, FLAG, NULL, NULL},
 };
-static const char *const clash[][2] = {{"--h", "--rtol"}, {"--h", "--atol"}, {NULL, NULL}};
+static const char *const clash[][2] = {
+  {"--h", "--rtol"}, {"--h", "--atol"}, {"--at", "--points"}, {NULL, NULL}};
 
-const struct verb verb_solve = {"solve",
-                                "Integrate one problem with one method",
-                                "PROBLEM METHOD [--rtol R --atol A | --h H] [--t1 T]",
-                                2,
-                                2,
-                                options,
-                                clash,
-                                run};
+const struct verb verb_solve = {
+  "solve",
+  "Integrate one problem with one method",
+  "PROBLEM METHOD [--rtol R --atol A | --h H] [--t1 T] [--events]",
+  2,
+  2,
+  options,
+  clash,
+  run};

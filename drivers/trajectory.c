@@ -1,10 +1,39 @@
-/* trajectory.c: the accepted steps of a run as CSV and as a picture.
+/* trajectory.c: what a run was: steps or times asked for, events; as rows, files, a picture.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "run.h"
+#include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+#include <unistd.h>
 
 enum { CURVES = 8 };
+
+/* -- times asked for --------------------------------------------------------------------- */
+
+static int ask(struct call *call, trajectory *tr)
+{
+  double at[REALS_MOST];
+  const size_t given_times = reals_of(call, "--at", at);
+  tr->asked = given_times ? given_times : (size_t)whole_of(call, "--points", 0);
+  if (tr->asked == 0) return EXIT_OK;
+  tr->at = malloc(tr->asked * sizeof *tr->at);
+  tr->between = tr->at ? N_VNew_Serial(tr->problem->n, steif_sundials(call->ctx)) : NULL;
+  if (!tr->between) {
+    say(call, "no memory for %zu times; ask for fewer", tr->asked);
+    return EXIT_FAILED;
+  }
+  const double width = tr->asked > 1 ? (tr->t1 - tr->t0) / (double)(tr->asked - 1) : 0;
+  for (size_t i = 0; i < tr->asked; i++) {
+    tr->at[i] = given_times ? at[i] : i + 1 < tr->asked ? tr->t0 + width * (double)i : tr->t1;
+    if (tr->at[i] < tr->t0 || tr->at[i] > tr->t1 || (i && tr->at[i] <= tr->at[i - 1]))
+      return refuse(call, "--at must be times that ascend within [%g, %g], %g is not one",
+                    tr->t0, tr->t1, tr->at[i]);
+  }
+  return EXIT_OK;
+}
+
+/* -- rows ------------------------------------------------------------------------------------- */
 
 static bool grow(trajectory *tr)
 {
@@ -16,40 +45,157 @@ static bool grow(trajectory *tr)
   return y;
 }
 
-int trajectory_add(steif_solver *s, sunrealtype t, N_Vector y, void *user)
+int trajectory_keep(trajectory *tr, double t, N_Vector y)
 {
-  trajectory *tr = user;
-  const sunrealtype *value = N_VGetArrayPointer(y);
-  if (tr->count % 512 == 511 || (tr->t1 > 0 && s && steif_statistics(s)->steps % 4096 == 0))
-    progress(tr->call, "t = %.4g of %.4g", t, tr->t1);
-  if (!tr->call->csv && !tr->call->plot) return 0;
   if (tr->count == tr->room && !grow(tr)) {
     tr->short_of_memory = true;
     return -1;
   }
   tr->t[tr->count] = t;
-  memcpy(tr->y + tr->count++ * tr->n, value, tr->n * sizeof *value);
+  memcpy(tr->y + tr->count++ * tr->n, N_VGetArrayPointer(y), tr->n * sizeof *tr->y);
   return 0;
+}
+
+/* A line on a terminal, four times a second. */
+static void tell(trajectory *tr, double t)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const double seconds = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+  if (seconds < tr->shown + 0.25) return;
+  tr->shown = seconds;
+  progress(tr->call, "t = %.4g of %.4g, %.0f %%", t, tr->t1,
+           100 * (t - tr->t0) / (tr->t1 - tr->t0));
+}
+
+static int add(steif_solver *s, sunrealtype t, N_Vector y, void *user)
+{
+  trajectory *tr = user;
+  if (tr->live) tell(tr, t);
+  if (tr->asked == 0)
+    return tr->call->csv || tr->call->plot || tr->call->npz ? trajectory_keep(tr, t, y) : 0;
+  for (; tr->next < tr->asked && tr->at[tr->next] <= t; tr->next++) {
+    if (steif_dense(s, tr->at[tr->next], tr->between) != STEIF_OK) return -1;
+    if (trajectory_keep(tr, tr->at[tr->next], tr->between)) return -1;
+  }
+  return 0;
+}
+
+static bool more_events(trajectory *tr)
+{
+  const size_t room = tr->event_room ? 2 * tr->event_room : 64;
+  double **const column[] = {&tr->event_t, &tr->event_which, &tr->event_direction};
+  for (int i = 0; i < 3; i++) {
+    double *longer = realloc(*column[i], room * sizeof *longer);
+    if (!longer) return false;
+    *column[i] = longer;
+  }
+  size_t *number = realloc(tr->event_number, room * sizeof *number);
+  if (!number) return false;
+  tr->event_number = number, tr->event_room = room;
+  return true;
+}
+
+static int notice(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, void *user)
+{
+  trajectory *tr = user;
+  (void)s, (void)y;
+  for (int i = 0; i < tr->problem->events; i++) {
+    if (!fired[i]) continue;
+    if (tr->events == tr->event_room && !more_events(tr)) {
+      tr->short_of_memory = true;
+      return -1;
+    }
+    tr->event_t[tr->events] = t, tr->event_which[tr->events] = i;
+    tr->event_direction[tr->events] = fired[i];
+    tr->event_number[tr->events++] = tr->happened;
+  }
+  tr->happened++;
+  return 0;
+}
+
+int trajectory_open(struct call *call, const steif_problem *problem, steif_options *options,
+                    trajectory *tr)
+{
+  *tr = (trajectory){.call = call,
+                     .problem = problem,
+                     .n = (size_t)problem->n,
+                     .t0 = problem->t0,
+                     .t1 = options->t1 > 0 ? options->t1 : problem->t1,
+                     .live = !call->quiet && isatty(STDERR_FILENO)};
+  options->observe = add, options->notice = notice, options->observer = tr;
+  if (given(call, "--events") && problem->events == 0)
+    return refuse(call, "%s has no events; bounce, rectifier and swing have", call->word[0]);
+  return ask(call, tr);
 }
 
 void trajectory_free(trajectory *tr)
 {
-  free(tr->t);
-  free(tr->y);
+  if (tr->between) N_VDestroy(tr->between);
+  free(tr->t), free(tr->y), free(tr->at);
+  free(tr->event_t), free(tr->event_which), free(tr->event_direction), free(tr->event_number);
+}
+
+/* -- what is shown and saved ---------------------------------------------------------------------- */
+
+static void rows(steif_report *r, const char *sheet, const trajectory *tr)
+{
+  char name[2][32];
+  snprintf(name[0], sizeof name[0], "%s.t", sheet);
+  snprintf(name[1], sizeof name[1], "%s.y", sheet);
+  for (size_t i = 0; i < tr->count; i++) {
+    steif_report_row(r, sheet);
+    steif_report_real(r, name[0], tr->t[i]);
+    steif_report_list(r, name[1], tr->n, tr->y + i * tr->n);
+  }
+}
+
+static void event_row(steif_report *r, const trajectory *tr, size_t i)
+{
+  const steif_problem *p = tr->problem;
+  const size_t which = (size_t)tr->event_which[i], number = tr->event_number[i];
+  const bool known = number < (size_t)p->event_time_count;
+  char own[32];
+  snprintf(own, sizeof own, "g%zu", which + 1);
+  const char *name = p->event_list ? p->event_list[which].name : NULL;
+  steif_report_row(r, "events");
+  steif_report_real(r, "events.t", tr->event_t[i]);
+  steif_report_text(r, "events.event", name ? name : own);
+  steif_report_text(r, "events.direction", tr->event_direction[i] > 0 ? "rising" : "falling");
+  report_maybe(r, "events.", "reference", known, known ? p->event_times[number] : 0);
+  report_maybe(r, "events.", "error", known,
+               known ? tr->event_t[i] - p->event_times[number] : 0);
+}
+
+void trajectory_fill(steif_report *r, const trajectory *tr)
+{
+  if (tr->asked) rows(r, "output", tr);
+  for (size_t i = 0; given(tr->call, "--events") && i < tr->events; i++) event_row(r, tr, i);
+}
+
+static int save_arrays(const struct call *call, const trajectory *tr)
+{
+  const steif_array array[] = {{"t", tr->count, 0, tr->t},
+                               {"y", tr->count, tr->n, tr->y},
+                               {"event_t", tr->events, 0, tr->event_t},
+                               {"event_which", tr->events, 0, tr->event_which},
+                               {"event_direction", tr->events, 0, tr->event_direction}};
+  const size_t count = tr->problem->events ? 5 : 2;
+  if (!call->npz || steif_npz_save(call->ctx, call->npz, count, array) == STEIF_OK)
+    return EXIT_OK;
+  say(call, "%s", steif_message(call->ctx));
+  return EXIT_FAILED;
 }
 
 int trajectory_save(const struct call *call, const trajectory *tr)
 {
-  if (!call->csv) return EXIT_OK;
+  const int arrays = save_arrays(call, tr);
+  if (!call->csv) return arrays;
   steif_report *r = steif_report_new(call->ctx);
-  for (size_t i = 0; i < tr->count; i++) {
-    steif_report_row(r, "steps");
-    steif_report_real(r, "steps.t", tr->t[i]);
-    steif_report_list(r, "steps.y", tr->n, tr->y + i * tr->n);
-  }
+  rows(r, "steps", tr);
   const int code = r ? save_csv(call, r) : fail(call);
   steif_report_free(&r);
-  return code;
+  return code ? code : arrays;
 }
 
 /* Component k by steps; the largest finite |y_k|. */

@@ -34,6 +34,9 @@ if(TARGET steif_program)
   house_test(impulse -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/impulse)
   house_test(workprec -DPROGRAM=$<TARGET_FILE:steif_program>)
   house_test(c2d -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/c2d)
+  find_program(PYTHON3 python3)
+  house_test(output -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/output
+             -DPYTHON=$<$<BOOL:${PYTHON3}>:${PYTHON3}>)
   house_test(energy -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/energy)
   house_test(experiments -DPROGRAM=$<TARGET_FILE:steif_program>
              -DFOLDER=${PROJECT_BINARY_DIR}/experiments)

@@ -51,6 +51,16 @@ STEIF_EXPORT int steif_report_write(steif_report *r, enum steif_format format, F
 /* The same into a file; an unwritable path leaves nothing behind. */
 STEIF_EXPORT int steif_report_save(steif_report *r, enum steif_format format, const char *path);
 
+/* An array of a file for numpy: rows numbers, or rows x columns by rows. */
+typedef struct steif_array {
+  const char *name;
+  size_t rows, columns;       /* columns 0: one dimension */
+  const sunrealtype *value;
+} steif_array;
+/* Up to 16 arrays as an .npz file: numpy.load(path)[name]. At most 4 GB (STEIF_UNSUPPORTED). */
+STEIF_EXPORT int steif_npz_save(steif_context *ctx, const char *path, size_t count,
+                                const steif_array *array);
+
 /* A picture of curves. Points that are not finite, or not positive on a log axis, are gaps. */
 typedef struct steif_curve {
   const char *label;

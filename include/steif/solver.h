@@ -113,6 +113,10 @@ STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);
 /* The solution inside the last step. STEIF_BAD_INPUT outside of it. */
 STEIF_EXPORT int steif_dense(steif_solver *s, sunrealtype t, N_Vector y);
 
+/* drift[k] = I_k at the solution shown - I_k at the start, of the problem's first *count invariants;
+ * *count becomes how many these are. */
+STEIF_EXPORT int steif_drift_now(steif_solver *s, int *count, sunrealtype *drift);
+
 /* Stage values of the last step of a Runge-Kutta method: vectors X_i at t_n + c_i h with quadrature
  * weights b_i (b = NULL: a general linear method, which has none); *count = 0 for methods without
  * stages. The vectors are the solver's. */

@@ -33,7 +33,8 @@ struct steif_solver {
   sunrealtype h_next, h_old, error_old; /* chosen steps */
   bool after_reject, failed;
   int failure;
-  char why[400]; /* the sentence of the failure */
+  char why[400];           /* the sentence of the failure */
+  sunrealtype *invariants; /* at the start, then room for as many */
   sunrealtype cpu_s;
   steif_stats stats;
   char method[160]; /* spec in use; for auto with the reason */
@@ -47,6 +48,9 @@ int stf_advance(steif_solver *s, sunrealtype t_stop);
 
 /* Is there more to do after a step than to go on? */
 bool stf_attended(const steif_solver *s);
+
+/* The invariants at the start. */
+int stf_drift_open(steif_solver *s);
 
 /* Show y at t to the observer; what it wishes is kept. */
 void stf_observe(steif_solver *s, sunrealtype t, N_Vector y);

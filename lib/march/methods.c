@@ -72,7 +72,8 @@ static bool spec_at(size_t i, char *text, size_t size)
   for (size_t k = 0; k < stf_table_count; k++) {
     const enum steif_table_kind kind = stf_table_shelf[k].item->kind;
     if (kind == STEIF_COLLOCATION || kind == STEIF_GLM || i--) continue;
-    return snprintf(text, size, "%s%s", kind == STEIF_DIRK ? "dirk:" : "", stf_table_shelf[k].name) > 0;
+    return snprintf(text, size, "%s%s", kind == STEIF_DIRK ? "dirk:" : "",
+                    stf_table_shelf[k].name) > 0;
   }
   if (i-- == 0) return snprintf(text, size, "auto") > 0;
   return i < stf_engine_count && snprintf(text, size, "%s", stf_engine_shelf[i].name) > 0;

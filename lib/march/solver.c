@@ -151,10 +151,9 @@ static int open_system(steif_solver *s, int form, N_Vector y, N_Vector yp)
   const steif_options *o = &s->options;
   const sunrealtype scale = o->atol / o->rtol;
   if (!(step->method->traits & STF_EXPLICIT))
-    return stf_system_open(s->pool, s->ctx,
-                           step->method->traits & STF_SPLITS ? split(s) : s->problem, form,
-                           o->force_storage ? o->storage : s->problem->storage, scale, y, yp,
-                           &step->system);
+    return stf_system_open(
+      s->pool, s->ctx, step->method->traits & STF_SPLITS ? split(s) : s->problem, form,
+      o->force_storage ? o->storage : s->problem->storage, scale, y, yp, &step->system);
   step->system.ctx = s->ctx, step->system.problem = s->problem, step->system.form = form;
   step->system.scale = scale, step->system.weight = 1;
   return STEIF_OK;
@@ -216,6 +215,7 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
   s->engine = stf_engine_find(spec.name);
   STEIF_TRY(s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp));
+  STEIF_TRY(stf_drift_open(s));
   STEIF_TRY(stf_watch_open(s));
   s->attended = stf_attended(s);
   return STEIF_OK;

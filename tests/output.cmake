@@ -1,0 +1,87 @@
+# What steif solve shows of a run: times asked for, events, drift, files for numpy, limits.
+#   cmake -DPROGRAM= -DFOLDER= [-DPYTHON=] -P output.cmake      FOLDER: scratch, made and removed
+cmake_minimum_required(VERSION 3.19)
+include(${CMAKE_CURRENT_LIST_DIR}/expect.cmake)
+file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER})
+
+# Known event times stand beside those found.
+expect(0 solve bounce radau:s=3 --events --json)
+member(ground events 5 event)
+member(falling events 5 direction)
+begins(2.880070635 events 5 t)
+begins(2.880070635 events 5 reference)
+expect(0 solve swing radau:s=5 --rtol 1e-8 --events OUT "vertical +falling +2\\.08743823")
+expect(2 solve vdpol radau:s=3 --events ERR "vdpol has no events")
+expect(2 solve vdpol:mu=10 cvode --events --quiet)
+
+# Times asked for, in the order of time.
+expect(0 solve swing ida --at 1.5,2.5,11 --json)
+string(JSON got LENGTH "${out}" output)
+if(NOT got EQUAL 3)
+  message(SEND_ERROR "${got} rows for 3 times")
+endif()
+begins(2.5 output 1 t)
+expect(0 solve bounce dirk:hw43 --points 4 --csv four.csv)
+file(STRINGS ${FOLDER}/four.csv lines)
+list(LENGTH lines count)
+list(GET lines 1 first)
+list(GET lines 4 last)
+if(NOT count EQUAL 5 OR NOT first MATCHES "^0,1," OR NOT last MATCHES "^3,0\\.068")
+  message(SEND_ERROR "four.csv: ${lines}")
+endif()
+expect(2 solve bounce rk4 --h 0.1 --at 0.5,0.4 ERR "0\\.4 is not one")
+expect(2 solve bounce rk4 --h 0.1 --at 4 ERR "ascend within \\[0, 3\\]")
+expect(2 solve bounce rk4 --h 0.1 --at 1 --points 3 ERR "contradict")
+
+# The drift of three invariants, near zero.
+expect(0 solve swing radau:s=5 --rtol 1e-9 --json)
+foreach(k 0 1 2)
+  string(JSON got GET "${out}" drift ${k})
+  if(NOT got MATCHES "^-?[0-9.]+e-(1[0-9]|0[89])$")
+    message(SEND_ERROR "drift ${k} of swing: ${got}")
+  endif()
+endforeach()
+
+# Limits end a run with a sentence and what was computed.
+expect(1 solve rober radau:s=3 --max-steps 20 --json ERR "20 steps made")
+member("step limit" status)
+member(20 stats steps)
+expect(1 solve bruss2d:n=32 be --h 1e-6 --max-seconds 1e-9 ERR "max_seconds is 1e-09")
+expect(2 solve rober be --max-seconds 0 ERR "above 0")
+
+# numpy, or else python's zipfile, reads what was written.
+expect(0 solve bounce radau:s=3 --points 7 --npz run.npz)
+expect(1 solve bounce radau:s=3 --npz no/such/run.npz ERR "cannot write")
+set(script "
+import struct, zipfile
+archive = zipfile.ZipFile('run.npz')
+assert archive.testzip() is None
+sizes = {n: len(archive.read(n)) - 10 - struct.unpack('<H', archive.read(n)[8:10])[0] for n in archive.namelist()}
+assert sizes == {'t.npy': 56, 'y.npy': 112, 'event_t.npy': 48, 'event_which.npy': 48, 'event_direction.npy': 48}, sizes
+try:
+  import numpy
+except ImportError:
+  raise SystemExit
+run = numpy.load('run.npz')
+assert run['y'].shape == (7, 2) and run['t'][3] == 1.5 and (run['event_direction'] == -1).all()
+")
+if(PYTHON)
+  execute_process(COMMAND ${PYTHON} -c "${script}" WORKING_DIRECTORY ${FOLDER}
+                  RESULT_VARIABLE got ERROR_VARIABLE err)
+  if(NOT got EQUAL 0)
+    message(SEND_ERROR "python cannot read run.npz: ${err}")
+  endif()
+endif()
+
+# SIGINT ends a run after a step, with what was computed; 130 is what shells expect.
+find_program(TIMEOUT timeout)
+if(TIMEOUT)
+  set(program ${PROGRAM})
+  set(PROGRAM ${TIMEOUT})
+  expect(130 --preserve-status -s INT 0.5 ${program} solve bruss2d:n=16 be --h 1e-7 --json
+         ERR "stopped from outside at t = ")
+  member(stopped status)
+  member("*" stats steps)
+endif()
+file(REMOVE_RECURSE ${FOLDER})
