@@ -3,14 +3,10 @@
  * exist once per instruction set and the processor decides when a solver is opened.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "lanes.h"
+#include "lanes_sparse.h"
+#include "lanes_vector.h"
 #include <float.h>
 #include <math.h>
-
-#if defined(__GNUC__)
-#define INLINE static inline __attribute__((always_inline))
-#else
-#define INLINE static inline
-#endif
 
 /* Call body(L, n, lanes, ...) with constants for common sizes. */
 #define WITH_LANES(body, n, ...)                                                               \
@@ -42,93 +38,6 @@ INLINE void assemble(stf_lanes *L, const int n, const int lanes, const double *J
     }
 }
 
-/* e = 1 / e in all lanes. */
-INLINE void reciprocal(const int lanes, double *e)
-{
-  for (int k = 0; k < lanes; k++) {
-    const double re = e[k], im = e[lanes + k], d = 1 / (re * re + im * im);
-    e[k] = re * d, e[lanes + k] = -im * d;
-  }
-}
-
-/* z -= x y and x = x y. */
-INLINE void minus(const int lanes, double *restrict z, const double *restrict x,
-                  const double *restrict y)
-{
-  for (int k = 0; k < lanes; k++) {
-    z[k] -= x[k] * y[k] - x[lanes + k] * y[lanes + k];
-    z[lanes + k] -= x[k] * y[lanes + k] + x[lanes + k] * y[k];
-  }
-}
-
-/* z_i -= a_i x for i = from .. to - 1: independent, so that the processor may overlap them. */
-#if defined(__GNUC__)
-#define VECTOR(N)                                                                              \
-  typedef double v##N __attribute__((vector_size(8 * N), aligned(8), may_alias));              \
-  INLINE void subtract##N(int from, int to, const double *a, const double *x, double *z)       \
-  {                                                                                            \
-    const v##N re = *(const v##N *)x, im = *(const v##N *)(x + N);                             \
-    for (int i = from; i < to; i++) {                                                          \
-      const v##N *e = (const v##N *)(a + i * 2 * N);                                           \
-      v##N *w = (v##N *)(z + i * 2 * N);                                                       \
-      w[0] -= e[0] * re - e[1] * im;                                                           \
-      w[1] -= e[0] * im + e[1] * re;                                                           \
-    }                                                                                          \
-  }                                                                                            \
-  /* r += x f for vectors of 2 N numbers. */                                                   \
-  INLINE void add##N(double *r, const double *x, double f)                                     \
-  {                                                                                            \
-    v##N *to = (v##N *)r;                                                                      \
-    const v##N *from = (const v##N *)x;                                                        \
-    to[0] += from[0] * f, to[1] += from[1] * f;                                                \
-  }
-
-VECTOR(2)
-VECTOR(4)
-VECTOR(8)
-#define HAND(N, name, ...)                                                                     \
-  if (lanes == N) {                                                                            \
-    name##N(__VA_ARGS__);                                                                      \
-    return;                                                                                    \
-  }
-#else
-#define HAND(N, name, ...)
-#endif
-
-INLINE void subtract(const int lanes, int from, int to, const double *a, const double *x,
-                     double *z)
-{
-  HAND(2, subtract, from, to, a, x, z)
-  HAND(4, subtract, from, to, a, x, z)
-  HAND(8, subtract, from, to, a, x, z)
-  for (int i = from; i < to; i++) {
-    const double *e = a + i * 2 * lanes;
-    double *w = z + i * 2 * lanes;
-    for (int k = 0; k < lanes; k++) {
-      w[k] -= e[k] * x[k] - e[lanes + k] * x[lanes + k];
-      w[lanes + k] -= e[k] * x[lanes + k] + e[lanes + k] * x[k];
-    }
-  }
-}
-
-/* r += x f, 2 lanes numbers. */
-INLINE void add(const int lanes, double *r, const double *x, double f)
-{
-  HAND(2, add, r, x, f)
-  HAND(4, add, r, x, f)
-  HAND(8, add, r, x, f)
-  for (int k = 0; k < 2 * lanes; k++) r[k] += x[k] * f;
-}
-
-INLINE void times(const int lanes, double *restrict x, const double *restrict y)
-{
-  for (int k = 0; k < lanes; k++) {
-    const double re = x[k] * y[k] - x[lanes + k] * y[lanes + k];
-    x[lanes + k] = x[k] * y[lanes + k] + x[lanes + k] * y[k];
-    x[k] = re;
-  }
-}
-
 /* Bring the row with the largest entry of lane 0 to place k. */
 INLINE double pivot(stf_lanes *L, const int n, const int lanes, int k)
 {
@@ -154,6 +63,10 @@ INLINE double pivot(stf_lanes *L, const int n, const int lanes, int k)
 INLINE void eliminate(stf_lanes *L, const int n, const int lanes, const double *J, double h,
                       int *failed)
 {
+  if (L->thin) {
+    eliminate_thin(L, lanes, J, h, failed);
+    return;
+  }
   assemble(L, n, lanes, J, h);
   for (int i = 0; i < n; i++) L->order[i] = i;
   for (int k = 0; k < n; k++) {
@@ -173,10 +86,15 @@ INLINE void eliminate(stf_lanes *L, const int n, const int lanes, const double *
 
 /* -- solve --------------------------------------------------------------------------------------- */
 
-/* x from rhs by the LU: forward in the order of elimination, then backward, by columns. */
-INLINE void solve(stf_lanes *L, const int n, const int lanes, const double *restrict rhs,
+/* x from rhs, which is scratch, by the LU: forward in the order of elimination, then backward, by
+ * columns. */
+INLINE void solve(stf_lanes *L, const int n, const int lanes, double *restrict rhs,
                   double *restrict x)
 {
+  if (L->thin) {
+    solve_thin(L, lanes, rhs, x);
+    return;
+  }
   for (int i = 0; i < n; i++) {
     const double *b = rhs + L->order[i] * 2 * lanes;
     for (int k = 0; k < 2 * lanes; k++) x[i * 2 * lanes + k] = b[k];
@@ -322,16 +240,13 @@ struct stf_lanes_kernels {
                                                end_##isa, filter_##isa};
 
 KERNELS(plain, )
-#if defined(__x86_64__) && defined(__GNUC__)
-KERNELS(avx2, __attribute__((target("avx2,fma"))))
-KERNELS(avx512, __attribute__((target("avx512f,avx512vl,avx512dq,avx2,fma"))))
+#ifdef STF_SIMD_X86
+KERNELS(avx2, STF_AVX2)
+KERNELS(avx512, STF_AVX512)
 
 static const struct stf_lanes_kernels *best(void)
 {
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma"))
-    return &avx512;
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? &avx2 : &plain;
+  return stf_simd_width() == 8 ? &avx512 : stf_simd_width() == 4 ? &avx2 : &plain;
 }
 #else
 static const struct stf_lanes_kernels *best(void) { return &plain; }
@@ -339,6 +254,7 @@ static const struct stf_lanes_kernels *best(void) { return &plain; }
 
 int stf_lanes_factor(stf_lanes *L, const double *J, double h)
 {
+  stf_lanes_look(L, J);
   return L->kernels->factor(L, J, h);
 }
 
@@ -392,7 +308,8 @@ int stf_lanes_open(stf_pool *pool, const stf_split *split, int n, const double *
   L->Z = stf_claim(pool, count * (size_t)L->wide, sizeof *L->Z);
   L->F = stf_claim(pool, 2 * count * (size_t)L->s, sizeof *L->F);
   L->order = stf_claim(pool, count, sizeof *L->order);
-  if (!L->lu || !L->omega || !L->Z || !L->F || !L->order) return STEIF_NO_MEMORY;
+  L->row = stf_claim(pool, count * count, sizeof *L->row);
+  if (!L->lu || !L->omega || !L->Z || !L->F || !L->order || !L->row) return STEIF_NO_MEMORY;
   L->rhs = L->omega + count * row, L->work = L->rhs + count * row;
   L->Y = L->F + count * (size_t)L->s;
   return STEIF_OK;

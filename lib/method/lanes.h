@@ -3,7 +3,8 @@
  * The lanes of a split (one per real eigenvalue and per conjugate pair of A^{-1}) are the innermost
  * index of every array: entry (i, j) of the LU holds re[lane], im[lane], so that one pass over the
  * matrix serves all shifts in vector registers. A real shift rides along with zero imaginary part.
- * Stage values are kept by component, padded to `wide` stages.
+ * Stage values are kept by component, padded to `wide` stages. A matrix whose LU is mostly zeros is
+ * eliminated in an order of little fill, its zeros skipped.
  *
  *   (lambda_k / h M - J) d omega_k = [V^{-1} F]_k - (lambda_k / h) M omega_k,   Z = V omega
  *
@@ -14,8 +15,9 @@
 #define STF_LANES_H
 
 #include "table.h"
+#include <stdint.h>
 
-enum { STF_LANES = 8, STF_WIDE = 16 };
+enum { STF_LANES = 8, STF_WIDE = 16, STF_LANES_LARGEST = 64 };
 
 struct stf_lanes_kernels;
 
@@ -28,6 +30,11 @@ typedef struct stf_lanes {
   double V[2 * STF_LANES][STF_WIDE];    /* Z_j = sum_k V[k][j] re_k + V[lanes + k][j] im_k */
   double *lu;                           /* n x n by columns, 2 lanes each */
   int *order;                           /* rows in the order of elimination */
+  bool thin, full; /* zeros are skipped, the order is `column`; known to be too full for that */
+  uint64_t pattern[STF_LANES_LARGEST];  /* rows of M and of all J so far, by columns */
+  int column[STF_LANES_LARGEST];        /* unknowns in the order of elimination */
+  int lower[STF_LANES_LARGEST + 1], upper[STF_LANES_LARGEST]; /* columns: lists in `row` */
+  unsigned char *row; /* rows below the pivot of step k: lower[k] .., above: upper[k] .. */
   double *omega, *rhs, *work;           /* n x 2 lanes */
   double *Z;                            /* n x wide */
   double *F, *Y;                        /* s x n, by stages: callbacks write and read them */
@@ -37,6 +44,9 @@ typedef struct stf_lanes {
 /* Lanes of an eigen split (no coupling) for n components; claimed from the pool. */
 int stf_lanes_open(stf_pool *pool, const stf_split *split, int n, const double *M,
                    stf_lanes *L);
+
+/* Order the unknowns for J when its pattern has entries not seen before (thin.c). */
+void stf_lanes_look(stf_lanes *L, const double *J);
 
 /* LU of all lanes; J n x n by columns. 0, or 1 + the column whose pivot vanished. */
 int stf_lanes_factor(stf_lanes *L, const double *J, double h);

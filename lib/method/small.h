@@ -6,7 +6,7 @@
 #include "lanes.h"
 #include "method.h"
 
-enum { STF_SMALL_LARGEST = 64, STF_SMALL_STAGES = STF_EIGEN_STAGES };
+enum { STF_SMALL_LARGEST = STF_LANES_LARGEST, STF_SMALL_STAGES = STF_EIGEN_STAGES };
 
 typedef struct stf_small {
   const steif_table *table;
