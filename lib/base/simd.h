@@ -25,6 +25,8 @@ static inline int stf_simd_width(void)
     return 8;
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? 4 : 2;
 }
+#else
+static inline int stf_simd_width(void) { return 2; }
 #endif
 
 #endif

@@ -222,13 +222,13 @@ INLINE void forward(const int of, const stf_front *g, const int *rows, const dou
 {
   const sunindextype ld = g->width + g->below;
   double *x = X + (sunindextype)of * g->first;
-  for (int k = 0; k < g->width; k++) {
+  for (int k = 0; k < g->width; k++)
     for (int q = 0; q < of && pivot[k] != k; q++) {
       const double t = x[of * k + q];
       x[of * k + q] = x[of * pivot[k] + q], x[of * pivot[k] + q] = t;
     }
+  for (int k = 0; k < g->width; k++)
     minus(of, g->width - 1 - k, 1, L + k + 1 + ld * k, ld, x + of * k, x + of * (k + 1));
-  }
   memset(work, 0, (size_t)(of * g->below) * sizeof *work);
   minus(of, g->below, g->width, L + g->width, ld, x, work);
   for (int i = 0; i < g->below; i++)
@@ -312,9 +312,9 @@ bool stf_fronts_factor(const stf_fronts *f, const double *value, double *out, in
 void stf_fronts_solve(const stf_fronts *f, const double *in, const int *pivot, int nrhs,
                       double *b, sunindextype ld, double *work)
 {
-  for (; nrhs > 0; nrhs -= STF_FRONTS_WIDE, b += STF_FRONTS_WIDE * ld) {
-    const int now = nrhs < STF_FRONTS_WIDE ? nrhs : STF_FRONTS_WIDE;
-    const int of = now == 1 ? 1 : now <= 4 ? 4 : STF_FRONTS_WIDE;
+  const int most = stf_simd_width() == STF_FRONTS_WIDE ? STF_FRONTS_WIDE : 4;
+  for (; nrhs > 0; nrhs -= most, b += most * ld) {
+    const int now = nrhs < most ? nrhs : most, of = now == 1 ? 1 : now <= 4 ? 4 : most;
     for (int k = 0; k < f->n; k++)
       for (int q = 0; q < of; q++) work[of * k + q] = q < now ? b[ld * q + f->order[k]] : 0;
     best()->solve(of, f, in, pivot, work);

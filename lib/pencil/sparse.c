@@ -16,7 +16,7 @@
 #define GROWTH 1e-5
 #define SLACK 1e-2
 
-enum { FRONTS = 200 }; /* unknowns from which on blocks of columns pay */
+enum { FRONTS = 200, DENSE = 12 }; /* unknowns, and flops per entry, from which on blocks pay */
 
 typedef struct factors {
   klu_l_common common; /* one to a slot: slots are factored side by side */
@@ -79,14 +79,16 @@ static void forget(steif_pencil *p)
   s->work = NULL;
 }
 
-/* Fronts take over real shifts of large patterns, unless the block triangular form that KLU finds or
- * its unsymmetric pattern is much sparser. */
+/* Fronts take over real shifts of large patterns, where an entry of the factors meets enough work to
+ * pay for the blocks, unless the block triangular form that KLU finds or its unsymmetric pattern is
+ * much sparser. */
 static int open_fronts(steif_pencil *p)
 {
   sparse *s = p->state;
   stf_fronts *f = &s->fronts;
   const klu_l_symbolic *k = s->symbolic;
   if (p->n < FRONTS || p->n > INT_MAX / 2 || k->structural_rank < k->n) return STEIF_OK;
+  if (k->est_flops >= 0 && k->est_flops < DENSE * (k->lnz + k->unz)) return STEIF_OK;
   STEIF_TRY(stf_fronts_open(p->ctx, &s->pattern, f));
   if (k->lnz >= 0 && (double)f->size > 2 * (k->lnz + k->unz)) {
     stf_fronts_free(p->ctx, f);

@@ -134,7 +134,7 @@ static void dense_agrees(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   SUNContext sun = steif_sundials(ctx);
-  SUNMatrix A = square(11, 2, true, sun);
+  SUNMatrix A = square(17, 2, false, sun);
   const sunindextype n = SM_COLUMNS_S(A);
   SUNMatrix D = SUNDenseMatrix(n, n, sun);
   for (sunindextype j = 0; j < n; j++)
