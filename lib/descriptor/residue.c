@@ -11,10 +11,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Agreement that needs no further circle; that is certified; how far the radius may go down and
- * up, in factors of two. */
+/* Agreement that needs no further circle; that is certified, the same as of two dense algorithms (the
+ * estimate follows the error up to 1e-2); how far the radius may go down and up, in factors of
+ * two. */
 #define AGREED 1e-12
-#define CERTIFIED 1e-6
+#define CERTIFIED 1e-3
 enum { DOWN = 3, UP = 3 };
 
 typedef struct answer {
