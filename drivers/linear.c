@@ -204,11 +204,11 @@ void linear_close(struct call *call, struct linear *l)
 
 steif_analysis linear_analysis(const struct call *call)
 {
-  static const char *const names[] = {"auto", "staircase", "qz", "contour", "drazin"};
+  static const char *const names[] = {"auto", "staircase", "qz", "contour", "drazin", "array"};
   const char *name = word_of(call, "--algorithm", "auto");
   steif_analysis a = {.radius = real_of(call, "--radius", 0),
                       .points = (int)whole_of(call, "--points", 0)};
-  for (int i = 0; i < 5; i++)
+  for (int i = 0; i < 6; i++)
     if (!strcmp(name, names[i])) a.algorithm = (enum steif_algorithm)i;
   return a;
 }

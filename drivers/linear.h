@@ -18,7 +18,7 @@ struct linear {
 /* Rows of an option table: of every analysis, and of those that start somewhere. */
 #define ANALYSIS_ROWS                                                                          \
   {"--state-space", FLAG, NULL, "the second file is A of E x' = A x + f, so F = -A"},          \
-    {"--algorithm", CHOICE, "auto|staircase|qz|contour|drazin", "how it is analysed"},         \
+    {"--algorithm", CHOICE, "auto|staircase|qz|contour|drazin|array", "how it is analysed"},   \
     {"--radius", POSITIVE, "R", "of the contour (default: raised until certified)"},           \
   {                                                                                            \
     "--points", COUNT, "N", "of the contour (default 16)"                                      \

@@ -31,7 +31,9 @@ enum steif_algorithm {
   STEIF_STAIRCASE,  /* dense, checked by STEIF_QZ */
   STEIF_QZ,         /* dense, generalised Schur form reordered */
   STEIF_CONTOUR,    /* sparse */
-  STEIF_DRAZIN      /* sparse, one real factorisation and a Krylov space */
+  STEIF_DRAZIN,     /* sparse, one real factorisation and a Krylov space */
+  STEIF_ARRAY       /* sparse, QR of the impulse array by SuiteSparseQR, which is under the GPL:
+                       STEIF_UNSUPPORTED unless steif was built with STEIF_SPQR */
 };
 
 typedef struct steif_analysis {

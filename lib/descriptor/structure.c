@@ -59,9 +59,9 @@ static int check(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analy
               "E is of order %lld, F of order %lld: they must be equal", (long long)order(E),
               (long long)order(F));
   STEIF_CHECK((int)analysis->algorithm >= STEIF_AUTOMATIC &&
-                analysis->algorithm <= STEIF_DRAZIN,
+                analysis->algorithm <= STEIF_ARRAY,
               ctx, STEIF_BAD_INPUT, "algorithm %d does not exist: choose 0 .. %d",
-              (int)analysis->algorithm, STEIF_DRAZIN);
+              (int)analysis->algorithm, STEIF_ARRAY);
   STEIF_CHECK(!(analysis->radius < 0) && isfinite(analysis->radius), ctx, STEIF_BAD_INPUT,
               "the radius %g of the circle must be positive, or 0 to have it found",
               analysis->radius);
@@ -253,11 +253,11 @@ static int solve(question *q, const steif_structure *structure, steif_impulse *i
     return stf_dense_impulse(q->ctx, q->E, q->F, &q->analysis, q->x0, &q->sources, impulse);
   STEIF_TRY(sparse(q->ctx, q->pool, q->E, &e));
   STEIF_TRY(sparse(q->ctx, q->pool, q->F, &f));
-  return q->analysis.algorithm == STEIF_DRAZIN
-           ? stf_drazin_impulse(q->ctx, e, f, &q->analysis, q->x0, &q->sources, &q->found,
-                                impulse)
-           : stf_contour_impulse(q->ctx, e, f, &q->analysis, q->x0, &q->sources, &q->found,
-                                 impulse);
+  const enum steif_algorithm by = q->analysis.algorithm;
+  return (by == STEIF_DRAZIN  ? stf_drazin_impulse
+          : by == STEIF_ARRAY ? stf_array_impulse
+                              : stf_contour_impulse)(q->ctx, e, f, &q->analysis, q->x0,
+                                                     &q->sources, &q->found, impulse);
 }
 
 int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F, const sunrealtype *x0,

@@ -42,6 +42,11 @@ int stf_drazin_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif
                        const sunrealtype *x0, const stf_sources *sources,
                        steif_structure *structure, steif_impulse *impulse);
 
+/* By sparse QR (array.c); STEIF_UNSUPPORTED where it is not built in. */
+int stf_array_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
+                      const sunrealtype *x0, const stf_sources *sources,
+                      steif_structure *structure, steif_impulse *impulse);
+
 /* Combinatorics of the pattern (matching.c): structural rank, degree (maximum-weight perfect
  * matching, weight 1 on entries of E), and by the Dulmage-Mendelsohn decomposition the equations
  * and unknowns of the over- and under-determined parts when there is no perfect matching. */
