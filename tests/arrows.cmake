@@ -11,6 +11,7 @@ set(room_of_impulse descriptor)
 set(room_of_energy stability)
 set(room_of_hamiltonian stability)
 set(room_of_lyapunov stability)
+set(room_of_supervisor stability)
 set(room_of_phi matfun)
 set(room_of_glm table)
 

@@ -23,6 +23,7 @@
 #include <steif/report.h>
 #include <steif/solver.h>
 #include <steif/stability.h>
+#include <steif/supervisor.h>
 #include <steif/table.h>
 
 #endif

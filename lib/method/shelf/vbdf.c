@@ -106,24 +106,24 @@ static sunrealtype growth(sunrealtype bias, sunrealtype error, int k)
   return 1 / (pow(bias * error, 1 / (k + 1.0)) + 1e-6);
 }
 
-/* Order and length of the next step. */
+/* Order and length of the next step; among orders that reach the longest one, the highest. */
 static void choose(stf_step *s)
 {
   state *e = s->state;
   const int k = e->k;
+  const sunrealtype cap = s->options->h_max > 0 ? s->options->h_max / s->h_try : INFINITY;
   sunrealtype best = growth(6, stf_norm(&s->system.space, s->error, s->weights), k);
   int order = k;
   if (--e->wait <= 0) {
     const sunrealtype lower = k > 1 ? growth(6, error_at(s, k - 1), k - 1) : 0;
     const bool room = k < e->p && e->points >= k + 2;
     const sunrealtype higher = room ? growth(10, error_at(s, k + 1), k + 1) : 0;
-    if (lower > best) best = lower, order = k - 1;
-    if (higher > best) best = higher, order = k + 1;
+    if (fmin(lower, cap) > best) best = lower, order = k - 1;
+    if (fmin(higher, cap) >= fmin(best, cap)) best = higher, order = k + 1;
     e->wait = 2;
   }
-  const sunrealtype most = s->count < 2 ? 1e4 : 10;
-  s->factor = best < 1.5 ? 1 : best < most ? best : most;
-  if (s->factor == 1) return;
+  s->factor = best < 1.5 ? 1 : fmin(best, s->count < 2 ? 1e4 : 10);
+  if (s->factor == 1 && !(order > k && best >= cap)) return;
   if (order != k) e->k = order;
   e->wait = e->k + 1;
 }
