@@ -6,8 +6,9 @@
 #define VERBS(X)                                                                               \
   X(list)                                                                                      \
   X(solve)                                                                                     \
-  X(compare) X(order) X(layer) X(weak) X(pencil) X(impulse) X(region) X(c2d) X(diagnose)       \
-    X(energy) X(hamiltonian) X(lyapunov) X(supervise) X(experiment) X(demo) X(bench)
+  X(compare)                                                                                   \
+  X(order) X(layer) X(weak) X(pencil) X(impulse) X(region) X(c2d) X(diagnose) X(energy)        \
+    X(hamiltonian) X(lyapunov) X(supervise) X(counterexample) X(experiment) X(demo) X(bench)
 
 #define DECLARE(name) extern const struct verb verb_##name;
 #define ENTRY(name) &verb_##name,

@@ -6,6 +6,7 @@
 #include <steif/base.h>
 #include <steif/bench.h>
 #include <steif/collection.h>
+#include <steif/counterexample.h>
 #include <steif/descriptor.h>
 #include <steif/diagnose.h>
 #include <steif/discrete.h>

@@ -16,7 +16,8 @@
  * E. Steyer and E. Van Vleck, arXiv 1709.02059, pose the problem. Where f is linear and homogeneous w
  * is y itself, its local error is measured against |y| in the Euclidean norm, and atol is not used.
  * Else y and w are integrated side by side, w with the tolerance rtol |w|; .jac is needed then, and
- * the coupling dJ/dy w is left out of Newton's matrix (Rosenbrock methods, which need it, are refused).
+ * the coupling dJ/dy w is left out of Newton's matrix (Rosenbrock and exponential methods, which
+ * need it, and auto, which may choose them, are refused).
  *
  *   steif_supervision how = {.rate = 0.035, .window = 12.566};
  *   steif_supervise(ctx, &problem, "bdf:p=2", &options, &how, y, &facts);

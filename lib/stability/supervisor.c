@@ -198,8 +198,10 @@ static int suits(steif_context *ctx, const steif_problem *p, const char *method,
 {
   steif_method_info info;
   STEIF_TRY(steif_method_find(ctx, method, &info));
+  /* auto may choose one of them */
+  const bool exact = strstr("rosenbrock exprb etd auto", info.family) != NULL;
   STEIF_CHECK(
-    tangent->direct || strcmp(info.family, "rosenbrock"), ctx, STEIF_UNSUPPORTED,
+    tangent->direct || !exact, ctx, STEIF_UNSUPPORTED,
     "'%s' needs the exact Jacobian of '%s' beside its variational equation, which has "
     "second derivatives: take another family",
     method, p->name);
@@ -209,8 +211,10 @@ static int suits(steif_context *ctx, const steif_problem *p, const char *method,
 static int begin(stf_pool *pool, guard *g, const steif_problem *p)
 {
   stf_tangent *tangent = &g->tangent;
-  STEIF_CHECK(steif_problem_form(g->ctx, p) == STEIF_ODE && p->y0, g->ctx, STEIF_UNSUPPORTED,
-              "problem '%s' is not of the form y' = f(t, y) with .y0", p->name);
+  STEIF_CHECK(
+    steif_problem_form(g->ctx, p) == STEIF_ODE && p->y0 && !p->react, g->ctx, STEIF_UNSUPPORTED,
+    "problem '%s' is not of the form y' = f(t, y) with .y0, without events that change y",
+    p->name);
   STEIF_TRY(stf_tangent_open(pool, g->ctx, p, tangent));
   STEIF_TRY(suits(g->ctx, p, g->method, tangent));
   const sunindextype n = p->n, all = tangent->pair.n;

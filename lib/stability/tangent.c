@@ -164,9 +164,30 @@ static int open_views(stf_pool *pool, stf_tangent *g)
   return STEIF_OK;
 }
 
+/* Callbacks are handed the tangent: only those that know it are taken over. */
+static steif_problem pair_of(stf_tangent *g)
+{
+  const steif_problem *p = g->problem;
+  steif_problem z = {.name = p->name,
+                     .n = g->direct ? p->n : 2 * p->n,
+                     .f = slope,
+                     .jac = p->jac ? matrix : NULL,
+                     .user = g,
+                     .storage = p->storage,
+                     .lower = p->lower,
+                     .upper = p->upper,
+                     .nnz = g->pair.nnz,
+                     .autonomous = p->autonomous,
+                     .rtol_scale = p->rtol_scale,
+                     .breaks = p->breaks,
+                     .break_count = p->break_count};
+  if (g->direct) z.nnz = p->nnz, z.pattern = p->pattern, z.linear = p->linear;
+  return z;
+}
+
 int stf_tangent_open(stf_pool *pool, steif_context *ctx, const steif_problem *p, stf_tangent *g)
 {
-  *g = (stf_tangent){.ctx = ctx, .problem = p, .n = p->n, .pair = *p};
+  *g = (stf_tangent){.ctx = ctx, .problem = p, .n = p->n};
   N_Vector like = N_VNew_Serial(p->n, steif_sundials(ctx));
   STEIF_CHECK(like, ctx, STEIF_NO_MEMORY, "no memory for a vector of %lld", (long long)p->n);
   STEIF_TRY(stf_claim_owner(pool, like, destroy_vector));
@@ -175,12 +196,7 @@ int stf_tangent_open(stf_pool *pool, steif_context *ctx, const steif_problem *p,
   STEIF_TRY(open_views(pool, g));
   STEIF_TRY(probe(g, room));
   for (int k = 0; k < 3; k++) g->scratch[k] = room[k];
-  steif_problem *z = &g->pair;
-  z->f = slope, z->user = g, z->yp0 = NULL, z->exact = NULL, z->reference = NULL;
-  z->invariants = 0, z->invariant = NULL, z->kick = z->drift = NULL, z->positions = 0;
-  z->Av = NULL, z->build = NULL, z->destroy = NULL;
-  if (z->jac) z->jac = matrix;
-  if (g->direct) return STEIF_OK;
-  z->n = 2 * p->n, z->pattern = NULL, z->linear = 0;
-  return open_matrix(pool, g);
+  if (!g->direct) STEIF_TRY(open_matrix(pool, g));
+  g->pair = pair_of(g);
+  return STEIF_OK;
 }

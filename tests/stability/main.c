@@ -4,7 +4,8 @@
 
 extern CU_TestInfo tests_of_region[], tests_of_boundary[], tests_of_order[],
   tests_of_lyapunov[], tests_of_growth[], tests_of_energy[], tests_of_kepler[],
-  tests_of_stepmap[], tests_of_hamiltonian[], tests_of_supervisor[];
+  tests_of_stepmap[], tests_of_hamiltonian[], tests_of_supervisor[],
+  tests_of_counterexample[];
 
 extern CU_TestInfo tests_of_underlying[], tests_of_general_regions[];
 
@@ -19,4 +20,5 @@ SUITE_MAIN({.pName = "underlying", .pTests = tests_of_underlying},
            {.pName = "kepler", .pTests = tests_of_kepler},
            {.pName = "map of a step", .pTests = tests_of_stepmap},
            {.pName = "hamiltonian", .pTests = tests_of_hamiltonian},
-           {.pName = "supervisor", .pTests = tests_of_supervisor})
+           {.pName = "supervisor", .pTests = tests_of_supervisor},
+           {.pName = "counterexample", .pTests = tests_of_counterexample})
