@@ -5,7 +5,7 @@
 
 typedef struct spectrum {
   size_t count;
-  double *exponent, *interval;
+  double *exponent, *interval, *error;
   steif_lyapunov_facts facts;
   steif_growth_facts growth;
   bool measured; /* growth */
@@ -16,7 +16,9 @@ static void fill(steif_report *r, const struct call *call, const spectrum *s)
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
   steif_report_list(r, "exponents", s->count, s->exponent);
+  steif_report_list(r, "errors", s->count, s->error);
   steif_report_matrix(r, "intervals", s->count, 2, s->interval);
+  report_maybe(r, "", "dimension", s->facts.dimension >= 0, s->facts.dimension);
   steif_report_real(r, "mu", s->measured ? s->growth.mu : s->facts.mu);
   report_maybe(r, "", "lte_mean", s->measured, s->growth.lte_mean);
   report_maybe(r, "", "lte_max", s->measured, s->growth.lte_max);
@@ -35,6 +37,7 @@ static int rows(const struct call *call, const spectrum *s)
   for (size_t i = 0; r && i < s->count; i++) {
     steif_report_row(r, "rows");
     steif_report_real(r, "rows.exponent", s->exponent[i]);
+    steif_report_real(r, "rows.error", s->error[i]);
     steif_report_real(r, "rows.low", s->interval[2 * i]);
     steif_report_real(r, "rows.high", s->interval[2 * i + 1]);
   }
@@ -58,7 +61,8 @@ static int measure(struct call *call, const steif_problem *p, spectrum *s)
                                     .t1 = real_of(call, "--t1", 0),
                                     .transient = real_of(call, "--transient", 0),
                                     .window = real_of(call, "--window", 0),
-                                    .count = (int)s->count};
+                                    .count = (int)s->count,
+                                    .error = s->error};
   const char *method = call->word[1];
   progress(call, "%s on %s", method, call->word[0]);
   if (steif_lyapunov(call->ctx, p, method, &o, s->exponent, s->interval, &s->facts) != STEIF_OK)
@@ -79,8 +83,9 @@ static int run(struct call *call)
   if (steif_problem_find(call->ctx, call->word[0], &p) != STEIF_OK) return fail(call);
   const long count = whole_of(call, "--count", (long)p.n);
   s.count = count < (long)p.n ? (size_t)count : (size_t)p.n;
-  s.exponent = malloc(3 * s.count * sizeof *s.exponent);
+  s.exponent = malloc(4 * s.count * sizeof *s.exponent);
   s.interval = s.exponent ? s.exponent + s.count : NULL;
+  s.error = s.exponent ? s.exponent + 3 * s.count : NULL;
   int code = EXIT_FAILED;
   if (count > (long)p.n)
     code = refuse(call, "--count is %ld and '%s' has %ld exponents", count, call->word[0],

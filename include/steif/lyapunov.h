@@ -36,6 +36,8 @@ typedef struct steif_lyapunov_options {
   int count;             /* exponents wanted, the largest first; 0: all n */
   int linear;            /* 1: J does not depend on y, and no trajectory is run; -1: it does;
                             0: as J at three random y tells */
+  sunrealtype *error;    /* room for count standard errors of the exponents, from the means over 16
+                            parts of the run; NaN below 32 steps. NULL: not wanted */
 } steif_lyapunov_options;
 
 typedef struct steif_lyapunov_facts {
@@ -45,6 +47,8 @@ typedef struct steif_lyapunov_facts {
   sunrealtype sum;       /* of the exponents; with all n it equals, to the order of the method, ... */
   sunrealtype trace;     /* ... the mean of trace J */
   sunrealtype mu;        /* largest running average of the first exponent in the second half */
+  sunrealtype dimension; /* Kaplan and Yorke's j + (sum of the j largest) / |the next|, j the last
+                            with a sum >= 0; n where all sums are; NaN: more exponents decide it */
 } steif_lyapunov_facts;
 
 /* exponent: count values in the order of QR, which descends as the run grows. interval (may be

@@ -2,7 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "variation.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+enum { PARTS = 16 };
 
 typedef struct spectrum {
   stf_variation v;
@@ -11,6 +14,10 @@ typedef struct spectrum {
   sunrealtype *sum, *rest; /* of ln R_ii, compensated */
   sunrealtype *ring;       /* the last window + 1 sums */
   sunrealtype *low, *high;
+  sunrealtype *part, *spread,
+    *begun; /* means over parts, their squares, sums where one began */
+  int parts;
+  long part_begun;
   sunrealtype trace, mu;
 } spectrum;
 
@@ -46,7 +53,9 @@ static int room(stf_pool *pool, spectrum *s)
   s->sum = stf_claim(pool, 2 * m, sizeof *s->w);
   s->ring = stf_claim(pool, ((size_t)s->window + 1) * m, sizeof *s->w);
   s->low = stf_claim(pool, 2 * m, sizeof *s->w);
-  if (!s->w || !s->R || !s->sum || !s->ring || !s->low) return STEIF_NO_MEMORY;
+  s->part = stf_claim(pool, 3 * m, sizeof *s->w);
+  if (!s->w || !s->R || !s->sum || !s->ring || !s->low || !s->part) return STEIF_NO_MEMORY;
+  s->spread = s->part + m, s->begun = s->part + 2 * m;
   s->rest = s->sum + m, s->high = s->low + m;
   for (size_t i = 0; i < m; i++) s->low[i] = INFINITY, s->high[i] = -INFINITY;
   s->mu = -INFINITY;
@@ -73,8 +82,7 @@ static sunrealtype trace(const stf_variation *v)
 {
   sunrealtype sum = 0;
   for (int i = 0; i < v->g->r; i++)
-    for (int a = 0; a < v->d; a++)
-      sum += v->weight[i] * v->J[(i * v->d + a) * v->d + a];
+    for (int a = 0; a < v->d; a++) sum += v->weight[i] * v->J[(i * v->d + a) * v->d + a];
   return sum;
 }
 
@@ -84,6 +92,19 @@ static void add(sunrealtype *sum, sunrealtype *rest, sunrealtype x)
   const sunrealtype total = *sum + x;
   *rest += fabs(*sum) >= fabs(x) ? (*sum - total) + x : (x - total) + *sum;
   *sum = total;
+}
+
+/* Mean and sum of squared deviations over the parts so far (Welford). */
+static void close_part(spectrum *s, long n, const sunrealtype *now)
+{
+  const sunrealtype span = (sunrealtype)(n - s->part_begun) * s->v.h;
+  s->parts++, s->part_begun = n;
+  for (int i = 0; i < s->v.m; i++) {
+    const sunrealtype mean = (now[i] - s->begun[i]) / span, off = mean - s->part[i];
+    s->part[i] += off / s->parts;
+    s->spread[i] += off * (mean - s->part[i]);
+    s->begun[i] = now[i];
+  }
 }
 
 /* Step n = 1, 2, ... of the average. */
@@ -100,12 +121,34 @@ static void record(spectrum *s, long n)
     const sunrealtype rate = (now[i] - then[i]) / ((sunrealtype)s->window * h);
     s->low[i] = fmin(s->low[i], rate), s->high[i] = fmax(s->high[i], rate);
   }
+  if (s->steps >= 2 * PARTS && n * PARTS >= (s->parts + 1) * s->steps) close_part(s, n, now);
   if (2 * n >= s->steps) s->mu = fmax(s->mu, now[0] / ((sunrealtype)n * h));
   s->trace += (trace(&s->v) - s->trace) / (sunrealtype)n;
 }
 
-static void tell(const spectrum *s, sunrealtype *exponent, sunrealtype *interval,
-                 steif_lyapunov_facts *facts)
+static int descending(const void *a, const void *b)
+{
+  const sunrealtype x = *(const sunrealtype *)a, y = *(const sunrealtype *)b;
+  return (x < y) - (x > y);
+}
+
+/* Kaplan and Yorke (1979); `sorted` is scratch. */
+static sunrealtype dimension(const spectrum *s, const sunrealtype *exponent,
+                             sunrealtype *sorted)
+{
+  const int m = s->v.m;
+  sunrealtype sum = 0;
+  memcpy(sorted, exponent, (size_t)m * sizeof *sorted);
+  qsort(sorted, (size_t)m, sizeof *sorted, descending);
+  for (int j = 0; j < m; j++) {
+    if (sum + sorted[j] < 0) return (sunrealtype)j + sum / -sorted[j];
+    sum += sorted[j];
+  }
+  return m == s->v.d ? (sunrealtype)m : NAN;
+}
+
+static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype *exponent,
+                 sunrealtype *interval, steif_lyapunov_facts *facts)
 {
   steif_lyapunov_facts out = {.steps = s->steps, .linear = s->v.linear, .h = s->v.h};
   out.time = (sunrealtype)s->steps * s->v.h, out.trace = s->trace, out.mu = s->mu;
@@ -113,7 +156,10 @@ static void tell(const spectrum *s, sunrealtype *exponent, sunrealtype *interval
     exponent[i] = (s->sum[i] + s->rest[i]) / out.time;
     out.sum += exponent[i];
     if (interval) interval[2 * i] = s->low[i], interval[2 * i + 1] = s->high[i];
+    if (o->error)
+      o->error[i] = s->parts == PARTS ? sqrt(s->spread[i] / (PARTS * (PARTS - 1))) : NAN;
   }
+  out.dimension = dimension(s, exponent, s->begun);
   if (facts) *facts = out;
 }
 
@@ -144,7 +190,7 @@ int steif_lyapunov(steif_context *ctx, const steif_problem *problem, const char 
   stf_pool *pool = stf_pool_new(ctx);
   if (!pool) return STEIF_NO_MEMORY;
   const int code = run(pool, ctx, problem, method, options, &s);
-  if (code == STEIF_OK) tell(&s, exponent, interval, facts);
+  if (code == STEIF_OK) tell(&s, options, exponent, interval, facts);
   stf_pool_free(&pool);
   return code > 0 ? steif_status(ctx) : code;
 }

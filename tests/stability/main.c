@@ -4,8 +4,8 @@
 
 extern CU_TestInfo tests_of_region[], tests_of_boundary[], tests_of_order[],
   tests_of_lyapunov[], tests_of_growth[], tests_of_energy[], tests_of_kepler[],
-  tests_of_stepmap[], tests_of_hamiltonian[], tests_of_supervisor[],
-  tests_of_counterexample[];
+  tests_of_stepmap[], tests_of_hamiltonian[], tests_of_supervisor[], tests_of_counterexample[],
+  tests_of_attractors[];
 
 extern CU_TestInfo tests_of_underlying[], tests_of_general_regions[];
 
@@ -21,4 +21,5 @@ SUITE_MAIN({.pName = "underlying", .pTests = tests_of_underlying},
            {.pName = "map of a step", .pTests = tests_of_stepmap},
            {.pName = "hamiltonian", .pTests = tests_of_hamiltonian},
            {.pName = "supervisor", .pTests = tests_of_supervisor},
-           {.pName = "counterexample", .pTests = tests_of_counterexample})
+           {.pName = "counterexample", .pTests = tests_of_counterexample},
+           {.pName = "attractors", .pTests = tests_of_attractors})

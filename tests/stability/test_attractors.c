@@ -1,0 +1,109 @@
+/* test_attractors.c: exponents and dimensions of attractors by several methods.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "stability.h"
+#include "suite.h"
+#include <steif/collection.h>
+#include <steif/lyapunov.h>
+
+static steif_lyapunov_facts measure(const char *problem, const char *method, double h,
+                                    double transient, double t1, double *exponent,
+                                    double *error)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  const steif_lyapunov_options o = {.h = h, .transient = transient, .t1 = t1, .error = error};
+  steif_lyapunov_facts facts = {.dimension = NAN};
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, problem, &p) == STEIF_OK);
+  const int code = steif_lyapunov(ctx, &p, method, &o, exponent, NULL, &facts);
+  if (code) printf("\n  %s, %s: %s", problem, method, steif_message(ctx));
+  CHECK(code == STEIF_OK);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+  return facts;
+}
+
+/* J. C. Sprott, Chaos and Time-Series Analysis (2003), table A.5: .0714, 0, -5.3943, dimension 2.0132.
+ * BDF2 damps the third by its order: h^2. */
+static void roessler_has_its_exponents(void)
+{
+  static const struct {
+    const char *method;
+    double third;
+  } row[] = {{"rk4", 0.05}, {"radau:s=2", 0.05}, {"gauss:s=2", 0.05}, {"bdf:p=2", 0.12}};
+  for (int i = 0; i < 4; i++) {
+    double x[3] = {NAN, NAN, NAN}, error[3] = {NAN, NAN, NAN};
+    const steif_lyapunov_facts f =
+      measure("roessler", row[i].method, 0.02, 100, 2000, x, error);
+    CHECK(fabs(x[0] - 0.0714) <= 4 * error[0]);
+    CHECK(fabs(x[1]) <= 4 * error[1]);
+    CHECK(error[0] < 0.01 && error[1] < 0.005);
+    CLOSE(x[2], -5.3943, row[i].third / 5);
+    CLOSE(f.dimension, 2.0132, 1e-3);
+    if (i < 3) CLOSE(f.sum, f.trace, 1e-3);
+  }
+}
+
+/* n = 40, F = 8: a dimension of 27.1 (A. Karimi and M. R. Paul, Chaos 20 (2010) 043105), 13 positive
+ * exponents, the largest 1.67 to 1.7 (Lorenz and Emanuel, J. Atmos. Sci. 55 (1998): errors double in
+ * 2.1 days of 0.2 units, ln 2 / 0.42 = 1.65); the sum is -40 exactly. */
+static void lorenz96_has_its_dimension(void)
+{
+  static const struct {
+    const char *method;
+    double h, t1, sum;
+  } row[] = {{"rk4", 0.05, 150, 1e-3},
+             {"gauss:s=2", 0.05, 40, 1e-3},
+             {"radau:s=2", 0.05, 40, 1e-2},
+             {"bdf:p=2", 0.02, 40, 1e-2}};
+  for (int i = 0; i < 4; i++) {
+    double x[40], error[40];
+    int positive = 0;
+    const steif_lyapunov_facts f =
+      measure("lorenz96", row[i].method, row[i].h, 10, row[i].t1, x, error);
+    for (int j = 0; j < 40; j++) positive += x[j] > 0.03;
+    CHECK(fabs(x[0] - 1.68) <= 4 * error[0] && error[0] < 0.2);
+    CHECK(positive >= 11 && positive <= 15);
+    CLOSE(f.dimension, 27.1, i == 0 ? 0.01 : 0.04);
+    CLOSE(f.trace, -40, 1e-12);
+    CLOSE(f.sum, -40, row[i].sum);
+  }
+}
+
+/* The Oregonator's limit cycle: 0, and -0.5020 on which Radau IIA and Gauss agree for h = 0.003; the
+ * third, -24666, is beyond what steps of this length damp. */
+static void a_stiff_cycle_has_one_exponent_zero(void)
+{
+  static const char *const methods[] = {"radau:s=2", "gauss:s=2"};
+  for (int i = 0; i < 2; i++) {
+    double x[3] = {NAN, NAN, NAN};
+    const steif_lyapunov_facts f = measure("orego", methods[i], 0.01, 302.85, 1211.4, x, NULL);
+    CLOSE_FLOOR(x[0], 0, 1e-5, 1);
+    CLOSE(x[1], -0.5020, 2e-3);
+    CHECK(x[2] < -50);
+    CLOSE(f.trace, -24666.2, 1e-4);
+  }
+}
+
+static void dimensions_wait_for_enough_exponents(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_lyapunov_facts f;
+  double x[3], error[3];
+  steif_lyapunov_options o = {.h = 0.01, .t1 = 20, .count = 1, .error = error};
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "lorenz", &p) == STEIF_OK);
+  CHECK(steif_lyapunov(ctx, &p, "rk4", &o, x, NULL, &f) == STEIF_OK);
+  CHECK(x[0] > 0 && isnan(f.dimension) && error[0] > 0);
+  o.count = 3, o.t1 = 0.3; /* 30 steps: too few for a standard error */
+  CHECK(steif_lyapunov(ctx, &p, "rk4", &o, x, NULL, &f) == STEIF_OK);
+  CHECK(isnan(error[0]) && !isnan(f.dimension));
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+CU_TestInfo tests_of_attractors[] = {
+  {"Roessler's band has its exponents", roessler_has_its_exponents},
+  {"Lorenz' circle has its dimension", lorenz96_has_its_dimension},
+  {"a stiff cycle has one exponent zero", a_stiff_cycle_has_one_exponent_zero},
+  {"dimensions wait for enough exponents", dimensions_wait_for_enough_exponents},
+  CU_TEST_INFO_NULL};
