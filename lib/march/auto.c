@@ -3,16 +3,24 @@
  *   given steps                                   radau:s=3
  *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-4 or index above 1, else s=7
  *   dense systems up to n = 300                   radau:s=5: oscillations defeat BDF there
- *   large systems, index above 1                  radau:s=3
- *   large systems                                 bdf down to rtol 1e-8, radau:s=5 below
- * Factorisations dominate large systems: BDF factors one real matrix now and then, Radau pays for
- * itself when many digits are wanted.
+ *   band and sparse systems
+ *     index above 1                               radau:s=3
+ *     whose LU costs a few solves                 rodas5p down to rtol 1e-6, with a given Jacobian
+ *     others                                      radau:s=3 down to rtol 1e-5, radau:s=5 below
+ *   large dense systems, operators                bdf down to rtol 1e-8, radau:s=5 below
+ * Rosenbrock methods factor in every step and iterate nowhere. Collocation on sparse systems takes one
+ * real matrix for many steps, as BDF does, at orders that BDF does not have.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "march.h"
+#include "order.h"
 #include <stdio.h>
 
-enum { SMALL = 64, MEDIUM = 300 };
+enum {
+  SMALL = 64,
+  MEDIUM = 300,
+  CHEAP = 12
+}; /* CHEAP: flops of an LU per entry of the factors */
 
 static enum steif_storage storage_of(const steif_problem *p, const steif_options *o)
 {
@@ -23,6 +31,25 @@ static bool small(const steif_problem *p, const steif_options *o, int form)
 {
   return p->n <= SMALL && storage_of(p, o) == STEIF_DENSE &&
          (form == STEIF_ODE || form == STEIF_MASS);
+}
+
+/* Does an LU cost no more than a few solves? */
+static bool cheap(const steif_problem *p, const steif_options *o)
+{
+  if (storage_of(p, o) == STEIF_BAND) return p->lower + p->upper <= CHEAP;
+  if (!p->pattern) return p->nnz > 0 && p->nnz <= 4 * p->n; /* chains; grids have five a column */
+  const double work = stf_order_work(p->n, p->pattern->column, p->pattern->row);
+  return work >= 0 && work <= CHEAP;
+}
+
+static const char *on_grids(const steif_problem *p, const steif_options *o, int form,
+                            const char **reason)
+{
+  const bool linearly = (form == STEIF_ODE || form == STEIF_MASS) && p->jac;
+  if (linearly && o->rtol >= 0.9e-6 && cheap(p, o))
+    return *reason = "an LU costs a few solves: one in each step, no iteration", "rodas5p";
+  *reason = "sparse: one real matrix, kept for many steps";
+  return o->rtol >= 0.9e-5 ? "radau:s=3" : "radau:s=5";
 }
 
 const char *stf_choose(const steif_problem *p, const steif_options *o, int form, char *why,
@@ -40,6 +67,8 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
     method = "radau:s=5", reason = "dense, of medium size: few steps, oscillations do no harm";
   else if (high)
     method = "radau:s=3", reason = "index above 1: collocation keeps the constraints";
+  else if (storage_of(p, o) == STEIF_SPARSE || storage_of(p, o) == STEIF_BAND)
+    method = on_grids(p, o, form, &reason);
   else if (o->rtol >= 0.9e-8)
     method = "bdf", reason = "factorisations dominate: one real matrix, kept for many steps";
   else

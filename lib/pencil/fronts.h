@@ -14,6 +14,7 @@
 #ifndef STF_FRONTS_H
 #define STF_FRONTS_H
 
+#include "order.h"
 #include "pattern.h"
 
 #define STF_FRONTS_MOST 1e3
@@ -41,11 +42,6 @@ typedef struct stf_fronts {
 /* STEIF_OK, or STEIF_NO_MEMORY without a sentence; pattern n < 2^31. */
 int stf_fronts_open(steif_context *ctx, const stf_pattern *u, stf_fronts *f);
 void stf_fronts_free(steif_context *ctx, stf_fronts *f);
-
-/* order.c: an order of little fill for the symmetric pattern (ptr, row) without its diagonal: nested
- * dissection of large ones where CHOLMOD has METIS, else approximate minimum degree. */
-int stf_order(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row,
-              SuiteSparse_long *order);
 
 /* Numeric. `factor` has f->size doubles, `pivot` f->n, `stack` f->peak. False: a pivot was too small. */
 bool stf_fronts_factor(const stf_fronts *f, const double *value, double *factor, int *pivot,

@@ -1,6 +1,7 @@
 /* order.c: fill-reducing orders.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "fronts.h"
+#include "order.h"
+#include "base.h"
 #include <amd.h>
 #include <cholmod.h>
 
@@ -42,4 +43,16 @@ int stf_order(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row,
 {
   if (n >= LARGE && dissect(n, ptr, row, order)) return STEIF_OK;
   return amd_l_order(n, ptr, row, order, NULL, NULL) >= AMD_OK ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+double stf_order_work(sunindextype n, const sunindextype *column, const sunindextype *row)
+{
+  double info[AMD_INFO];
+  SuiteSparse_long *order = SuiteSparse_malloc((size_t)n, sizeof *order);
+  const bool good =
+    order && amd_l_order(n, (const SuiteSparse_long *)column, (const SuiteSparse_long *)row,
+                         order, NULL, info) >= AMD_OK;
+  SuiteSparse_free(order);
+  if (!good) return -1;
+  return (info[AMD_NDIV] + 2 * info[AMD_NMULTSUBS_LU]) / (2 * info[AMD_LNZ] + (double)n);
 }

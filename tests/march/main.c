@@ -4,7 +4,7 @@
 
 extern CU_TestInfo tests_of_steps[], tests_of_run[], tests_of_options[], tests_of_dense[],
   tests_of_digits[], tests_of_counts[], tests_of_breaks[], tests_of_engines[],
-  tests_of_weights[], tests_of_events[], tests_of_reactions[], tests_of_limits[];
+  tests_of_weights[], tests_of_events[], tests_of_reactions[], tests_of_limits[], tests_of_auto[];
 
 SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "run", .pTests = tests_of_run},
@@ -17,4 +17,5 @@ SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "weights", .pTests = tests_of_weights},
            {.pName = "events", .pTests = tests_of_events},
            {.pName = "reactions", .pTests = tests_of_reactions},
-           {.pName = "limits", .pTests = tests_of_limits})
+           {.pName = "limits", .pTests = tests_of_limits},
+           {.pName = "auto", .pTests = tests_of_auto})

@@ -94,6 +94,29 @@ static void symbolic_invariants(void)
   steif_context_free(&ctx);
 }
 
+/* A chain costs about one flop an entry, a square grid ever more. */
+static void work_of_orders(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  double work[3];
+  const int side[] = {10, 20, 40};
+  for (int k = 0; k < 3; k++) {
+    SUNMatrix A = square(side[k], 1, false, steif_sundials(ctx));
+    work[k] = stf_order_work(SM_COLUMNS_S(A), SM_INDEXPTRS_S(A), SM_INDEXVALS_S(A));
+    SUNMatDestroy(A);
+  }
+  CHECK(work[0] > 3 && work[1] > 1.4 * work[0] && work[2] > 1.4 * work[1]);
+  sunindextype column[101], row[300], used = 0;
+  for (int j = 0; j < 100; j++) {
+    column[j] = used;
+    for (int i = j ? j - 1 : 0; i <= j + 1 && i < 100; i++) row[used++] = i;
+  }
+  column[100] = used;
+  /* 99 quotients, 99 products and differences; 99 + 99 + 100 entries */
+  CLOSE(stf_order_work(100, column, row), 99 * 3.0 / 298, 1e-14);
+  steif_context_free(&ctx);
+}
+
 /* Above and below the size from which on dissection orders; any number of right-hand sides. */
 static void solutions(void)
 {
@@ -199,6 +222,7 @@ static void bad_pivots_go_to_klu(void)
 
 CU_TestInfo tests_of_fronts[] = {
   {"symbolic invariants", symbolic_invariants},
+  {"work of orders", work_of_orders},
   {"solutions for any number of right-hand sides", solutions},
   {"dense and sparse agree, real and complex", dense_agrees},
   {"bad pivots go to KLU", bad_pivots_go_to_klu},

@@ -1,0 +1,18 @@
+/* order.h: orders of elimination with little fill, and what an LU costs in them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_ORDER_H
+#define STF_ORDER_H
+
+#include <SuiteSparse_config.h>
+#include <sundials/sundials_types.h>
+
+/* An order for the symmetric pattern (ptr, row) without its diagonal: nested dissection of large ones
+ * where CHOLMOD has METIS, else approximate minimum degree. STEIF_OK or STEIF_NO_MEMORY. */
+int stf_order(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row,
+              SuiteSparse_long *order);
+
+/* Flops of an LU per entry of its factors, by minimum degree on any pattern: how many solves one
+ * factorisation costs, up to a factor. Negative: not known. */
+double stf_order_work(sunindextype n, const sunindextype *column, const sunindextype *row);
+
+#endif

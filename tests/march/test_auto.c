@@ -1,0 +1,55 @@
+/* What "auto" picks, by storage, cost of an LU, tolerance and index.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+#include <stdbool.h>
+#include <steif/steif.h>
+#include <string.h>
+
+static bool picks(const char *problem, double rtol, enum steif_storage storage,
+                  const char *method)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_options o = steif_defaults();
+  o.rtol = rtol;
+  if (storage != STEIF_DENSE) o.force_storage = 1, o.storage = storage;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, problem, &p));
+  steif_solver *s = steif_solver_new(ctx, &p, "auto", &o);
+  const size_t length = strlen(method);
+  const char *used = s ? steif_method_used(s) : steif_message(ctx);
+  const bool good = s && !strncmp(used, method, length) && used[length] == ' ';
+  if (!good) printf("\n  %s at %g: %s", problem, rtol, used);
+  steif_solver_free(&s);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+  return good;
+}
+
+static void chains_take_rosenbrock(void)
+{
+  CHECK(picks("medakzo", 1e-4, STEIF_SPARSE, "rodas5p"));
+  CHECK(picks("medakzo", 1e-6, STEIF_SPARSE, "rodas5p"));
+  CHECK(picks("medakzo", 1e-8, STEIF_SPARSE, "radau:s=5"));
+  CHECK(picks("heat:n=50", 1e-5, STEIF_BAND, "rodas5p"));
+}
+
+static void grids_keep_one_matrix(void)
+{
+  CHECK(picks("bruss2d:n=12", 1e-3, STEIF_SPARSE, "radau:s=3"));
+  CHECK(picks("bruss2d:n=12", 1e-5, STEIF_SPARSE, "radau:s=3"));
+  CHECK(picks("bruss2d:n=12", 1e-6, STEIF_SPARSE, "radau:s=5"));
+}
+
+static void small_systems_take_lanes(void)
+{
+  CHECK(picks("hires", 1e-3, STEIF_DENSE, "radau:s=5"));
+  CHECK(picks("hires", 1e-7, STEIF_DENSE, "radau:s=7"));
+  CHECK(picks("caraxis", 1e-7, STEIF_DENSE, "radau:s=5"));
+}
+
+CU_TestInfo tests_of_auto[] = {
+  {"chains take Rosenbrock", chains_take_rosenbrock},
+  {"grids keep one matrix", grids_keep_one_matrix},
+  {"small systems take lanes", small_systems_take_lanes},
+  CU_TEST_INFO_NULL,
+};
