@@ -90,12 +90,28 @@ static int first_residuals(stf_newton *newton, const stf_stages *g)
   return STEIF_OK;
 }
 
+/* Zp = (1/h) B Z; the part of B that is left adds to the sum before 1/h does, which is an error of h
+ * and of no coefficient. */
+static void slopes(stf_newton *newton, const stf_stages *g)
+{
+  const int s = newton->split.s;
+  const stf_space *space = &newton->system->space;
+  if (!newton->B_part[0]) {
+    stf_mix(space, s, s, newton->B_over_h, g->Z, newton->Zp);
+    return;
+  }
+  stf_mix(space, s, s, newton->B_part[0], g->Z, newton->Zp);
+  stf_mix(space, s, s, newton->B_part[1], g->Z, newton->residual);
+  for (int j = 0; j < s; j++)
+    stf_sum(space, 1 / g->h, newton->Zp[j], 1 / g->h, newton->residual[j], newton->Zp[j]);
+}
+
 /* residual_j = F at stage j. */
 static int residuals(stf_newton *newton, const stf_stages *g)
 {
   const stf_split *split = &newton->split;
   const stf_space *space = &newton->system->space;
-  stf_mix(space, split->s, split->s, newton->B_over_h, g->Z, newton->Zp);
+  slopes(newton, g);
   for (int j = 0; j < split->s; j++) {
     N_Vector Y = g->Z[j];
     if (g->offset) stf_axpy(space, 1, g->offset[j], newton->Zp[j]);

@@ -29,18 +29,19 @@ typedef struct stf_newton {
   N_Vector zero;
   sunrealtype *B_over_h, *minus_T; /* B / h, -T */
   sunrealtype gamma;               /* > 0: blended iteration (blend.h) with shift 1/(gamma h) */
+  sunrealtype *B_part[2];          /* of stf_parts, instead of B_over_h; NULL: not wanted */
   const sunrealtype *A;            /* of the table, and scratch: blended iteration only */
   sunrealtype *mix;
-  sunrealtype window;         /* > 1: factors serve shifts within this ratio (one real shift) */
-  bool join;                  /* a new factorisation takes a new Jacobian along */
-  sunrealtype shift, relax;   /* of lane 0 in the factors; factor of the corrections */
-  sunrealtype h;              /* of B_over_h */
-  bool factored, fresh;       /* factors exist for (h, E, A); Jacobian made in this step */
-  bool wanted;                /* a new Jacobian is wanted */
-  sunrealtype theta, eta;     /* of the last solve */
-  sunrealtype eta_least;      /* floor of the eta that a first correction is judged by */
-  int count;                  /* iterations of the last solve */
-  long sweeps, fails;         /* iterations, refusals */
+  sunrealtype window;       /* > 1: factors serve shifts within this ratio (one real shift) */
+  bool join;                /* a new factorisation takes a new Jacobian along */
+  sunrealtype shift, relax; /* of lane 0 in the factors; factor of the corrections */
+  sunrealtype h;            /* of B_over_h */
+  bool factored, fresh;     /* factors exist for (h, E, A); Jacobian made in this step */
+  bool wanted;              /* a new Jacobian is wanted */
+  sunrealtype theta, eta;   /* of the last solve */
+  sunrealtype eta_least;    /* floor of the eta that a first correction is judged by */
+  int count;                /* iterations of the last solve */
+  long sweeps, fails;       /* iterations, refusals */
 } stf_newton;
 
 /* Where the stages are. */

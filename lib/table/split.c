@@ -149,3 +149,33 @@ int stf_split_compute(stf_pool *pool, steif_context *ctx, const steif_table *tab
   stf_release(ctx, w);
   return code;
 }
+
+static void part(int count, const long double *x, sunrealtype *const parts[2])
+{
+  for (int i = 0; i < count; i++) {
+    parts[0][i] = (float)x[i];
+    parts[1][i] = (sunrealtype)(x[i] - (long double)parts[0][i]);
+  }
+}
+
+/* Only the symplectic tables, Gauss's, have weights to more digits than those of the table. */
+int stf_split_parts(stf_pool *pool, steif_context *ctx, const steif_table *table,
+                    stf_parts *parts)
+{
+  const int s = table->s;
+  stf_split_work *w = stf_claim(pool, 1, sizeof *w);
+  sunrealtype *x = stf_claim(pool, (size_t)(2 * s * (s + 1)), sizeof *x);
+  if (!w || !x) return STEIF_NO_MEMORY;
+  long double b[STEIF_STAGES], c[STEIF_STAGES], end[STEIF_STAGES] = {0};
+  *parts = (stf_parts){{x, x + s * s}, {x + 2 * s * s, x + 2 * s * s + s}};
+  STEIF_TRY(prepare(ctx, table, w));
+  if (table->claims & STEIF_SYMPLECTIC) stf_gauss(s, c, b);
+  for (int i = 0; i < s && !(table->claims & STEIF_SYMPLECTIC); i++) b[i] = table->b[i];
+  for (int j = 0; j < s; j++) {
+    for (int i = 0; i < s; i++) end[j] += b[i] * w->B[i * s + j];
+    if (table->claims & STEIF_STIFFLY_ACCURATE) end[j] = j == s - 1;
+  }
+  part(s * s, w->B, parts->B);
+  part(s, end, parts->w);
+  return STEIF_OK;
+}

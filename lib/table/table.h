@@ -45,7 +45,7 @@ int stf_family_fill(steif_context *ctx, enum stf_node_kind kind, stf_alter *alte
                     steif_table *self, sunrealtype *A, sunrealtype *b, sunrealtype *c);
 /* The same, computed even when it is kept as data. */
 int stf_family_compute(steif_context *ctx, enum stf_node_kind kind, stf_alter *alter,
-                    steif_table *self, sunrealtype *A, sunrealtype *b, sunrealtype *c);
+                       steif_table *self, sunrealtype *A, sunrealtype *b, sunrealtype *c);
 
 /* X := A^{-1} X for A (n x n) and X (n x m), both by rows and overwritten; false when a pivot
  * is not larger than `tiny`. */
@@ -87,6 +87,15 @@ int stf_split_build(stf_pool *pool, steif_context *ctx, const steif_table *table
                     stf_split *split);
 /* The same, computed even when it is kept as data. */
 int stf_split_compute(stf_pool *pool, steif_context *ctx, const steif_table *table,
-                    stf_split *split);
+                      stf_split *split);
+
+/* B = A^{-1} (s x s) and w = b^T B to 64 bits, as a part of 24 bits and the rest: a product with
+ * either is rounded anew in every step, where a rounded coefficient errs the same way in all of
+ * them (E. Hairer, R. I. McLachlan and A. Razakarivony, BIT 48, 2008). */
+typedef struct stf_parts {
+  sunrealtype *B[2], *w[2];
+} stf_parts;
+int stf_split_parts(stf_pool *pool, steif_context *ctx, const steif_table *table,
+                    stf_parts *parts);
 
 #endif

@@ -6,8 +6,8 @@
  * gives the end value (w(1) = b^T B), the start of the next iteration and dense output.
  * Error estimate (c_1 > 0): the shifted solve of -F(t_n, y_n, u'(t_n)) with the collocation
  * polynomial through (0, y_n) and all stages; order s (Hairer and Wanner II, IV.8).
- * compensated=1: stages solved until rounding stops it, and the end value a sum that remembers its
- * rounding (E. Hairer, R. I. McLachlan and A. Razakarivony, BIT 48 (2008)).
+ * compensated=1: stages solved until rounding stops it, coefficients in two parts, and the end value
+ * a sum that remembers its rounding (E. Hairer, R. I. McLachlan and A. Razakarivony, BIT 48 (2008)).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "halves.h"
@@ -27,6 +27,7 @@ typedef struct state {
   N_Vector before; /* y_n of the last step */
   N_Vector work, imaginary;
   N_Vector lost, next_lost; /* what rounding took from y and from the trial; NULL: not kept */
+  stf_parts parts;          /* of B and of w(1), where that is kept */
   bool history;
 } state;
 
@@ -109,6 +110,8 @@ static int open_sums(stf_step *s, const steif_spec *spec)
   STEIF_CHECK(!s->absolute, s->ctx, STEIF_UNSUPPORTED,
               "compensated=1 of '%s' is for problems that are not of form descriptor",
               spec->name);
+  STEIF_TRY(stf_split_parts(s->pool, s->ctx, e->table, &e->parts));
+  for (int i = 0; i < 2; i++) s->newton.B_part[i] = e->parts.B[i];
   e->lost = stf_claim_vector(s->pool, s->y);
   e->next_lost = stf_claim_vector(s->pool, s->y);
   return e->lost && e->next_lost ? STEIF_OK : STEIF_NO_MEMORY;
@@ -256,7 +259,9 @@ static int attempt(stf_step *s, sunrealtype h)
   predict(s, h);
   STEIF_TRY(solve(s, h));
   if (e->lost) {
-    stf_combine(space, e->s, e->end, e->trial, e->work);
+    stf_combine(space, e->s, e->parts.w[0], e->trial, e->work);
+    stf_combine(space, e->s, e->parts.w[1], e->trial, e->imaginary);
+    stf_axpy(space, 1, e->imaginary, e->work);
     stf_add_compensated(space, e->work, (stf_point){s->y, e->lost},
                         (stf_point){s->next, e->next_lost});
   } else if (!(e->table->claims & STEIF_STIFFLY_ACCURATE)) {
