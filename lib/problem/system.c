@@ -235,7 +235,8 @@ static int product_E(N_Vector x, N_Vector out, void *user)
   return s->problem->Ev(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
 }
 
-/* A x = -F_y x by one difference along x; the residual at the point is at_f. */
+/* A x = -F_y x by one difference along x, of any length where F is linear; the residual at the point is
+ * at_f. */
 static int difference_A(stf_system *s, N_Vector x, N_Vector out)
 {
   const sunrealtype size = sqrt(N_VDotProd(x, x));
@@ -243,8 +244,8 @@ static int difference_A(stf_system *s, N_Vector x, N_Vector out)
     stf_zero(&s->space, out);
     return 0;
   }
-  const sunrealtype step =
-    sqrt(STF_EPS) * (s->scale + sqrt(N_VDotProd(s->at_y, s->at_y))) / size;
+  const sunrealtype length = s->linear ? 1 : sqrt(STF_EPS);
+  const sunrealtype step = length * (s->scale + sqrt(N_VDotProd(s->at_y, s->at_y))) / size;
   stf_sum(&s->space, 1, s->at_y, step, x, s->work[4]);
   const int code = stf_system_residual(s, s->at_t, s->work[4], s->at_yp, s->work[5]);
   stf_sum(&s->space, 1 / step, s->at_f, -1 / step, s->work[5], out);

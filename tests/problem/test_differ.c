@@ -102,6 +102,46 @@ static void differences_of_an_implicit_form(void)
   }
 }
 
+/* A u + g(t), far from 0: differences from 0 are as exact as the columns. */
+static int affine(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  (void)user;
+  const double *u = NV_DATA_S(y);
+  for (int i = 0; i < N; i++) {
+    NV_Ith_S(out, i) = 0.3 * sin(t) - b * u[i];
+    if (i > 0) NV_Ith_S(out, i) += a * u[i - 1];
+    if (i < N - 1) NV_Ith_S(out, i) += c * u[i + 1];
+  }
+  return 0;
+}
+
+static int affine_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
+{
+  const int code = affine(t, y, r, user);
+  for (int i = 0; i < N; i++) NV_Ith_S(r, i) = 1.7 * NV_Ith_S(yp, i) - NV_Ith_S(r, i);
+  return code;
+}
+
+static void differences_of_linear_systems_are_exact(void)
+{
+  static const enum steif_storage kinds[] = {STEIF_DENSE, STEIF_BAND, STEIF_SPARSE};
+  for (int k = 0; k < 6; k++) {
+    steif_problem p = chain();
+    fixture s;
+    p.f = k < 3 ? affine : NULL, p.F = k < 3 ? NULL : affine_residual;
+    p.linear = 1;
+    for (int i = 0; i < N; i++) start[i] *= 1e4;
+    CU_ASSERT_FATAL(!fixture_open(&s, &p, kinds[k % 3]));
+    for (int i = 0; i < N; i++)
+      for (int j = 0; j < N; j++) {
+        const double A = i == j ? -b : i == j + 1 ? a : j == i + 1 ? c : 0;
+        CLOSE_FLOOR(fixture_element(s.system.A, i, j), A, 4e-16, 1);
+        if (k >= 3) CLOSE_FLOOR(fixture_element(s.system.E, i, j), i == j ? 1.7 : 0, 4e-16, 1);
+      }
+    fixture_close(&s);
+  }
+}
+
 /* An arrow (first row and column, diagonal) needs n groups, its diagonal without them one. */
 static sunindextype arrow_column[N + 1], arrow_row[3 * N];
 
@@ -223,6 +263,7 @@ static void increments_follow_the_scale(void)
 }
 
 CU_TestInfo tests_of_differ[] = {
+  {"differences of linear systems are exact", differences_of_linear_systems_are_exact},
   {"differences meet the Jacobian in few evaluations", differences_meet_the_jacobian},
   {"differences of an implicit form", differences_of_an_implicit_form},
   {"groups are as few as the pattern allows", groups_are_as_few_as_the_pattern_allows},

@@ -85,6 +85,7 @@ static int describe(steif_context *ctx, const steif_spec *spec, const steif_tabl
 const steif_method steif_method_erk = {
   .about = "explicit Runge-Kutta",
   .forms = STEIF_ODE,
+  .traits = STF_EXPLICIT,
   .size = sizeof(state),
   .open = open,
   .attempt = attempt,
