@@ -87,13 +87,8 @@ static int shelf(struct call *call)
 
 static int from_file(struct call *call)
 {
-  const char *path = call->word[0];
   struct matrix A = {0};
-  int code = matrix_read(call, path, 0, 0, &A);
-  if (!code && A.rows != A.columns) {
-    say(call, "'%s' is %ld x %ld; A of x' = A x must be square", path, A.rows, A.columns);
-    code = EXIT_FILE;
-  }
+  int code = matrix_square(call, call->word[0], "A of x' = A x", &A);
   if (!code) code = tell(call, (int)A.rows, A.x);
   free(A.x);
   return code;

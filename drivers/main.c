@@ -7,7 +7,8 @@
   X(list)                                                                                      \
   X(solve)                                                                                     \
   X(compare)                                                                                   \
-  X(order) X(layer) X(weak) X(pencil) X(impulse) X(region) X(c2d) X(diagnose) X(energy)        \
+  X(order)                                                                                     \
+  X(layer) X(weak) X(pencil) X(impulse) X(region) X(c2d) X(d2c) X(diagnose) X(energy)          \
     X(hamiltonian) X(lyapunov) X(supervise) X(counterexample) X(experiment) X(demo) X(bench)
 
 #define DECLARE(name) extern const struct verb verb_##name;

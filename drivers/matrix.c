@@ -42,6 +42,14 @@ int matrix_read(struct call *call, const char *path, long rows, long columns, st
   return fits ? EXIT_FAILED : EXIT_FILE;
 }
 
+int matrix_square(struct call *call, const char *path, const char *what, struct matrix *M)
+{
+  const int code = matrix_read(call, path, 0, 0, M);
+  if (code || M->rows == M->columns) return code;
+  say(call, "'%s' is %ld x %ld; %s must be square", path, M->rows, M->columns, what);
+  return EXIT_FILE;
+}
+
 void report_dense(steif_report *r, const char *name, int rows, int columns, const double *x)
 {
   const size_t count = (size_t)rows * (size_t)columns;

@@ -13,6 +13,8 @@ struct matrix {
 
 /* rows, columns: what they should be, 0: anything. EXIT_OK, or the exit code after a sentence. */
 int matrix_read(struct call *call, const char *path, long rows, long columns, struct matrix *M);
+/* The same for a square matrix, `what` it is in its sentence. */
+int matrix_square(struct call *call, const char *path, const char *what, struct matrix *M);
 /* x by columns. */
 void report_dense(steif_report *r, const char *name, int rows, int columns, const double *x);
 

@@ -47,6 +47,24 @@ typedef struct steif_state_space {
   const double *A, *B, *C, *D; /* n x n, n x m, p x n, p x m */
 } steif_state_space;
 
+/* The finite part of E x' = A x + B u, y = C x + D u with a regular pencil (descriptor.h), E singular
+ * or not:
+ *   z' = form.A z + form.B u,   y = form.C z + form.D u + sum_{j=1}^{terms} P_j u^(j),
+ * terms = index - 1 (0 for index 0), z a state of its own. From index 2 on outputs may hold
+ * derivatives of u: an input held between samples makes impulses of them. */
+typedef struct steif_finite_part {
+  steif_state_space form; /* ready for steif_c2d unless form.n is 0 */
+  int index, terms;
+  const double *polynomial; /* P_1, P_2, ... one after another, each p x m */
+  void *memory;
+} steif_finite_part;
+
+/* E: n x n by columns. s->p = 0: y = x. STEIF_SINGULAR for a singular pencil, STEIF_NOT_CERTIFIED
+ * where its index is undecided. steif_finite_part_clear it. */
+STEIF_EXPORT int steif_finite_part_find(steif_context *ctx, const steif_state_space *s,
+                                        const double *E, steif_finite_part *part);
+STEIF_EXPORT void steif_finite_part_clear(steif_context *ctx, steif_finite_part *part);
+
 typedef struct steif_scheme {
   const char *name;
   int order; /* for smooth inputs */

@@ -20,6 +20,8 @@ void dorgqr_(const int *m, const int *n, const int *k, double *a, const int *lda
 void dgecon_(const char *norm, const int *n, const double *a, const int *lda,
              const double *anorm, double *rcond, double *work, int *iwork, int *info,
              size_t norm_length);
+void dgesv_(const int *n, const int *nrhs, double *a, const int *lda, int *ipiv, double *b,
+            const int *ldb, int *info);
 void zgesv_(const int *n, const int *nrhs, double *a, const int *lda, int *ipiv, double *b,
             const int *ldb, int *info);
 
