@@ -52,6 +52,10 @@ file(WRITE ${FOLDER}/Z.mtx "${head} array real general\n2 2\n0\n0\n0\n0\n")
 expect(1 c2d F.mtx --E Z.mtx --dt 0.1 ERR "no finite part")
 expect(3 c2d F.mtx --E B.mtx --dt 0.1 ERR "2 columns")
 
+# e^{A dt} overflows.
+file(WRITE ${FOLDER}/H.mtx "${head} array real general\n1 1\n1e5\n")
+expect(1 c2d H.mtx --dt 0.1 ERR "range")
+
 # And back: e^{-1} is e^{A} with A = -1, -0.5 is beyond the Nyquist limit.
 file(WRITE ${FOLDER}/Ad.mtx "${head} array real general\n1 1\n0.36787944117144233\n")
 file(WRITE ${FOLDER}/Bd.mtx "${head} array real general\n1 1\n0.63212055882855767\n")
