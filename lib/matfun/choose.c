@@ -64,23 +64,26 @@ static double product_norm(stf_core *c, const double *F, const double *G, double
 /* y = the row vector x times |A|, divided by its largest entry, which is returned. */
 static double times_absolute(const stf_core *c, const double *x, double *y)
 {
+  enum { LANES = 8 };
   const int n = c->n;
   double most = 0;
   for (int j = 0; j < n; j++) {
     const double *a = c->A + (size_t)j * (size_t)n;
-    double even = 0, odd = 0;
+    double sum[LANES] = {0}, total = 0;
     int i = 0;
-    for (; i + 2 <= n; i += 2) even += fabs(a[i]) * x[i], odd += fabs(a[i + 1]) * x[i + 1];
-    if (i < n) even += fabs(a[i]) * x[i];
-    y[j] = even + odd;
+    for (; i + LANES <= n; i += LANES)
+      for (int k = 0; k < LANES; k++) sum[k] += fabs(a[i + k]) * x[i + k];
+    for (; i < n; i++) total += fabs(a[i]) * x[i];
+    for (int k = 0; k < LANES; k++) total += sum[k];
+    y[j] = total;
     if (y[j] > most) most = y[j];
   }
   for (int j = 0; j < n && most > 0; j++) y[j] /= most;
   return most;
 }
 
-/* A bound of log2 || |A|^k ||_1, the exact value where the bound exceeds `harmless`: first
- * ||B^3||^{k/3} ||B||^{k mod 3}, then the product with the row vector of ones. */
+/* A bound of log2 || |A|^k ||_1, the exact value where the bounds exceed `harmless`:
+ * ||B^d||^{k/d} ||B||^{k mod d} for d from 3 on, by products with the row vector of ones. */
 static double log_absolute_power(stf_core *c, int k, double harmless)
 {
   double *x = c->sums, *y = c->sums + c->n, log_norm = 0;
@@ -91,9 +94,8 @@ static double log_absolute_power(stf_core *c, int k, double harmless)
     log_norm += log2(most);
     double *const t = x;
     x = y, y = t;
-    if (done != 3) continue;
-    const double bound = log_norm * (k / 3) + (k % 3) * log2(c->norm);
-    if (bound <= harmless) return bound;
+    const double bound = log_norm * (k / done) + (k % done) * log2(c->norm);
+    if (done > 2 && bound <= harmless) return bound;
   }
   return log_norm;
 }

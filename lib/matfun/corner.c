@@ -80,6 +80,9 @@ void stf_corners_find(stf_core *c)
 void stf_corners_open(stf_core *c, int s)
 {
   for (stf_corner *k = c->corner; k < c->corner + c->corners; k++) {
+    k->plain = c->p == 0 && k->kind != STF_BLOCK;
+    k->scale = ldexp(1, -s);
+    if (k->plain) continue;
     const double y = k->kind == STF_ONE ? 0 : ldexp(k->g, -s);
     stf_spot_open(&k->spot, c->p, (stf_jet){stf_two_scale(k->mu, ldexp(1, -s)), {y, 0}}, k->q);
   }
@@ -87,7 +90,21 @@ void stf_corners_open(stf_core *c, int s)
 
 void stf_corners_double(stf_core *c)
 {
-  for (stf_corner *k = c->corner; k < c->corner + c->corners; k++) stf_spot_double(&k->spot);
+  for (stf_corner *k = c->corner; k < c->corner + c->corners; k++)
+    if (k->plain)
+      k->scale *= 2;
+    else
+      stf_spot_double(&k->spot);
+}
+
+/* e^a, and exp[a, d] times the entry between a and d. */
+static double exponential(const stf_corner *k)
+{
+  const double size = exp(k->scale * k->mu.hi) * (1 + k->scale * k->mu.lo);
+  if (k->kind == STF_ONE) return size;
+  const double whole = 2 * k->half.hi * k->g, half = 0.5 * k->scale * whole;
+  if (fabs(half) < 0.5) return size * (half == 0 ? 1 : sinh(half) / half) * (k->scale * k->up);
+  return (exp(k->scale * k->upper->mu.hi) - exp(k->scale * k->lower->mu.hi)) * (k->up / whole);
 }
 
 /* phi_l[a, d] of neighbours: the quotient of differences, in twice the working precision, for
@@ -104,6 +121,10 @@ void stf_corners_fix(const stf_core *c, int l, double *X)
 {
   const size_t n = (size_t)c->n;
   for (const stf_corner *k = c->corner; k < c->corner + c->corners; k++) {
+    if (k->plain) {
+      X[(size_t)k->i * (n + 1) + (k->kind == STF_BETWEEN ? n : 0)] = exponential(k);
+      continue;
+    }
     const stf_jet f = k->spot.phi[l];
     const stf_two skew = stf_two_mul(f.b, k->half);
     double *x = X + (size_t)k->i * (n + 1);

@@ -42,6 +42,8 @@ enum stf_corner_kind { STF_ONE, STF_BETWEEN, STF_BLOCK };
 typedef struct stf_corner {
   enum stf_corner_kind kind;
   int i;
+  bool plain;        /* exponentials of 1 x 1 blocks: by the functions of the C library ... */
+  double scale;      /* ... at this scale */
   double g, up, low; /* N = (M - mu I)/g */
   stf_two mu, half, q;
   stf_spot spot;
