@@ -35,7 +35,8 @@ static const struct {
   const char *name;
   int (*run)(struct call *call);
 } benchmarks[] = {
-  {"step", bench_step}, {"workprec", bench_workprec}, {"impulse", bench_impulse}};
+  {"step", bench_step}, {"workprec", bench_workprec}, {"impulse", bench_impulse},
+  {"phi", bench_phi}};
 enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
 static const char *name_at(const void *list, size_t i)
@@ -57,14 +58,14 @@ static const struct option options[] = {
   {"--problems", WORD, "a,b,c", "workprec: instead of the usual ones; impulse: one"},
   {"--methods", WORD, "a,b,c", "workprec: instead of the usual ones; baselines among them"},
   {"--rtols", REALS, "a,b,c", "workprec: relative tolerances (default 1e-3, 1e-4 ... 1e-11)"},
-  {"--longest", POSITIVE, "S", "workprec: a solve ends after S processor seconds (default 2)"},
+  {"--longest", POSITIVE, "S", "a solve ends after S processor seconds (default 2; phi: 10)"},
   {"--runs", FLAG, NULL, "workprec: every run as well, not the best ones alone"},
   {NULL, FLAG, NULL, NULL}};
 
 const struct verb verb_bench = {
   "bench",
   "Measure steps against their kernels, solves against CVODE, IDA, ARKODE",
-  "[step|workprec|impulse]",
+  "[step|workprec|impulse|phi]",
   0,
   1,
   options,

@@ -8,6 +8,7 @@
 /* Each returns an exit code. */
 int bench_step(struct call *call);
 int bench_impulse(struct call *call);
+int bench_phi(struct call *call);
 int bench_workprec(struct call *call);
 
 #endif

@@ -113,6 +113,29 @@ STEIF_EXPORT const char *steif_bench_system(size_t i);
 STEIF_EXPORT int steif_bench_circles(steif_context *ctx, const char *problem,
                                      steif_bench_impulse *row);
 
+/* e^A of dense matrices: row i of the plan, n = 16, 64, 256. A and X = e^A are n x n by columns, with
+ * room for STEIF_BENCH_EXPM^2; STEIF_BAD_INPUT without a sentence past the end. */
+enum { STEIF_BENCH_EXPM = 256 };
+typedef struct steif_bench_expm {
+  char matrix[32];
+  int n;
+  sunrealtype norm, cpu_s; /* ||A||_1; seconds of one steif_expm */
+} steif_bench_expm;
+STEIF_EXPORT int steif_bench_exponential(steif_context *ctx, size_t i, steif_bench_expm *row,
+                                         sunrealtype *A, sunrealtype *X);
+
+/* phi functions of large matrices against implicit methods at equal digits: one steif_action_apply
+ * where the problem is linear, exponential Rosenbrock methods elsewhere. Every method has the loosest
+ * tolerance 10^-k that reaches the digits; NaN: none does in `longest` processor seconds. */
+typedef struct steif_bench_phi {
+  char problem[STEIF_SPEC_WORD], method[STEIF_SPEC_WORD];
+  sunindextype n;
+  int digits;
+  sunrealtype cpu_s, radau_s, cvode_s; /* of the method, of radau:s=3, of CVODE */
+} steif_bench_phi;
+STEIF_EXPORT int steif_bench_functions(steif_context *ctx, size_t i, sunrealtype longest,
+                                       steif_bench_phi *row);
+
 #ifdef __cplusplus
 }
 #endif
