@@ -73,10 +73,10 @@ STEIF_EXPORT int steif_expm_condition(steif_context *ctx, int n, const double *A
  *   taylor      truncated Taylor series with shift and cost selection (A. H. Al-Mohy and
  *               N. J. Higham, SIAM J. Sci. Comput. 33, 2011); sparse matrices only.
  *
- * Automatic choice: up to ||tA||_1 = 60 Taylor, above polynomial for oscillations and rational
- * otherwise; where the rational space does not converge the polynomial one is tried if ||tA||_1
- * is at most 1e5. An operator is rational when its spectrum is declared to be sectorial, else
- * polynomial. */
+ * Automatic choice: up to ||tA||_1 = 8 Taylor, up to 100 polynomial, above polynomial for
+ * oscillations and rational otherwise; where the rational space does not converge the polynomial
+ * one is tried if ||tA||_1 is at most 1e5. An operator is rational when its spectrum is declared
+ * to be sectorial, else polynomial. */
 enum steif_action_method {
   STEIF_ACTION_AUTO = 0,
   STEIF_ACTION_RATIONAL,

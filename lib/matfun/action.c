@@ -4,8 +4,9 @@
 #include "action.h"
 #include <sunmatrix/sunmatrix_sparse.h>
 
-/* ||tA||_1 up to which Taylor series are taken, and up to which sub-steps are affordable. */
-static const double small = 60, affordable = 1e5;
+/* ||tA||_1 up to which Taylor series are taken, up to which products cost less than a factorisation,
+ * and up to which sub-steps are affordable. */
+static const double small = 8, medium = 100, affordable = 1e5;
 
 bool stf_action_expm(steif_action *a, int order)
 {
@@ -222,7 +223,7 @@ static int choose(const steif_action *a)
   if (a->report.norm_tA <= small) return STEIF_ACTION_TAYLOR;
   const bool waves = a->o.spectrum == STEIF_SPECTRUM_OSCILLATORY ||
                      (a->o.spectrum == STEIF_SPECTRUM_UNKNOWN && a->facts.skew);
-  return waves ? STEIF_ACTION_POLYNOMIAL : STEIF_ACTION_RATIONAL;
+  return waves || a->report.norm_tA <= medium ? STEIF_ACTION_POLYNOMIAL : STEIF_ACTION_RATIONAL;
 }
 
 /* The method chosen, and the polynomial one where that did not do. */

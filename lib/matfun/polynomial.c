@@ -10,6 +10,9 @@
 #include "blas.h"
 #include <string.h>
 
+/* A dense exponential after so many products. */
+enum { EVERY = 5 };
+
 typedef struct krylov {
   int m;         /* dimension */
   bool exact;    /* the space is invariant */
@@ -22,26 +25,6 @@ typedef struct krylov {
 static double clamp(double x, double low, double high)
 {
   return x > high ? high : x > low ? x : low;
-}
-
-/* The basis from its first state, which is divided by its norm. */
-static int build(steif_action *a, krylov *k)
-{
-  const int ld = stf_order(a->dimension);
-  stf_state_scale(a, 1 / k->beta, a->basis);
-  k->exact = false;
-  for (k->m = 0; k->m < a->dimension && !k->exact; k->m++) {
-    double *h = a->H + (size_t)k->m * (size_t)ld;
-    STEIF_TRY(stf_state_grow(a, k->m + 3));
-    STEIF_TRY(stf_state_product(a, a->basis + k->m, a->basis + k->m + 1));
-    stf_state_orthogonalise(a, k->m + 1, h);
-    k->exact = h[k->m + 1] == 0;
-  }
-  if (k->m > a->report.dimension) a->report.dimension = k->m;
-  if (k->exact) return STEIF_OK;
-  STEIF_TRY(stf_state_product(a, a->basis + k->m, a->basis + k->m + 1));
-  k->beyond = stf_state_norm(a, a->basis + k->m + 1);
-  return STEIF_OK;
 }
 
 static double norm_of_H(const steif_action *a, int m)
@@ -75,6 +58,29 @@ static void attempt(steif_action *a, krylov *k, double tau)
   const double e1 = fabs(a->column[m]), e2 = fabs(a->column[m + 1]) * k->beyond;
   k->error = e1 > 10 * e2 ? e2 : e1 > e2 ? e1 * e2 / (e1 - e2) : e1;
   if (e1 <= e2 && m > 2) k->order = m - 1;
+}
+
+/* The basis from its first state, which is divided by its norm, until it serves for tau. Behind
+ * the last vector stands its product, of which the norm is needed and the next step begins. */
+static int build(steif_action *a, krylov *k, double tau, double allowed)
+{
+  const int ld = stf_order(a->dimension);
+  stf_state_scale(a, 1 / k->beta, a->basis);
+  STEIF_TRY(stf_state_grow(a, 2));
+  STEIF_TRY(stf_state_product(a, a->basis, a->basis + 1));
+  for (k->m = 0, k->exact = false; k->m < a->dimension;) {
+    double *h = a->H + (size_t)k->m * (size_t)ld;
+    stf_state_orthogonalise(a, ++k->m, h);
+    k->exact = h[k->m] == 0;
+    if (k->m > a->report.dimension) a->report.dimension = k->m;
+    if (k->exact) return STEIF_OK;
+    STEIF_TRY(stf_state_grow(a, k->m + 2));
+    STEIF_TRY(stf_state_product(a, a->basis + k->m, a->basis + k->m + 1));
+    k->beyond = stf_state_norm(a, a->basis + k->m + 1);
+    if (k->m % EVERY == 0) attempt(a, k, tau);
+    if (k->m % EVERY == 0 && k->error <= allowed * tau) return STEIF_OK;
+  }
+  return STEIF_OK;
 }
 
 /* Shorten tau until the error per unit of time is allowed. */
@@ -111,9 +117,10 @@ static int sweep(steif_action *a, double allowed, double *error)
   while (done < 1) {
     k.beta = stf_state_norm(a, a->basis);
     if (k.beta == 0) return STEIF_OK;
-    STEIF_TRY(build(a, &k));
-    if (tau == 0) tau = k.m / (3 * norm_of_H(a, k.m) + 1e-300);
-    tau = step(a, &k, tau < 1 - done ? tau : 1 - done, allowed);
+    const double left = 1 - done, aim = tau == 0 || tau > left ? left : tau;
+    STEIF_TRY(build(a, &k, aim, allowed));
+    if (tau == 0 && k.m == a->dimension) tau = k.m / (3 * norm_of_H(a, k.m) + 1e-300);
+    tau = step(a, &k, tau > 0 && tau < left ? tau : left, allowed);
     done = tau >= 1 - done ? 1 : done + tau;
     a->report.steps++;
     advance(a, &k, done);

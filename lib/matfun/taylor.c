@@ -97,7 +97,7 @@ int stf_action_taylor(steif_action *a, N_Vector w)
   const bool shift = a->p == 0 && a->facts.shifted < a->facts.norm;
   const plan how = choose(a, shift);
   a->mu = shift ? a->t * a->facts.mu : 0;
-  double tolerance = 0.05 * a->o.tolerance / how.s;
+  double tolerance = 0.05 * stf_action_allowed(a, a->scale) / (a->scale * how.s);
   for (int pass = 0; pass < 2; pass++) {
     stf_state_start(a, a->basis);
     STEIF_TRY(steps(a, how, fmax(STF_EPS / 2, tolerance)));

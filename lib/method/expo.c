@@ -78,8 +78,8 @@ static int apply(stf_step *s, sunrealtype h, int node, unsigned used, N_Vector w
   N_Vector b[STF_EXP_ORDER + 1] = {NULL};
   for (int k = 1; k <= e->phis.p; k++) {
     if (!(used >> k & 1)) continue;
-    b[k] = e->b[k];
-    if (!stf_finite(&s->system.space, b[k]))
+    b[k] = stf_max(&s->system.space, e->b[k]) == 0 ? NULL : e->b[k];
+    if (b[k] && !stf_finite(&s->system.space, b[k]))
       return STEIF_RECOVER(s->ctx, STEIF_NOT_FINITE,
                            "f of problem '%s' is not finite in the step from t = %.12g with "
                            "h = %.6g",

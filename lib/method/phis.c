@@ -94,13 +94,15 @@ static int evaluate(stf_phis *f, sunrealtype h)
 
 int stf_phis_apply(stf_phis *f, sunrealtype h, int node, N_Vector *b, N_Vector w)
 {
-  if (f->action) return steif_action_apply(f->action, f->node[node] * h, f->p, b, w, NULL);
+  int p = f->p;
+  while (p > 0 && !b[p]) p--;
+  if (f->action) return steif_action_apply(f->action, f->node[node] * h, p, b, w, NULL);
   if (f->h != h) STEIF_TRY(evaluate(f, h));
   const int one = 1;
   const double unit = 1;
   const size_t count = (size_t)f->n * (size_t)f->n;
   stf_zero(&f->system->space, w);
-  for (int k = 1; k <= f->p; k++)
+  for (int k = 1; k <= p; k++)
     if (b[k])
       dgemv_("N", &f->n, &f->n, &unit, f->phi[node] + (size_t)k * count, &f->n, stf_array(b[k]),
              &one, &unit, stf_array(w), &one, 1);
