@@ -28,6 +28,8 @@ int stf_collection_storage(steif_context *ctx, const steif_spec *spec, steif_pro
  * M_ij = value[j - i - first], j - i = first .. last. */
 int stf_collection_toeplitz(SUNMatrix M, sunindextype first, sunindextype last,
                             const sunrealtype *value);
+/* Entry (i, i) of such a matrix with first = -1. */
+sunrealtype *stf_collection_diagonal(SUNMatrix M, sunindextype i);
 /* Its number of entries. */
 sunindextype stf_collection_count(sunindextype n, sunindextype first, sunindextype last);
 

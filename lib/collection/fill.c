@@ -54,3 +54,10 @@ int stf_collection_toeplitz(SUNMatrix M, sunindextype first, sunindextype last,
       *(dense ? &SM_ELEMENT_D(M, i, j) : &SM_ELEMENT_B(M, i, j)) = value[j - i - first];
   return 0;
 }
+
+sunrealtype *stf_collection_diagonal(SUNMatrix M, sunindextype i)
+{
+  if (SUNMatGetID(M) == SUNMATRIX_DENSE) return &SM_ELEMENT_D(M, i, i);
+  if (SUNMatGetID(M) == SUNMATRIX_BAND) return &SM_ELEMENT_B(M, i, i);
+  return SM_DATA_S(M) + SM_INDEXPTRS_S(M)[i] + (i > 0);
+}

@@ -4,7 +4,7 @@
 
 extern CU_TestInfo tests_of_find[], tests_of_digits[], tests_of_exact[], tests_of_jordan[],
   tests_of_small[], tests_of_jacobian[], tests_of_published[], tests_of_start[],
-  tests_of_descriptor[], tests_of_generated[];
+  tests_of_descriptor[], tests_of_generated[], tests_of_semilinear[];
 
 SUITE_MAIN({.pName = "find", .pTests = tests_of_find},
            {.pName = "digits", .pTests = tests_of_digits},
@@ -15,4 +15,5 @@ SUITE_MAIN({.pName = "find", .pTests = tests_of_find},
            {.pName = "published", .pTests = tests_of_published},
            {.pName = "start", .pTests = tests_of_start},
            {.pName = "descriptor", .pTests = tests_of_descriptor},
-           {.pName = "generated", .pTests = tests_of_generated})
+           {.pName = "generated", .pTests = tests_of_generated},
+           {.pName = "semilinear", .pTests = tests_of_semilinear})

@@ -32,6 +32,8 @@ static const probe probes[] = {
   {"heat:n=11", 0.0123, 5e-4, 1e-9},
   {"heat:n=11,storage=dense", 0.0571, 5e-4, 1e-9},
   {"heat:n=1", 0.04, 2e-3, 1e-9},
+  {"parabolic:n=11", 0.37, 5e-3, 1e-10},
+  {"parabolic:n=1", 0.71, 5e-3, 1e-11},
   {"prothero", 2.21, 1e-2, 1e-11},
   {"prothero:lambda=-3.5", 0.04, 1e-2, 1e-11},
   {"dahlquist", 0.47, 1e-2, 1e-12},

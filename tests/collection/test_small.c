@@ -70,6 +70,11 @@ static void jacobians_agree_with_differences(void)
                                       "heat:n=1",
                                       "bruss2d:n=3",
                                       "bruss2d:n=4",
+                                      "parabolic:n=6",
+                                      "parabolic:n=6,storage=dense",
+                                      "parabolic:n=6,storage=sparse",
+                                      "allencahn:n=6",
+                                      "allencahn:n=1,storage=sparse",
                                       "prothero:lambda=-37",
                                       "dahlquist:re=-3,im=5"};
   for (size_t i = 0; i < sizeof specs / sizeof *specs; i++) jacobian_agrees(specs[i], 1.3);

@@ -247,6 +247,20 @@ static void estimates_have_their_order(void)
   close();
 }
 
+/* The reference of the fronts is of an explicit method. */
+static void fronts_meet_the_reference(void)
+{
+  steif_order_row row[3];
+  open("allencahn");
+  CHECK(steif_order_measure(ctx, &problem, "krogstad", NULL, 0.25, 3, row) == STEIF_OK);
+  CHECK(row[2].error < 3e-8 && row[2].order > 3.7 && row[2].order < 4.1);
+  close();
+  open("allencahn:n=39");
+  CHECK(steif_order_measure(ctx, &problem, "exprb43", NULL, 0.0625, 2, row) == STEIF_OK);
+  CHECK(row[1].error < 1e-9 && row[1].order > 3.7 && row[1].order < 4.3);
+  close();
+}
+
 /* A linear problem is solved exactly by any step; the estimate lets steps grow to the end. */
 static void linear_problems_take_few_steps(void)
 {
@@ -286,6 +300,7 @@ CU_TestInfo tests_of_expo[] = {
   {"actions of phi functions agree with their matrices", actions_agree_with_matrices},
   {"exponential Rosenbrock methods meet tolerances", tolerances_are_met},
   {"error estimates have the order of the embedded method", estimates_have_their_order},
+  {"fronts of Allen and Cahn meet their reference", fronts_meet_the_reference},
   {"linear problems take few steps", linear_problems_take_few_steps},
   {"dense output follows the solution", dense_output_follows},
   CU_TEST_INFO_NULL};

@@ -83,14 +83,12 @@ static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
   return 0;
 }
 
-/* Columns of u: five rows of the u block, one of the v block; columns of v: one, then five. */
-static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector tmp1,
-               N_Vector tmp2, N_Vector tmp3)
+/* Columns of u: five rows of the u block, one of the v block; columns of v: one, then five. The
+ * terms with u^2 v have the weight `reaction`, 0 or 1. */
+static int fill(const square *s, N_Vector y, sunrealtype reaction, SUNMatrix J)
 {
-  const square *s = user;
   const sunindextype M = s->cells;
   const sunrealtype *u = N_VGetArrayPointer(y), *v = u + M;
-  (void)t, (void)fy, (void)tmp1, (void)tmp2, (void)tmp3;
   if (SUNMatGetID(J) != SUNMATRIX_SPARSE || SM_SPARSETYPE_S(J) != CSC_MAT ||
       SM_NNZ_S(J) < 12 * M)
     return -1;
@@ -98,7 +96,7 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
   memcpy(SM_INDEXVALS_S(J), s->row, (size_t)(12 * M) * sizeof *s->row);
   sunrealtype *of_u = SM_DATA_S(J), *of_v = of_u + 6 * M;
   for (sunindextype i = 0; i < M; i++, of_u += 6, of_v += 6) {
-    const sunrealtype uu = u[i] * u[i], uv2 = 2 * u[i] * v[i];
+    const sunrealtype uu = reaction * u[i] * u[i], uv2 = 2 * reaction * u[i] * v[i];
     const sunindextype *row = s->row + 6 * i;
     for (int k = 0; k < 5; k++) {
       of_u[k] = s->spread * (row[k] == i ? -4 : 1) + (row[k] == i ? uv2 - 4.4 : 0);
@@ -108,6 +106,19 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
     of_v[0] = uu;
   }
   return 0;
+}
+
+static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector tmp1,
+               N_Vector tmp2, N_Vector tmp3)
+{
+  (void)t, (void)fy, (void)tmp1, (void)tmp2, (void)tmp3;
+  return fill(user, y, 1, J);
+}
+
+static int linear_part(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix L, void *user)
+{
+  (void)t, (void)yp;
+  return fill(user, y, 0, L);
 }
 
 /* The five rows of cell (i, j), ascending. */
@@ -199,6 +210,7 @@ const steif_problem steif_problem_bruss2d = {
   .t1 = END,
   .f = f,
   .jac = jac,
+  .L = linear_part,
   .storage = STEIF_SPARSE,
   .breaks = breaks,
   .break_count = 1,
