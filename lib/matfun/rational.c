@@ -27,16 +27,19 @@ static int factor(steif_action *a)
   return STEIF_OK;
 }
 
-/* basis[m] and column m - 1 of H. */
+/* basis[m] and column m - 1 of H, which another method may have used. */
 static int extend(steif_action *a, int m)
 {
+  const size_t ld = (size_t)stf_order(a->dimension);
+  double *h = a->H + (size_t)(m - 1) * ld;
   STEIF_TRY(stf_state_grow(a, m + 1));
   stf_state *next = a->basis + m;
+  memset(h, 0, ld * sizeof *h);
   stf_copy(&a->space, a->basis[m - 1].v, next->v);
   STEIF_TRY(steif_pencil_solve(a->pencil, 0, 1, &next->v, NULL));
   a->report.solves++;
   stf_state_scale(a, 1 / a->gamma, next);
-  stf_state_orthogonalise(a, m, a->H + (size_t)(m - 1) * (size_t)stf_order(a->dimension));
+  stf_state_orthogonalise(a, m, h);
   return STEIF_OK;
 }
 

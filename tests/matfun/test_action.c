@@ -216,11 +216,41 @@ static void growth(void)
   close();
 }
 
+/* Small, medium, large and again medium norms of tA: every method leaves room for the next. */
+static void methods_take_turns(void)
+{
+  static const struct {
+    double t;
+    int method;
+  } turns[] = {{40, STEIF_ACTION_RATIONAL}, {12, STEIF_ACTION_POLYNOMIAL},
+               {41, STEIF_ACTION_RATIONAL}, {1, STEIF_ACTION_TAYLOR},
+               {39, STEIF_ACTION_RATIONAL}, {13, STEIF_ACTION_POLYNOMIAL},
+               {1.1, STEIF_ACTION_TAYLOR}};
+  open();
+  SUNMatrix A = grid_tridiagonal(SMALL, 1, -2, 1, sun);
+  N_Vector v = N_VNew_Serial(SMALL, sun), w = N_VNew_Serial(SMALL, sun), b[] = {NULL, v};
+  double *S = grid_sines(SMALL), exact[SMALL];
+  steif_action *a = steif_action_new(ctx, A, NULL, v, NULL);
+  grid_fill(SMALL, 71, NV_DATA_S(v));
+  for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) {
+    steif_action_report r;
+    CHECK(steif_action_apply(a, turns[i].t, 1, b, w, &r) == STEIF_OK);
+    CHECK(r.method == turns[i].method);
+    grid_heat(SMALL, S, turns[i].t / (61.0 * 61.0), 1, NV_DATA_S(v), exact);
+    below("turn", turns[i].t, 1, grid_distance(SMALL, NV_DATA_S(w), exact),
+          1e-10 * grid_norm(SMALL, exact));
+  }
+  steif_action_free(&a);
+  free(S), SUNMatDestroy(A), N_VDestroy(v), N_VDestroy(w);
+  close();
+}
+
 CU_TestInfo tests_of_action[] = {
   {"heat on 999 points meets the sine basis at three times", heat},
   {"heat on a square takes one factorisation for six times", heat_on_a_square},
   {"waves are recognised and take the polynomial method", waves},
   {"combinations by three methods meet the dense function", combinations},
   {"the Taylor method estimates norms of powers once", taylor_with_norms_of_powers},
+  {"methods take turns", methods_take_turns},
   {"a growing solution is relative to its own norm", growth},
   CU_TEST_INFO_NULL};
