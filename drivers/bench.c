@@ -16,12 +16,13 @@ static void add(steif_report *r, const steif_bench_row *row)
   steif_report_real(r, "rows.limit", row->limit);
 }
 
-int bench_step(struct call *call)
+static int against_kernels(struct call *call, const char *name,
+                           int (*measure)(steif_context *ctx, size_t i, steif_bench_row *row))
 {
   steif_report *r = steif_report_new(call->ctx);
   steif_bench_row row;
-  steif_report_text(r, "benchmark", "step");
-  for (size_t i = 0; !steif_bench_step(call->ctx, i, &row); i++) {
+  steif_report_text(r, "benchmark", name);
+  for (size_t i = 0; !measure(call->ctx, i, &row); i++) {
     progress(call, "%s %s %s", row.kind, row.problem, row.method);
     add(r, &row);
   }
@@ -31,12 +32,21 @@ int bench_step(struct call *call)
   return shown;
 }
 
+int bench_step(struct call *call) { return against_kernels(call, "step", steif_bench_step); }
+
+static int bench_lyapunov(struct call *call)
+{
+  return against_kernels(call, "lyapunov", steif_bench_lyapunov);
+}
+
 static const struct {
   const char *name;
   int (*run)(struct call *call);
-} benchmarks[] = {
-  {"step", bench_step}, {"workprec", bench_workprec}, {"impulse", bench_impulse},
-  {"phi", bench_phi}};
+} benchmarks[] = {{"step", bench_step},
+                  {"workprec", bench_workprec},
+                  {"impulse", bench_impulse},
+                  {"phi", bench_phi},
+                  {"lyapunov", bench_lyapunov}};
 enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
 static const char *name_at(const void *list, size_t i)
@@ -65,7 +75,7 @@ static const struct option options[] = {
 const struct verb verb_bench = {
   "bench",
   "Measure steps against their kernels, solves against CVODE, IDA, ARKODE",
-  "[step|workprec|impulse|phi]",
+  "[step|workprec|impulse|phi|lyapunov]",
   0,
   1,
   options,

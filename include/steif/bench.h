@@ -21,7 +21,11 @@ extern "C" {
  *              solves alone; limit 1.3
  *   "small"    step_s: a step (n <= 10) less its measured f, J, factorisations and solves; floor_s: a
  *              whole step of CVODE on the same problem at rtol 1e-6, as the library found at run time
- *              has it; limit 1 */
+ *              has it; limit 1
+ *   "lyapunov" (steif_bench_lyapunov) step_s: a step with all n Lyapunov exponents; floor_s: the step
+ *              alone, J and its product with n columns for every stage, the systems of the stages
+ *              (one of order s n for s collocation stages), Q R and X R^{-1}, by direct calls of
+ *              LAPACK and BLAS; limit 1.3 */
 typedef struct steif_bench_row {
   char kind[16], problem[STEIF_SPEC_WORD], method[STEIF_SPEC_WORD];
   sunindextype n;
@@ -30,6 +34,7 @@ typedef struct steif_bench_row {
 
 /* Row i; STEIF_BAD_INPUT without a sentence past the end. */
 STEIF_EXPORT int steif_bench_step(steif_context *ctx, size_t i, steif_bench_row *row);
+STEIF_EXPORT int steif_bench_lyapunov(steif_context *ctx, size_t i, steif_bench_row *row);
 
 /* Work against precision: whole solves, from the creation of the solver to its destruction. Least
  * processor time of all threads over 5 solves and 20 ms; longer solves are repeated less. */

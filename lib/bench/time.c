@@ -1,6 +1,8 @@
 /* time.c: least processor time of a repeated piece of work.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bench.h"
+#include <math.h>
+#include <steif/collection.h>
 #include <time.h>
 
 sunrealtype stf_now(void)
@@ -30,4 +32,23 @@ sunrealtype stf_time(void (*work)(void *data), void *data)
     if (took < least) least = took;
   }
   return least / (sunrealtype)count;
+}
+
+int stf_time_steps(steif_context *ctx, const char *problem, const char *method, int steps,
+                   sunrealtype h, sunrealtype *seconds)
+{
+  enum { RUNS = 5 };
+  steif_problem p;
+  int code = steif_problem_find(ctx, problem, &p);
+  *seconds = INFINITY;
+  for (int k = 0; !code && k < RUNS; k++) {
+    steif_options o = steif_defaults();
+    o.h = h, o.t1 = p.t0 + steps * h;
+    steif_solver *s = steif_solver_new(ctx, &p, method, &o);
+    code = s ? steif_solve_to(s, o.t1) : steif_status(ctx);
+    if (!code) *seconds = fmin(*seconds, steif_statistics(s)->cpu_s / steps);
+    steif_solver_free(&s);
+  }
+  steif_problem_clear(ctx, &p);
+  return code;
 }

@@ -15,6 +15,11 @@ void dgemv_(const char *trans, const int *m, const int *n, const double *alpha, 
 void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *ipiv, int *info);
 void dgetrs_(const char *trans, const int *n, const int *nrhs, const double *a, const int *lda,
              const int *ipiv, double *b, const int *ldb, int *info, size_t);
+void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag,
+            const int *m, const int *n, const double *alpha, const double *a, const int *lda,
+            double *b, const int *ldb, size_t, size_t, size_t, size_t);
+void dgelqf_(const int *m, const int *n, double *a, const int *lda, double *tau, double *work,
+             const int *lwork, int *info);
 void dgebal_(const char *job, const int *n, double *a, const int *lda, int *ilo, int *ihi,
              double *scale, int *info, size_t);
 void dlacn2_(const int *n, double *v, double *x, int *isgn, double *est, int *kase, int *isave);

@@ -70,7 +70,7 @@ static int turn(spectrum *s)
   STEIF_TRY(stf_variation_step(v));
   stf_variation_principal(v, s->w);
   STEIF_CHECK(
-    stf_triangle(v->d, v->m, s->w, s->R), v->ctx, STEIF_NOT_FINITE,
+    stf_triangle(v->d, v->m, s->w, s->R, &v->algebra), v->ctx, STEIF_NOT_FINITE,
     "a direction of the variational equation of '%s' vanished or overflowed in the step "
     "of %s to t = %.12g: take a smaller h, or fewer exponents",
     v->problem->name, v->method, v->t);

@@ -1,10 +1,40 @@
-/* qr.c: small dense algebra by rows: elimination, Householder's R, right division.
+/* qr.c: dense algebra by rows: products, elimination, Householder's R, right division.
  *
- * Orders are those of the problem, mostly below 10: plain loops beat calls of LAPACK.
+ * Plain loops beat calls of LAPACK for small orders. Above, an array by rows is the transpose by
+ * columns: A X = B becomes factors of A^T solved transposed, W = Q R becomes W^T = R^T Q^T, an LQ
+ * decomposition in place, and X R^{-1} a solve with R^T from the left.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "blas.h"
 #include "variation.h"
 #include <math.h>
+
+enum { SMALL = 16, BLOCK = 64 }; /* orders of loops; LAPACK's columns at a time */
+
+int stf_algebra_open(stf_pool *pool, int n, int d, int m, stf_algebra *room)
+{
+  const int most = n > d ? n : d, wide = most > BLOCK ? most : BLOCK;
+  room->length = m + m * wide;
+  room->pivot = stf_claim(pool, (size_t)most, sizeof *room->pivot);
+  room->work = stf_claim(pool, (size_t)room->length, sizeof *room->work);
+  return room->pivot && room->work ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+void stf_variation_product(int d, int m, sunrealtype h, const sunrealtype *J,
+                           const sunrealtype *B, sunrealtype *K)
+{
+  const sunrealtype zero = 0;
+  if (d > SMALL) {
+    dgemm_("N", "N", &m, &d, &d, &h, B, &m, J, &d, &zero, K, &m, 1, 1);
+    return;
+  }
+  for (int a = 0; a < d; a++)
+    for (int j = 0; j < m; j++) {
+      sunrealtype sum = 0;
+      for (int l = 0; l < d; l++) sum += J[a * d + l] * B[l * m + j];
+      K[a * m + j] = h * sum;
+    }
+}
 
 static void swap_rows(int n, sunrealtype *a, sunrealtype *b)
 {
@@ -22,8 +52,24 @@ static int pivot_row(int n, const sunrealtype *A, int k)
   return best;
 }
 
-bool stf_eliminate(int n, int m, sunrealtype *A, sunrealtype *B)
+static bool large_eliminate(int n, int m, sunrealtype *A, sunrealtype *B,
+                            const stf_algebra *room)
 {
+  int info;
+  dgetrf_(&n, &n, A, &n, room->pivot, &info);
+  for (int k = 0; k < n; k++)
+    if (!(fabs(A[k * n + k]) > 0)) return false;
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < m; j++) room->work[j * n + i] = B[i * m + j];
+  dgetrs_("T", &n, &m, A, &n, room->pivot, room->work, &n, &info, 1);
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < m; j++) B[i * m + j] = room->work[j * n + i];
+  return true;
+}
+
+bool stf_eliminate(int n, int m, sunrealtype *A, sunrealtype *B, const stf_algebra *room)
+{
+  if (n > SMALL) return large_eliminate(n, m, A, B, room);
   for (int k = 0; k < n; k++) {
     const int p = pivot_row(n, A, k);
     if (p != k) swap_rows(n, A + p * n, A + k * n), swap_rows(m, B + p * m, B + k * m);
@@ -72,8 +118,23 @@ static void reflect(int d, int m, sunrealtype *W, int j, sunrealtype size)
   W[j * m + j] = image;
 }
 
-bool stf_triangle(int d, int m, sunrealtype *W, sunrealtype *R)
+static bool large_triangle(int d, int m, sunrealtype *W, sunrealtype *R,
+                           const stf_algebra *room)
 {
+  const int length = room->length - m;
+  int info;
+  dgelqf_(&m, &d, W, &m, room->work, room->work + m, &length, &info);
+  for (int j = 0; j < m; j++) {
+    const sunrealtype size = W[j * m + j], sign = size > 0 ? 1 : -1;
+    if (!(fabs(size) > 0) || isinf(size)) return false;
+    for (int k = 0; k < m; k++) R[j * m + k] = k < j ? 0 : sign * W[j * m + k];
+  }
+  return true;
+}
+
+bool stf_triangle(int d, int m, sunrealtype *W, sunrealtype *R, const stf_algebra *room)
+{
+  if (d > SMALL && m > 1) return large_triangle(d, m, W, R, room);
   for (int j = 0; j < m; j++) {
     const sunrealtype size = length(d, m, W, j);
     if (!(size > 0) || isinf(size)) return false;
@@ -86,6 +147,11 @@ bool stf_triangle(int d, int m, sunrealtype *W, sunrealtype *R)
 
 void stf_renormalise(int rows, int m, const sunrealtype *R, sunrealtype *X)
 {
+  const sunrealtype one = 1;
+  if (rows > SMALL && m > 1) {
+    dtrsm_("L", "L", "N", "N", &m, &rows, &one, R, &m, X, &m, 1, 1, 1, 1);
+    return;
+  }
   for (int i = 0; i < rows; i++)
     for (int j = 0; j < m; j++) {
       sunrealtype sum = X[i * m + j];

@@ -130,14 +130,9 @@ static void stage_base(stf_variation *v, int i, int last)
 /* K_i = h J_i base */
 static void stage_slope(stf_variation *v, int i)
 {
-  const int d = v->d, m = v->m;
-  const sunrealtype *J = v->J + (size_t)i * (size_t)d * (size_t)d;
-  for (int a = 0; a < d; a++)
-    for (int j = 0; j < m; j++) {
-      sunrealtype sum = 0;
-      for (int l = 0; l < d; l++) sum += J[a * d + l] * v->base[l * m + j];
-      v->K[(i * d + a) * m + j] = v->h * sum;
-    }
+  const size_t d = (size_t)v->d;
+  stf_variation_product(v->d, v->m, v->h, v->J + (size_t)i * d * d, v->base,
+                        v->K + i * v->d * v->m);
 }
 
 /* Block (i, l) of I - h J C at (row, column) of the matrix of order n. */
@@ -159,7 +154,8 @@ static bool stage_by_stage(stf_variation *v)
     stage_slope(v, i);
     if (g->C[i * g->r + i] == 0) continue;
     block(v, i, i, v->d, 0, 0);
-    if (!stf_eliminate(v->d, v->m, v->matrix, v->K + i * v->d * v->m)) return false;
+    if (!stf_eliminate(v->d, v->m, v->matrix, v->K + i * v->d * v->m, &v->algebra))
+      return false;
   }
   return true;
 }
@@ -172,7 +168,7 @@ static bool all_stages(stf_variation *v)
     stage_slope(v, i);
     for (int l = 0; l < r; l++) block(v, i, l, r * d, i * d, l * d);
   }
-  return stf_eliminate(r * d, v->m, v->matrix, v->K);
+  return stf_eliminate(r * d, v->m, v->matrix, v->K, &v->algebra);
 }
 
 static void advance(stf_variation *v)

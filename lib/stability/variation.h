@@ -13,6 +13,13 @@
 #include <steif/method.h>
 #include <steif/solver.h>
 
+/* Room for systems of order n and blocks of d x m, which LAPACK is given. */
+typedef struct stf_algebra {
+  int *pivot, length; /* of work */
+  sunrealtype *work;
+} stf_algebra;
+int stf_algebra_open(stf_pool *pool, int n, int d, int m, stf_algebra *room);
+
 /* Blocks are d x m by rows; X holds k of them. */
 typedef struct stf_variation {
   steif_context *ctx;
@@ -26,6 +33,7 @@ typedef struct stf_variation {
   sunrealtype h, t, t0; /* t = t0 + count h */
   long count;
   sunrealtype *X, *next, *K, *base, *J, *matrix;
+  stf_algebra algebra;
   SUNMatrix M;
   N_Vector y, fy, slope[3]; /* y: state of an explicit trajectory, else the start */
   N_Vector stage, *f;       /* explicit trajectories: f_i */
@@ -55,12 +63,15 @@ int stf_variation_substeps(const stf_variation *v, sunrealtype h);
 /* Number of equal steps of at most h in [t0, t1]; refuses nonsense. */
 int stf_equal_steps(steif_context *ctx, sunrealtype h, sunrealtype span, long *steps);
 
+/* K := h J B by rows, J (d x d), K and B (d x m). */
+void stf_variation_product(int d, int m, sunrealtype h, const sunrealtype *J,
+                           const sunrealtype *B, sunrealtype *K);
 /* B := A^{-1} B by rows, A (n x n) and B (n x m) overwritten; false when a pivot is 0 or NaN.
  * */
-bool stf_eliminate(int n, int m, sunrealtype *A, sunrealtype *B);
+bool stf_eliminate(int n, int m, sunrealtype *A, sunrealtype *B, const stf_algebra *room);
 /* W = Q R, R (m x m) with positive diagonal into R, W (d x m) destroyed; false when a diagonal
  * entry is 0 or not finite. */
-bool stf_triangle(int d, int m, sunrealtype *W, sunrealtype *R);
+bool stf_triangle(int d, int m, sunrealtype *W, sunrealtype *R, const stf_algebra *room);
 /* X := X R^{-1}, X (rows x m). */
 void stf_renormalise(int rows, int m, const sunrealtype *R, sunrealtype *X);
 

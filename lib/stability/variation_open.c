@@ -80,8 +80,8 @@ static int open_blocks(stf_pool *pool, stf_variation *v)
   v->base = stf_claim(pool, d * m, sizeof *v->X);
   v->J = stf_claim(pool, (r > 2 ? r : 2) * d * d, sizeof *v->X);
   v->matrix = stf_claim(pool, order * order, sizeof *v->X);
-  const bool all = v->X && v->next && v->K && v->base && v->J && v->matrix;
-  return all ? STEIF_OK : STEIF_NO_MEMORY;
+  if (!v->X || !v->next || !v->K || !v->base || !v->J || !v->matrix) return STEIF_NO_MEMORY;
+  return stf_algebra_open(pool, (int)order, v->d, v->m, &v->algebra);
 }
 
 /* J at y0 and at y0 + (1 + |y0|) times two irrational directions is the same, entry by entry.
