@@ -30,6 +30,12 @@ STEIF_EXPORT int steif_region_find(steif_context *ctx, const char *method, steif
 STEIF_EXPORT int steif_region_boundary(steif_context *ctx, const char *method, size_t count,
                                        sunrealtype *points);
 
+/* The same of the order star, rho(M(z)) = |e^z|, for |Re z|, |Im z| <= 8: p + 1 sectors where the method
+ * grows more than the solution meet at the origin (G. Wanner, E. Hairer and S. P. Norsett, BIT 18
+ * (1978)). */
+STEIF_EXPORT int steif_region_star(steif_context *ctx, const char *method, size_t count,
+                                   sunrealtype *points);
+
 /* rho(M(z)). */
 STEIF_EXPORT int steif_spectral_radius(steif_context *ctx, const char *method,
                                        const sunrealtype z[2], sunrealtype *radius);

@@ -1,8 +1,9 @@
 /* boundary.c: the curve rho(M(z)) = 1 by marching squares, for any method.
  *
- * rho - 1 is known on a grid over a box that holds the curve (found by scanning rays); each cell
- * that the curve enters joins two of its edges, the joined edges form chains, and the points sent
- * back are bisected on their edges. rho(M(conj z)) = rho(M(z)): only the upper half is evaluated.
+ * rho - 1 is known on a grid over a box that holds the curve (found by scanning rays); each
+ * cell that the curve enters joins two of its edges, the joined edges form chains, and the
+ * points sent back are bisected on their edges. rho(M(conj z)) = rho(M(z)): only the upper half
+ * is evaluated.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stability.h"
@@ -197,7 +198,8 @@ static int trace(contour *k, size_t count, sunrealtype *points)
 
 static int boundary(stf_growth *growth, size_t count, sunrealtype *points)
 {
-  const box b = surround(growth);
+  const box all = {-DEFAULT_BOX, DEFAULT_BOX, DEFAULT_BOX};
+  const box b = growth->star ? all : surround(growth);
   const size_t wanted = count / 2 < LEAST ? LEAST : count / 2 > MOST ? MOST : count / 2;
   contour k = {.growth = growth, .n = (int)wanted & ~1};
   k.dx = (b.right - b.left) / (k.n - 1);
@@ -211,14 +213,26 @@ static int boundary(stf_growth *growth, size_t count, sunrealtype *points)
   return code;
 }
 
-int steif_region_boundary(steif_context *ctx, const char *method, size_t count,
-                          sunrealtype *points)
+static int curve(steif_context *ctx, const char *method, bool star, size_t count,
+                 sunrealtype *points)
 {
   stf_growth growth;
   STEIF_CHECK(count >= 2, ctx, STEIF_BAD_INPUT,
               "%zu points make no boundary: ask for two or more", count);
   STEIF_TRY(stf_growth_open(&growth, ctx, method));
+  growth.star = star;
   const int code = boundary(&growth, count, points);
   stf_growth_close(&growth);
   return code;
+}
+
+int steif_region_boundary(steif_context *ctx, const char *method, size_t count,
+                          sunrealtype *points)
+{
+  return curve(ctx, method, false, count, points);
+}
+
+int steif_region_star(steif_context *ctx, const char *method, size_t count, sunrealtype *points)
+{
+  return curve(ctx, method, true, count, points);
 }

@@ -80,7 +80,8 @@ sunrealtype stf_growth_at(stf_growth *growth, sunrealtype re, sunrealtype im)
   sunrealtype most = 0;
   for (int i = 0; i < growth->r && growth->code == STEIF_OK; i++)
     most = fmax(most, hypot(growth->work[2 * i], growth->work[2 * i + 1]));
-  return isnan(growth->work[0]) ? INFINITY : most - 1;
+  if (isnan(growth->work[0])) return INFINITY;
+  return (growth->star ? most * exp(-re) : most) - 1;
 }
 
 int steif_spectral_radius(steif_context *ctx, const char *method, const sunrealtype z[2],

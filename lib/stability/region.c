@@ -1,10 +1,10 @@
 /* region.c: the constants of a stability region, for every family from the propagator alone.
  * G. Dahlquist, BIT 3 (1963); O. B. Widlund, BIT 7 (1967) for A(alpha).
  *
- * A ray arg(-z) = theta is stable when the largest rho - 1 over |z| does not exceed a tolerance.
- * The maximum is found by a scan in log |z| and a golden section around the highest interior peak;
- * near the tangent ray that peak crosses zero with a nonzero slope in theta, so bisection with a
- * tolerance of rounding gives alpha to about 1e-10 degrees.
+ * A ray arg(-z) = theta is stable when the largest rho - 1 over |z| does not exceed a
+ * tolerance. The maximum is found by a scan in log |z| and a golden section around the highest
+ * interior peak; near the tangent ray that peak crosses zero with a nonzero slope in theta, so
+ * bisection with a tolerance of rounding gives alpha to about 1e-10 degrees.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stability.h"
@@ -14,7 +14,7 @@
 enum { LOWEST = -4, HIGHEST = 6, POINTS = (HIGHEST - LOWEST) * STF_SCAN_PER_DECADE };
 #define TOUCH 1e-9  /* rho - 1 up to which a boundary counts as reached, not crossed */
 #define NOISE 1e-13 /* rounding of rho for small matrices */
-#define DAMPED 1e-7 /* rho(M(inf)) that counts as zero: a double root keeps half the digits */
+#define DAMPED 1e-14 /* rho(M(inf)) that counts as zero; a root of multiplicity r keeps an r-th of the digits */
 #define GOLDEN 0.61803398874989484820
 
 typedef struct ray {
@@ -92,9 +92,9 @@ static sunrealtype sector(stf_growth *growth)
   return low;
 }
 
-/* The first point of the ray where rho - 1 becomes positive beyond rounding, INFINITY if none. A
- * growth that begins at the origin (rho - 1 still positive at a quarter of the crossing of TOUCH)
- * leaves no interval: 0. */
+/* The first point of the ray where rho - 1 becomes positive beyond rounding, INFINITY if none.
+ * A growth that begins at the origin (rho - 1 still positive at a quarter of the crossing of
+ * TOUCH) leaves no interval: 0. */
 static sunrealtype reach(stf_growth *growth, sunrealtype theta)
 {
   const ray line = at_angle(growth, theta);
@@ -134,7 +134,7 @@ static int find(stf_growth *growth, steif_region *region)
   region->a_stable = alpha == right;
   region->alpha_deg = region->a_stable ? 90 : alpha * 90 / right;
   region->r_inf = stf_growth_at(growth, -INFINITY, 0) + 1;
-  region->l_stable = region->a_stable && region->r_inf < DAMPED;
+  region->l_stable = region->a_stable && region->r_inf < pow(DAMPED, 1.0 / growth->r);
   region->real_limit = alpha > 0 ? INFINITY : reach(growth, 0);
   region->imag_limit = region->a_stable ? INFINITY : reach(growth, right);
   return growth->code;

@@ -18,6 +18,7 @@ typedef struct stf_growth {
   const steif_method *method;
   steif_table *table;
   int r, code;
+  bool star; /* rho(M(z)) / |e^z| - 1 instead */
   sunrealtype *M;    /* r x r complex */
   sunrealtype *work; /* zgeev: eigenvalues, work, rwork */
 } stf_growth;

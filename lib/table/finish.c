@@ -29,27 +29,76 @@ static void powers(const steif_glm *g, sunrealtype *M)
   }
 }
 
-/* The fewest data that will do: X_{n+1}, with the slopes, with X_n too. Slopes of stages of an
- * order below p - 1 are of no use. */
+/* The data where y' = lambda y, lambda = infinity: X_{n+1} = M(inf) X_n, h F = -C^{-1} U X_n. L
+ * (rows x rows) with L L^T = Q Q^T + small, Q those data as functions of X_n; 1 where C is
+ * singular. */
+static void weighting(const steif_glm *g, int rows, sunrealtype *L)
+{
+  const int k = g->k, r = g->r;
+  const sunrealtype small = 1e-4;
+  stf_complex C[STEIF_STAGES * STEIF_STAGES], F[STEIF_STAGES * STEIF_PAST];
+  sunrealtype Q[STF_LEAST * STEIF_PAST] = {0};
+  for (int i = 0; i < r * r; i++) C[i] = -g->C[i];
+  for (int i = 0; i < r * k; i++) F[i] = g->U[i];
+  const bool regular = stf_solve(r, k, C, F, 0);
+  for (int j = 0; regular && j < k; j++) {
+    for (int i = 0; i < k; i++) {
+      Q[i * k + j] = g->V[i * k + j];
+      for (int l = 0; l < r; l++)
+        Q[i * k + j] += g->D[i * r + l] * (sunrealtype)creall(F[l * k + j]);
+      Q[(k + r + i) * k + j] = i == j;
+    }
+    for (int l = 0; l < r; l++) Q[(k + l) * k + j] = (sunrealtype)creall(F[l * k + j]);
+  }
+  for (int i = 0; i < rows; i++) /* Cholesky */
+    for (int j = 0; j <= i; j++) {
+      sunrealtype sum = i != j ? 0 : regular ? small : 1;
+      for (int m = 0; m < k; m++) sum += Q[i * k + m] * Q[j * k + m];
+      for (int m = 0; m < j; m++) sum -= L[i * rows + m] * L[j * rows + m];
+      L[i * rows + j] = i == j ? sqrt(fmax(sum, small / 2)) : sum / L[j * rows + j];
+    }
+}
+
+/* The smallest |L^T d| with d M = target: what is damped most where the problem is stiff, then
+ * what is smallest. */
+static int least_weights(steif_context *ctx, const steif_glm *g, int rows, int n, int count,
+                         const sunrealtype *M, const sunrealtype *target, sunrealtype *d,
+                         sunrealtype *off)
+{
+  sunrealtype L[STF_LEAST * STF_LEAST], Mt[(STEIF_PAST + 2) * STF_LEAST];
+  weighting(g, rows, L);
+  for (int j = 0; j < count; j++)
+    for (int i = 0; i < rows; i++) { /* row j of M^T L^{-T} */
+      sunrealtype sum = M[i * n + j];
+      for (int m = 0; m < i; m++) sum -= L[i * rows + m] * Mt[j * rows + m];
+      Mt[j * rows + i] = sum / L[i * rows + i];
+    }
+  STEIF_TRY(stf_least_squares(ctx, count, rows, 1, Mt, target, d, off));
+  for (int i = rows - 1; i >= 0; i--) {
+    for (int m = i + 1; m < rows; m++) d[i] -= L[m * rows + i] * d[m];
+    d[i] /= L[i * rows + i];
+  }
+  return STEIF_OK;
+}
+
+/* X_{n+1} alone where that will do, else with h F and X_n, whose combinations are the stage
+ * values too. Slopes of stages of an order below p - 1 are of no use. */
 int stf_glm_combination(steif_context *ctx, const steif_glm *g, const sunrealtype *target,
                         bool beyond, sunrealtype *d, bool *found)
 {
   const int k = g->k, r = g->r, n = g->order + 2, count = beyond ? n : n - 1;
-  const int data[] = {k, k + r, 2 * k + r}, levels = g->stage_order < g->order - 1 ? 1 : 3;
-  sunrealtype M[STF_LEAST * (STEIF_PAST + 2)], Mt[(STEIF_PAST + 2) * STF_LEAST], off;
+  const int data[] = {k, 2 * k + r}, levels = g->stage_order < g->order - 1 ? 1 : 2;
+  sunrealtype M[STF_LEAST * (STEIF_PAST + 2)], off;
   if (g->order > STEIF_PAST) return *found = false, STEIF_OK;
   powers(g, M);
   *found = false;
   for (int level = 0; level < levels && !*found; level++) {
-    const int rows = data[level];
-    for (int i = 0; i < rows; i++)
-      for (int j = 0; j < count; j++) Mt[j * rows + i] = M[i * n + j];
     memset(d, 0, (size_t)(2 * k + r) * sizeof *d);
-    STEIF_TRY(stf_least_squares(ctx, count, rows, 1, Mt, target, d, &off));
+    STEIF_TRY(least_weights(ctx, g, data[level], n, count, M, target, d, &off));
     *found = off <= STF_GLM_TOLERANCE;
   }
   for (int i = 0; i < 2 * k + r; i++)
-    if (fabs(d[i]) < 16 * STF_EPS) d[i] = 0;
+    if (fabs(d[i]) < 1e-13) d[i] = 0;
   return STEIF_OK;
 }
 

@@ -65,6 +65,18 @@ int steif_table_glm(steif_context *ctx, const steif_table *table, steif_glm *glm
   return STEIF_OK;
 }
 
+/* from - sum_l a_l y_l, 0 when rounding is all that is left; y NULL: zeros. */
+static sunrealtype left_over(const steif_glm *g, long double from, const sunrealtype *a,
+                             const long double *y, int stride)
+{
+  long double sum = from, size = fabsl(from);
+  for (int l = 0; y && l < g->r; l++) {
+    const long double term = a[l] * y[l * stride];
+    sum -= term, size += fabsl(term);
+  }
+  return fabsl(sum) <= 4 * STF_EPS * size ? 0 : (sunrealtype)sum;
+}
+
 void stf_glm_nordsieck(steif_glm *g, int p)
 {
   const int k = p + 1;
@@ -75,14 +87,11 @@ void stf_glm_nordsieck(steif_glm *g, int p)
     for (int j = 0; j < k; j++) Y[i * k + j] = j ? Y[i * k + j - 1] * g->xi[i] / j : 1;
   for (int j = 0; j < k; j++) {
     for (int i = 0; i < g->r; i++) {
-      long double sum = Y[i * k + j];
-      for (int l = 0; l < g->r && j > 0; l++) sum -= g->C[i * g->r + l] * Y[l * k + j - 1];
-      g->U[i * k + j] = (sunrealtype)sum;
+      g->U[i * k + j] = left_over(g, Y[i * k + j], g->C + i * g->r, j ? Y + j - 1 : NULL, k);
     }
     for (int i = 0; i < k; i++) {
-      long double sum = j >= i ? 1 / factorial[j - i] : 0;
-      for (int l = 0; l < g->r && j > 0; l++) sum -= g->D[i * g->r + l] * Y[l * k + j - 1];
-      g->V[i * k + j] = (sunrealtype)sum;
+      g->V[i * k + j] = left_over(g, j >= i ? 1 / factorial[j - i] : 0, g->D + i * g->r,
+                                  j ? Y + j - 1 : NULL, k);
       g->W[i * k + j] = i == j;
     }
   }

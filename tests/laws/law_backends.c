@@ -84,7 +84,7 @@ static steif_problem chain(void)
 
 static const char *const methods[] = {"be",        "bdf:p=3",   "dirk:alexander2",
                                       "gauss:s=2", "radau:s=3", "radau:s=2",
-                                      "exprb43"};
+                                      "exprb43",   "glm:irks,p=3"};
 enum { METHODS = sizeof methods / sizeof *methods };
 
 static int takes(steif_context *ctx, const char *method, const steif_problem *p)

@@ -134,7 +134,9 @@ static const char *const lives[][2] = {{"hires", "radau:s=3"},
                                        {"parabolic:n=9", "hochost4"},
                                        {"bruss2d:n=4", "exprb43"},
                                        {"fpu:n=3", "yoshida4:compensated=1"},
-                                       {"pendulum", "gauss:s=2,compensated=1"}};
+                                       {"pendulum", "gauss:s=2,compensated=1"},
+                                       {"hires", "glm:irks,p=2"},
+                                       {"harmonic", "glm:ab,p=3"}};
 enum { LIVES = sizeof lives / sizeof *lives };
 
 static void the_allocator_may_fail_anywhere(void)

@@ -9,7 +9,7 @@ const char *const law_methods[] = {
   "gauss:s=1", "gauss:s=2",   "gauss:s=3",       "radau:s=2",          "radau:s=3",
   "radau:s=5", "radau1a:s=2", "lobatto3c:s=3",   "gauss:s=12",         "exp-euler",
   "etd2",      "krogstad",    "hochost4",        "exprb32",            "exprb43",
-  "glm:am,p=3", "glm:bdf,p=3", "glm:dimsim2",    "glm:nord22",         "glm:nordsieck,of=bdf,p=3",
+  "glm:am,p=3", "glm:bdf,p=3", "glm:dimsim2",    "glm:nord22",         "glm:nordsieck,of=bdf,p=3", "glm:irks,p=4",
   "glm:dimsim1", "glm:ab,p=3", "euler",          "rk4",
 };
 const int law_method_count = sizeof law_methods / sizeof *law_methods;

@@ -5,7 +5,10 @@
 extern CU_TestInfo tests_of_sympl[], tests_of_separable[], tests_of_stiffpair[],
   tests_of_nonlinear[], tests_of_start[], tests_of_expo[], tests_of_lanes[];
 
-SUITE_MAIN({.pName = "sympl", .pTests = tests_of_sympl},
+extern CU_TestInfo tests_of_glm[];
+
+SUITE_MAIN({.pName = "glm", .pTests = tests_of_glm},
+           {.pName = "sympl", .pTests = tests_of_sympl},
            {.pName = "separable", .pTests = tests_of_separable},
            {.pName = "stiff pair", .pTests = tests_of_stiffpair},
            {.pName = "nonlinear", .pTests = tests_of_nonlinear},

@@ -99,6 +99,43 @@ static void limits_of_adams(void)
   CHECK(isinf(find("glm:ab,p=2").r_inf) && isinf(find("glm:dimsim1").r_inf));
 }
 
+/* Around the origin rho(M(z)) / |e^z| - 1 = |C| |z|^{p+1} cos(..): 2 (p + 1) changes of sign;
+ * and the points of the curve lie on it. */
+static void order_stars_have_their_sectors(void)
+{
+  static const struct {
+    const char *method;
+    int p;
+  } row[] = {{"rk4", 4},        {"radau:s=2", 3},   {"gauss:s=2", 4},  {"glm:irks,p=3", 3},
+             {"glm:nord22", 2}, {"glm:dimsim1", 2}, {"glm:ab,p=2", 2}, {"bdf:p=3", 3}};
+  steif_context *ctx = steif_context_new(NULL);
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    stf_growth growth;
+    double point[2 * 60];
+    int changes = 0, on = 0;
+    CU_ASSERT_FATAL(stf_growth_open(&growth, ctx, row[i].method) == STEIF_OK);
+    growth.star = true;
+    bool before = stf_growth_at(&growth, 0.1, 0) > 0;
+    for (int k = 1; k <= 720; k++) {
+      const double angle = k * acos(-1.0) / 360;
+      const bool here = stf_growth_at(&growth, 0.1 * cos(angle), 0.1 * sin(angle)) > 0;
+      changes += here != before, before = here;
+    }
+    if (changes != 2 * row[i].p + 2) printf("\n  %s: %d", row[i].method, changes);
+    CHECK(changes == 2 * row[i].p + 2);
+    CHECK(steif_region_star(ctx, row[i].method, 60, point) == STEIF_OK);
+    for (int k = 0; k < 60; k++) {
+      if (isnan(point[2 * k])) continue;
+      const double left = radius(ctx, row[i].method, point[2 * k], point[2 * k + 1]);
+      on += isinf(left) || fabs(left / exp(point[2 * k]) - 1) < 1e-9;
+      CHECK(fabs(point[2 * k]) < 8.3 && fabs(point[2 * k + 1]) < 8.3);
+    }
+    CHECK(on > 30);
+    stf_growth_close(&growth);
+  }
+  steif_context_free(&ctx);
+}
+
 static void methods_that_choose_are_refused(void)
 {
   static const char *const names[] = {"cvode", "ida", "arkode", "auto"};
@@ -126,5 +163,6 @@ CU_TestInfo tests_of_general_regions[] = {
   {"growth ends on the positive axis", growth_ends_on_the_positive_axis},
   {"all forms of a formula have the same radius", forms_have_the_same_radius},
   {"real limits of Adams formulas", limits_of_adams},
+  {"order stars have their sectors", order_stars_have_their_sectors},
   {"methods that choose themselves are refused", methods_that_choose_are_refused},
   CU_TEST_INFO_NULL};

@@ -48,6 +48,10 @@ static const char *const all[] = {
   "dimsim1",
   "dimsim2",
   "nord22",
+  "irks:p=1",
+  "irks:p=2",
+  "irks:p=3",
+  "irks:p=4",
 };
 enum { ALL = sizeof all / sizeof *all };
 

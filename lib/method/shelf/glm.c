@@ -101,6 +101,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->slopes = stf_claim_vectors(s->pool, e->r, s->y);
   e->before = stf_claim_vector(s->pool, s->y);
   s->error_order = e->p, s->error_tolerance = 1;
+  s->grow_most = 2; /* history of a much shorter step is of little use */
   return e->at && e->past && e->from && e->to && e->slopes && e->before ? STEIF_OK
                                                                         : STEIF_NO_MEMORY;
 }
