@@ -181,6 +181,13 @@ void call_help(const struct verb *verb)
   printf("steif %s %s\n\n%s.\n\n", verb->name, verb->usage, verb->about);
   lines(verb->option);
   lines(common);
+  if (strstr(verb->usage, "METHOD"))
+    puts(
+      "\nMETHOD: a name that 'steif list methods' shows, or glm:file=PATH, a tableau in a text file:\n"
+      "words xi, C, D, U and V before the matrices G = U X + h C F, X <- V X + h D F row by row, or A, b\n"
+      "and c of a Runge-Kutta method, or alpha and beta of a multistep method (steif/glm.h). File e.g.:\n"
+      "  alpha 1 -4 3\n"
+      "  beta  0 0 2");
   puts(
     "\nExit codes: 0 ok, 1 the computation or the output failed, 2 usage, 3 bad input file,\n"
     "4 singular pencil, 5 not certified.");

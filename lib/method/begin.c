@@ -30,7 +30,9 @@ static int open_implicit(stf_step *s, int order, stf_begin *b)
   in->error = stf_claim_vector(s->pool, s->y);
   if (!in->state || !in->y || !in->yp || !in->next || !in->error) return STEIF_NO_MEMORY;
   in->newton.tolerance *= 0.01;
-  return in->method->open(in, &spec, in->table);
+  STEIF_TRY(in->method->open(in, &spec, in->table));
+  in->newton.system = &s->system; /* one system: operators of the pencil read its last point */
+  return STEIF_OK;
 }
 
 static int open_explicit(stf_step *s, int order, stf_begin *b)
@@ -56,7 +58,6 @@ static int implicit(stf_step *s, stf_begin *b, sunrealtype d)
   stf_step *in = &b->inner;
   const stf_space *space = &s->system.space;
   int code = STEIF_OK;
-  in->system = s->system;
   in->newton.factored = false, in->newton.fresh = s->newton.fresh, in->newton.wanted = true;
   in->restart = true, in->refused = s->refused, in->count = 0;
   const long sweeps = in->newton.sweeps, fails = in->newton.fails;
@@ -69,7 +70,7 @@ static int implicit(stf_step *s, stf_begin *b, sunrealtype d)
     in->h = d, in->count++, in->restart = false, in->newton.fresh = false;
     stf_copy(space, in->y, b->value[i + 1]);
   }
-  s->system = in->system, s->newton.factored = false, s->newton.wanted = true;
+  s->newton.factored = false, s->newton.wanted = true;
   s->newton.sweeps += in->newton.sweeps - sweeps, s->newton.fails += in->newton.fails - fails;
   return code;
 }
