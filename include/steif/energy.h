@@ -3,8 +3,9 @@
  * A symplectic method with a constant step keeps a modified energy: the energy itself stays
  * in a band whose width shrinks with the step, for a very long time. Other methods drift:
  * the energy leaves along a line. Which of the two a run shows is judged by the slope of the
- * line through the means of PARTS equal parts of the run, against the scatter of the means
- * about it; oscillations within a part cancel.
+ * line through the means of 16 equal parts of the run, against the scatter of the means about it,
+ * and nine tenths of the way that the means go must be one way: oscillations within a part cancel,
+ * and a random walk of rounding turns back.
  *
  * The map of one step y -> Phi(y) of a Hamiltonian system is symplectic if its Jacobian
  * satisfies J^T Omega J = Omega with Omega = [0 I; -I 0] for (q, p). det J = 1 is less than
@@ -26,7 +27,7 @@ typedef struct steif_drift {
   sunrealtype max, min, final, mean;
   sunrealtype slope, slope_error;  /* per unit of time, and its standard error */
   sunrealtype per_period;          /* slope times the period; NaN where there is none */
-  int drifts;                      /* 1: the slope is no accident (above 5 standard errors) */
+  int drifts;                      /* 1: above 5 standard errors, and one way */
 } steif_drift;
 
 typedef struct steif_energy {

@@ -6,6 +6,7 @@
 
 enum { PARTS = 16 };
 static const sunrealtype no_accident = 5; /* standard errors; PARTS - 2 degrees of freedom */
+static const sunrealtype straight = 0.9;  /* of the way the means go leads somewhere */
 
 /* Sums over one part of the run. */
 typedef struct part {
@@ -92,6 +93,15 @@ static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
   return w->options->observe ? w->options->observe(s, t, y, w->options->observer) : 0;
 }
 
+/* Do the means go one way? A random walk, as rounding makes it, turns back too often, though a line
+ * through it may look steep. */
+static bool one_way(int n, const sunrealtype *y)
+{
+  sunrealtype path = 0;
+  for (int k = 1; k < n; k++) path += fabs(y[k] - y[k - 1]);
+  return n > 2 && fabs(y[n - 1] - y[0]) >= straight * path;
+}
+
 /* The line through the means of the parts that have points, all of one weight. */
 static void line(const watch *w, int i, steif_drift *d)
 {
@@ -115,7 +125,7 @@ static void line(const watch *w, int i, steif_drift *d)
     yy += off * off;
   }
   d->slope_error = n > 2 ? sqrt(yy / (n - 2) / xx) : NAN;
-  d->drifts = fabs(d->slope) > no_accident * d->slope_error;
+  d->drifts = fabs(d->slope) > no_accident * d->slope_error && one_way(n, y);
 }
 
 static void finish(watch *w)
