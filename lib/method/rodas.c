@@ -5,6 +5,11 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "rodas.h"
 
+/* Inside the step: d solves the conditions of order 3 as functions of x, those of algebraic components
+ * b omega alpha^2 = x^2 and, but for rodas4, b omega alpha^3 = x^3 and b omega (alpha A beta) = x^3/2
+ * among them (Hairer and Wanner VI.4), in 30-digit arithmetic; where they leave a choice, of least
+ * norm. For rodas4 these are the numbers of Hairer and Wanner's code RODAS. */
+
 static const sunrealtype rodas4_alpha[] = {0, 0.386, 0.21, 0.63, 1, 1};
 static const sunrealtype rodas4_gamma[] = {0.25, -0.1043, 0.1035, -0.0362, 0, 0};
 static const sunrealtype rodas4_a[] = {1.544,
@@ -32,6 +37,11 @@ static const sunrealtype rodas4_c[] = {-5.6688,
                                        -31.52159432874371,
                                        16.31930543123136,
                                        -6.058818238834054};
+static const sunrealtype rodas4_d[] = {
+  10.126235083445867,   -7.4879958776101485, -34.800918615557463,
+  -7.9927717075688021,  1.0251377232956519,  0,
+  -0.67628033928012808, 6.0877146516799165,  16.430843208924624,
+  24.767225114183709,   -6.5943891257167995, 0};
 
 static const sunrealtype rodas4p_alpha[] = {0, 0.75, 0.21, 0.63, 1, 1};
 static const sunrealtype rodas4p_gamma[] = {0.25, -0.5, -0.023504, -0.0362, 0, 0};
@@ -60,6 +70,11 @@ static const sunrealtype rodas4p_c[] = {-12,
                                         56.99955578662667,
                                         18.40807009793095,
                                         -5.714285714285717};
+static const sunrealtype rodas4p_d[] = {
+  25.298191647914849, 11.53036106289936,    29.523625464514593,
+  -3.717014154389913, -0.78571428571428465, 0,
+  1.84921002768645,   -0.83241254848833473, 9.570774864687783,
+  18.054068749893812, -2.7142857142857193,  0};
 
 static const sunrealtype rodas4p2_alpha[] = {0, 0.75, 0.321448134013046, 0.519745732277726,
                                              1, 1};
@@ -90,6 +105,11 @@ static const sunrealtype rodas4p2_c[] = {-12,
                                          24.625568527593117,
                                          16.627521966636085,
                                          -5.714285714285718};
+static const sunrealtype rodas4p2_d[] = {
+  -4.6590234985164414, -9.3843210703753019,  17.094464178122741,
+  -3.3574803971092011, -0.78571428571428588, 0,
+  6.2913760712017612,  6.2279222907105482,   -0.7649079663342164,
+  16.307761928816174,  -2.7142857142857213,  0};
 
 static const sunrealtype rodas5p_alpha[] = {
   0, 0.6358126895828704, 0.4095798393397535, 0.9769306725060716, 0.4288403609558664, 1, 1, 1};
@@ -124,20 +144,25 @@ static const sunrealtype rodas5p_c[] = {
   -3.1208243349937974, 77.79954646070892,  34.28646028294783,   -19.097331116725623,
   -28.087943162872662, 37.80277123390563,  -3.2571969029072276, 112.26918849496327,
   66.9347231244047,    -40.06618937091002, -54.66780262877968,  -9.48861652309627};
+static const sunrealtype rodas5p_d[] = {
+  25.034474435864489,  -2.367222995585236,  6.7351150480004711, -5.2581449603111914,
+  2.3473468018880966,  3.7788526810979213,  4.5484808292575315, 0,
+  -8.5248598158624274, 0.39352884404009434, 17.05018129960223,  -6.2932679147199514,
+  8.2127876119340473,  3.5912581993980976,  3.0341437549313361, 0};
 
 const stf_rodas stf_rodas_tables[] = {
   {"rodas4",
    "Rodas4, Rosenbrock order 4(3), L-stable, stiffly accurate: Hairer and Wanner, Solving ODEs "
    "II, IV.7",
-   6, 5, 4, 0.25, rodas4_alpha, rodas4_gamma, rodas4_a, rodas4_c},
+   6, 5, 4, 0.25, rodas4_alpha, rodas4_gamma, rodas4_a, rodas4_c, rodas4_d},
   {"rodas4p",
    "Rodas4P, order 4(3), for parabolic problems: G. Steinebach, TH Darmstadt preprint 1772 "
    "(1995)",
-   6, 5, 4, 0.25, rodas4p_alpha, rodas4p_gamma, rodas4p_a, rodas4p_c},
+   6, 5, 4, 0.25, rodas4p_alpha, rodas4p_gamma, rodas4p_a, rodas4p_c, rodas4p_d},
   {"rodas4p2",
    "Rodas4P2, order 4(3), inexact Jacobians allowed: G. Steinebach, Progress in DAEs II (2020)",
-   6, 5, 4, 0.25, rodas4p2_alpha, rodas4p2_gamma, rodas4p2_a, rodas4p2_c},
+   6, 5, 4, 0.25, rodas4p2_alpha, rodas4p2_gamma, rodas4p2_a, rodas4p2_c, rodas4p2_d},
   {"rodas5p", "Rodas5P, order 5(4), for parabolic problems: G. Steinebach, BIT 63 (2023)", 8, 6,
-   5, 0.21193756319429014, rodas5p_alpha, rodas5p_gamma, rodas5p_a, rodas5p_c},
+   5, 0.21193756319429014, rodas5p_alpha, rodas5p_gamma, rodas5p_a, rodas5p_c, rodas5p_d},
 };
 const size_t stf_rodas_count = sizeof stf_rodas_tables / sizeof *stf_rodas_tables;

@@ -1,6 +1,7 @@
 /* Dense output and stages.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "smooth.h"
+#include <sunmatrix/sunmatrix_dense.h>
 
 /* Largest error inside all steps of length h, but those of a starting procedure. */
 static double inside_error(steif_context *ctx, const char *method, double h)
@@ -55,6 +56,8 @@ static void dense_output_has_its_order(void)
               {"dirk:trbdf2", 2},
               {"dirk:hw43", 3},
               {"dirk:esdirk43", 4},
+              {"rodas4", 4},
+              {"rodas5p", 4},
               {"euler", 1},
               {"rk4", 4}};
   steif_context *ctx = steif_context_new(NULL);
@@ -70,11 +73,11 @@ static void dense_output_has_its_order(void)
 
 static void dense_output_meets_both_ends(void)
 {
-  static const char *const methods[] = {"radau:s=3", "gauss:s=2",  "lobatto3c:s=3",
-                                        "bdf:p=4",   "dirk:hw43",  "dirk:crouzeix23",
-                                        "rk4",       "dirk:trbdf2"};
+  static const char *const methods[] = {
+    "radau:s=3",       "gauss:s=2", "lobatto3c:s=3", "bdf:p=4", "dirk:hw43",
+    "dirk:crouzeix23", "rk4",       "dirk:trbdf2",   "rodas4",  "rodas5p"};
   steif_context *ctx = steif_context_new(NULL);
-  for (int m = 0; m < 8; m++)
+  for (int m = 0; m < 10; m++)
     for (int chosen = 0; chosen < 2; chosen++) {
       steif_method_info info;
       steif_options o = steif_defaults();
@@ -115,6 +118,106 @@ static void times_between_steps_are_dense_output(void)
     }
     N_VDestroy(y);
     steif_solver_free(&s);
+  }
+  steif_context_free(&ctx);
+}
+
+/* Of the Hessenberg form y1' = y1 y2^2 z^2, y2' = y1^2 y2^2 - 3 y2^2 z with the constraint
+ * y1^2 y2 = 1 (index 2) or its derivative 2 y2 z^2 - 3 z + y1^2 = 0 (index 1):
+ * y = (e^t, e^-2t), z = e^2t. */
+static int hessenberg(sunrealtype t, N_Vector v, N_Vector out, void *user)
+{
+  const double a = NV_Ith_S(v, 0), b = NV_Ith_S(v, 1), z = NV_Ith_S(v, 2);
+  (void)t;
+  NV_Ith_S(out, 0) = a * b * b * z * z, NV_Ith_S(out, 1) = a * a * b * b - 3 * b * b * z;
+  NV_Ith_S(out, 2) = *(int *)user == 2 ? a * a * b - 1 : 2 * b * z * z - 3 * z + a * a;
+  return 0;
+}
+
+static int mass(sunrealtype t, N_Vector v, N_Vector vp, SUNMatrix E, void *user)
+{
+  (void)t, (void)v, (void)vp, (void)user;
+  SM_ELEMENT_D(E, 0, 0) = SM_ELEMENT_D(E, 1, 1) = 1;
+  return 0;
+}
+
+static int exponentials(sunrealtype t, N_Vector v, N_Vector vp, void *user)
+{
+  (void)user;
+  const double rate[] = {1, -2, 2};
+  for (int i = 0; i < 3; i++) {
+    NV_Ith_S(v, i) = exp(rate[i] * t);
+    if (vp) NV_Ith_S(vp, i) = rate[i] * exp(rate[i] * t);
+  }
+  return 0;
+}
+
+/* Largest errors of y and z inside the steps, from t = 0.3 on. */
+static void dae_error(steif_context *ctx, int index, const char *method, double h,
+                      double *worst)
+{
+  static const int levels[] = {1, 1, 2};
+  const steif_problem p = {.name = "hessenberg",
+                           .n = 3,
+                           .t1 = 1,
+                           .start = exponentials,
+                           .f = hessenberg,
+                           .E = mass,
+                           .exact = exponentials,
+                           .index = index == 2 ? levels : NULL,
+                           .user = &index};
+  steif_options o = steif_defaults();
+  o.h = h;
+  steif_solver *s = smooth_open(ctx, &p, method, &o);
+  N_Vector v = N_VClone(steif_solution(s)), exact = N_VClone(v);
+  worst[0] = worst[1] = 0;
+  while (steif_time(s) < 1 - h / 2) {
+    CHECK(!steif_solve_step(s));
+    for (int k = 1; k < 6; k++) {
+      const double t = steif_time(s) - k * h / 6;
+      if (t < 0.3) continue;
+      CHECK(!steif_dense(s, t, v) && !exponentials(t, exact, NULL, NULL));
+      for (int i = 0; i < 3; i++)
+        worst[i / 2] = fmax(worst[i / 2], fabs(NV_Ith_S(v, i) - NV_Ith_S(exact, i)));
+    }
+  }
+  N_VDestroy(v), N_VDestroy(exact);
+  steif_solver_free(&s);
+}
+
+/* Index 1: algebraic components lose nothing with methods that end in a stage, but the order of the
+ * slope at the end with DIRK. Index 2: s of s + 1. */
+static void algebraic_components_have_their_order(void)
+{
+  static const struct {
+    int index;
+    const char *method;
+    double y, z;
+  } rows[] = {{1, "radau:s=2", 3, 3},
+              {1, "radau:s=3", 4, 4},
+              {1, "lobatto3c:s=3", 4, 3},
+              {1, "radau1a:s=3", 4, 3},
+              {1, "bdf:p=2,start=exact", 2, 2},
+              {1, "bdf:p=3,start=exact", 3, 3},
+              {1, "dirk:hw43", 3, 2},
+              {1, "dirk:trbdf2", 2, 2},
+              {1, "rodas4", 4, 3.2},
+              {1, "rodas4p", 3.7, 3.5},
+              {1, "rodas4p2", 3.2, 3.2},
+              {1, "rodas5p", 4, 3.8},
+              {2, "radau:s=2", 3, 2},
+              {2, "radau:s=3", 4, 3},
+              {2, "bdf:p=2,start=exact", 2, 2},
+              {2, "bdf:p=3,start=exact", 3, 3}};
+  steif_context *ctx = steif_context_new(NULL);
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    double coarse[2], fine[2];
+    dae_error(ctx, rows[i].index, rows[i].method, 1. / 40, coarse);
+    dae_error(ctx, rows[i].index, rows[i].method, 1. / 80, fine);
+    const double y = log2(coarse[0] / fine[0]), z = log2(coarse[1] / fine[1]);
+    const int good = fabs(y - rows[i].y) < 0.4 && fabs(z - rows[i].z) < 0.4;
+    if (!good) printf("\n  index %d %s: %.2f, %.2f", rows[i].index, rows[i].method, y, z);
+    CHECK(good);
   }
   steif_context_free(&ctx);
 }
@@ -189,6 +292,7 @@ static void stages_make_the_step(void)
 
 CU_TestInfo tests_of_dense[] = {
   {"dense output has its order", dense_output_has_its_order},
+  {"algebraic components have their order", algebraic_components_have_their_order},
   {"dense output meets both ends", dense_output_meets_both_ends},
   {"times between steps are dense output", times_between_steps_are_dense_output},
   {"outside the last step is refused", outside_the_last_step_is_refused},

@@ -10,7 +10,8 @@
 typedef struct state {
   const stf_rodas *r;
   stf_newton *newton;
-  N_Vector u[STF_RODAS_STAGES], Y, sum, ft, f0, before, slope, end;
+  N_Vector u[STF_RODAS_STAGES], old[STF_RODAS_STAGES]; /* of the trial, of the last step */
+  N_Vector Y, sum, ft, f0, before;
   bool have_f0; /* f0 = f(t_n, y_n), ft = df/dt there */
 } state;
 
@@ -29,11 +30,13 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->r = find(spec->name);
   STEIF_TRY(stf_split_single(s->pool, 1 / e->r->g, &split));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
-  N_Vector *const all[] = {&e->Y, &e->sum, &e->ft, &e->f0, &e->before, &e->slope, &e->end};
+  N_Vector *const all[] = {&e->Y, &e->sum, &e->ft, &e->f0, &e->before};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++)
     if (!(*all[i] = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
   for (int i = 0; i < e->r->s; i++)
-    if (!(e->u[i] = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
+    if (!(e->u[i] = stf_claim_vector(s->pool, s->y)) ||
+        !(e->old[i] = stf_claim_vector(s->pool, s->y)))
+      return STEIF_NO_MEMORY;
   s->newton.fresh = false;
   s->error_order = e->r->order - 1;
   s->error_tolerance = 1;
@@ -110,18 +113,26 @@ static void commit(stf_step *s)
 {
   state *e = s->state;
   stf_copy(&s->system.space, s->y, e->before);
-  stf_copy(&s->system.space, e->f0, e->slope);
+  for (int i = 0; i < e->r->s; i++) {
+    N_Vector u = e->old[i];
+    e->old[i] = e->u[i], e->u[i] = u;
+  }
   e->have_f0 = false;
   stf_swap(s);
 }
 
-/* Cubic Hermite for y' = f, linear for M y' = f. */
+/* (1 - x) y_n + x y_{n+1} + x (1 - x) sum (d_i + x d_{s+i}) u_i. */
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
   const state *e = s->state;
-  const sunrealtype x = (t - (s->t - s->h)) / s->h;
-  if (s->system.form != STEIF_MASS) return stf_hermite(s, t, e->before, e->slope, e->end, y);
-  stf_sum(&s->system.space, 1 - x, e->before, x, s->y, y);
+  const stf_space *space = &s->system.space;
+  const sunrealtype x = (t - (s->t - s->h)) / s->h, *d = e->r->d;
+  sunrealtype c[STF_RODAS_STAGES];
+  const int count = e->r->s;
+  for (int i = 0; i < count; i++) c[i] = x * (1 - x) * (d[i] + x * d[count + i]);
+  stf_combine(space, count, c, (N_Vector *)e->old, y);
+  stf_axpy(space, 1 - x, e->before, y);
+  stf_axpy(space, x, s->y, y);
   return STEIF_OK;
 }
 
