@@ -115,6 +115,8 @@ struct steif_problem {
 
   const int *index;          /* n entries 1, 2, 3: index of each component as in RADAU5; norms
                                 scale component i by h^(index-1); NULL: all 1 */
+  const int *constraint;     /* n entries as for CVodeSetConstraints: 1: y_i >= 0, 2: > 0, -1: <= 0,
+                                -2: < 0, 0: none; kept at the ends of steps; NULL: none */
   int dae_index;             /* 0: ODE; differentiation index where known, -1: not stated */
   int autonomous;            /* 1: f does not depend on t */
   int linear;                /* 1: F is affine in (y, y') with constant coefficients */

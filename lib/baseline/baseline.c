@@ -78,6 +78,16 @@ static int tolerances(stf_baseline *base)
   return STEIF_OK;
 }
 
+static int constraints(stf_baseline *base)
+{
+  stf_run *run = base->run;
+  if (!run->problem->constraint) return STEIF_OK;
+  if (!(base->constraint = stf_claim_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
+  sunrealtype *c = N_VGetArrayPointer(base->constraint);
+  for (sunindextype i = 0; c && i < run->problem->n; i++) c[i] = run->problem->constraint[i];
+  return STEIF_OK;
+}
+
 int stf_baseline_open(stf_baseline *base, stf_run *run, const char *package,
                       const stf_flag *flags)
 {
@@ -99,6 +109,7 @@ int stf_baseline_open(stf_baseline *base, stf_run *run, const char *package,
               STEIF_UNSUPPORTED,
               "%s with matrices needs vectors with a host array; use storage = STEIF_KRYLOV",
               package);
+  STEIF_TRY(constraints(base));
   return tolerances(base);
 }
 

@@ -34,6 +34,7 @@ typedef struct stf_baseline {
   N_Vector atol;        /* NULL: one number for all components */
   N_Vector work, start; /* start: residual of a failed start (IDA) */
   N_Vector *pair;       /* for slopes at a start */
+  N_Vector constraint;  /* NULL: none */
   struct {
     const char *who; /* the callback that failed last, NULL: none */
     int verdict;     /* what it returned; 0: it returned a value that is not finite */

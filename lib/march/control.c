@@ -67,6 +67,7 @@ static int given(steif_solver *s)
   if (!(step->method->traits & STF_EXPLICIT)) STEIF_TRY(renew_weights(s, h));
   const int code = step->method->attempt(step, h);
   if (code) return give_up(s, code);
+  if (s->problem->constraint) STEIF_TRY(stf_feasible_keep(s, h, 0));
   accept(s, h, t);
   s->mesh_at++;
   return STEIF_OK;
@@ -157,6 +158,12 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
     }
     const sunrealtype e =
       stf_norm(&step->system.space, step->error, step->weights) / step->error_tolerance;
+    const int kept =
+      e <= 1 && s->problem->constraint ? stf_feasible_keep(s, h, tries) : STEIF_OK;
+    if (kept) {
+      STEIF_TRY(refused(s, kept, &h, tries));
+      continue;
+    }
     if (e <= 1) {
       accept(s, h, h == left ? t_stop : step->t + h);
       s->h_next = step->factor > 0 ? h * step->factor : grown(s, h, e);

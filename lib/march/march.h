@@ -32,6 +32,7 @@ struct steif_solver {
   int next_break;
   sunrealtype h_next, h_old, error_old; /* chosen steps */
   bool after_reject, failed;
+  int pressed; /* steps in a row that a constraint has moved */
   int failure;
   char why[400];           /* the sentence of the failure */
   sunrealtype *invariants; /* at the start, then room for as many */
@@ -48,6 +49,12 @@ int stf_advance(steif_solver *s, sunrealtype t_stop);
 
 /* Is there more to do after a step than to go on? */
 bool stf_attended(const steif_solver *s);
+
+/* Constraints: sensible, and kept at the start; kept by y at t; kept by the trial, which may be moved
+ * within the tolerance: STEIF_RETRY asks for a smaller step. */
+int stf_feasible_open(steif_solver *s);
+int stf_feasible_check(steif_solver *s, sunrealtype t, N_Vector y, const char *where);
+int stf_feasible_keep(steif_solver *s, sunrealtype h, int tries);
 
 /* The invariants at the start. */
 int stf_drift_open(steif_solver *s);

@@ -215,6 +215,7 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
   s->engine = stf_engine_find(spec.name);
   STEIF_TRY(s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp));
+  STEIF_TRY(stf_feasible_open(s));
   STEIF_TRY(stf_drift_open(s));
   STEIF_TRY(stf_watch_open(s));
   s->attended = stf_attended(s);

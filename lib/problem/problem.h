@@ -55,6 +55,9 @@ int stf_system_matrices(stf_system *system, sunrealtype t, N_Vector y, N_Vector 
 int stf_system_start(steif_context *ctx, const steif_problem *problem, int form,
                      const stf_space *space, N_Vector y, N_Vector yp, bool *known);
 
+/* STEIF_BAD_INPUT where problem.index declares less than E and A at the start show. */
+int stf_index_check(stf_system *system);
+
 /* Is the problem complete for this kind of storage? */
 int stf_storage_check(steif_context *ctx, const steif_problem *problem,
                       enum steif_storage storage);

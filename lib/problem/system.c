@@ -319,39 +319,6 @@ int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *pro
   if (code) return code > 0 ? STEIF_CALLBACK : code;
   if (!matrices) return STEIF_OK;
   STEIF_TRY(open_pencil(pool, s));
-  return stf_probe(s, problem->t0, y, yp);
-}
-
-int stf_system_start(steif_context *ctx, const steif_problem *p, int form,
-                     const stf_space *space, N_Vector y, N_Vector yp, bool *known)
-{
-  *known = p->yp0 || p->start;
-  if (p->start) {
-    const int returned = p->start(p->t0, y, yp, p->user);
-    STEIF_CHECK(returned == 0, ctx, STEIF_CALLBACK, "start of problem '%s' returned %d",
-                p->name, returned);
-  } else {
-    sunrealtype *a = N_VGetArrayPointer(y), *b = N_VGetArrayPointer(yp);
-    STEIF_CHECK(a && b, ctx, STEIF_UNSUPPORTED,
-                "vectors without a host array need the callback "
-                ".start of problem '%s'",
-                p->name);
-    memcpy(a, p->y0, (size_t)p->n * sizeof *a);
-    if (p->yp0) memcpy(b, p->yp0, (size_t)p->n * sizeof *b);
-  }
-  if (form == STEIF_ODE) {
-    const int returned = p->f(p->t0, y, yp, p->user);
-    STEIF_CHECK(
-      returned == 0, ctx, STEIF_CALLBACK,
-      "f of problem '%s' could not be evaluated at the start, t = %g (it returned %d)", p->name,
-      p->t0, returned);
-    *known = true;
-  }
-  STEIF_CHECK(stf_finite(space, y), ctx, STEIF_NOT_FINITE,
-              "start value %lld of problem '%s' is not finite", (long long)stf_not_finite(y),
-              p->name);
-  STEIF_CHECK(stf_finite(space, yp), ctx, STEIF_NOT_FINITE,
-              "slope %lld at the start of problem '%s' is not finite",
-              (long long)stf_not_finite(yp), p->name);
-  return STEIF_OK;
+  STEIF_TRY(stf_probe(s, problem->t0, y, yp));
+  return stf_index_check(s);
 }

@@ -4,7 +4,8 @@
 
 extern CU_TestInfo tests_of_steps[], tests_of_run[], tests_of_options[], tests_of_dense[],
   tests_of_digits[], tests_of_counts[], tests_of_breaks[], tests_of_engines[],
-  tests_of_weights[], tests_of_events[], tests_of_reactions[], tests_of_limits[], tests_of_auto[];
+  tests_of_weights[], tests_of_events[], tests_of_reactions[], tests_of_limits[],
+  tests_of_auto[], tests_of_constraints[];
 
 SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "run", .pTests = tests_of_run},
@@ -18,4 +19,5 @@ SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "events", .pTests = tests_of_events},
            {.pName = "reactions", .pTests = tests_of_reactions},
            {.pName = "limits", .pTests = tests_of_limits},
-           {.pName = "auto", .pTests = tests_of_auto})
+           {.pName = "auto", .pTests = tests_of_auto},
+           {.pName = "constraints", .pTests = tests_of_constraints})

@@ -112,10 +112,51 @@ static void tolerances_by_component(void)
   steif_context_free(&ctx);
 }
 
+/* pendulum3 has index 1, 1, 2, 2, 3 as posed; its index 2 form 1, 1, 1, 1, 2. */
+static void index_vectors_must_fit(void)
+{
+  static const int flat[] = {1, 1, 1, 1, 1}, low[] = {1, 1, 2, 2, 2}, high[] = {1, 2, 3, 3, 3},
+                   one[] = {1, 1}, two[] = {1, 2};
+  static const struct {
+    const char *problem;
+    const int *index;
+    const char *words;
+  } rows[] = {{"pendulum3", flat,
+               "index[2] = 1 of problem 'pendulum3' contradicts its equations, "
+               "which show index 2"},
+              {"pendulum3", low,
+               "index[4] = 2 of problem 'pendulum3' contradicts its equations, "
+               "which show index 3"},
+              {"pendulum3:index=2", flat, "index[4] = 1 of problem"},
+              {"pendulum3", high, NULL}, /* larger than needed may be right at other points */
+              {"pendulum3:index=1", flat, NULL}};
+  steif_context *ctx = steif_context_new(NULL);
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    steif_problem p;
+    CU_ASSERT_FATAL(!steif_problem_find(ctx, rows[i].problem, &p));
+    p.index = rows[i].index;
+    if (rows[i].words)
+      smooth_refused(&p, "radau:s=3", NULL, STEIF_BAD_INPUT, rows[i].words);
+    else {
+      steif_solver *s = smooth_open(ctx, &p, "radau:s=3", NULL);
+      steif_solver_free(&s);
+    }
+    steif_problem_clear(ctx, &p);
+  }
+  steif_problem p = smooth;
+  p.index = two;
+  smooth_refused(&p, "radau:s=3", NULL, STEIF_BAD_INPUT, "contradicts its form y' = f");
+  p.index = one;
+  steif_solver *s = smooth_open(ctx, &p, "radau:s=3", NULL);
+  steif_solver_free(&s);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_options[] = {
   {"bad options are named", bad_options_are_named},
   {"bad calls are refused", bad_calls_are_refused},
   {"options of zeros are the defaults", options_of_zeros_are_defaults},
   {"the first and the longest step are kept", first_and_longest_steps_are_kept},
   {"tolerances by component", tolerances_by_component},
+  {"index vectors must fit the equations", index_vectors_must_fit},
   CU_TEST_INFO_NULL};

@@ -1,6 +1,8 @@
 /* Start values and slopes: where they come from and what refuses them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
+#include <stdlib.h>
+#include <sunmatrix/sunmatrix_dense.h>
 
 typedef struct give {
   int returned, slopes;
@@ -97,11 +99,79 @@ static void refused(give x, steif_problem p, int code, const char *words)
   finish(&o);
 }
 
+static int unit(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  SM_ELEMENT_D(E, 0, 0) = SM_ELEMENT_D(E, 1, 1) = 1;
+  return 0;
+}
+
+static int g(sunrealtype t, int derivative, N_Vector out, void *user)
+{
+  (void)t, (void)derivative;
+  NV_Ith_S(out, 0) = 1, NV_Ith_S(out, 1) = ((const give *)user)->value;
+  return 0;
+}
+
+static int undefined(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
+{
+  F(t, y, yp, r, user);
+  NV_Ith_S(r, 1) = sqrt(NV_Ith_S(y, 1));
+  return 0;
+}
+
+/* Callbacks that make vectors shorter, or swap their arrays. */
+static int shorter(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  (void)t, (void)y, (void)user;
+  NV_LENGTH_S(out) = 1;
+  return 0;
+}
+
+static int longer(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  (void)t, (void)out, (void)user;
+  NV_LENGTH_S(y) = 3;
+  return 0;
+}
+
+static int elsewhere(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  static double own[2];
+  (void)t, (void)y, (void)user;
+  NV_OWN_DATA_S(out) = 0;
+  free(NV_DATA_S(out));
+  NV_DATA_S(out) = own;
+  return 0;
+}
+
+static void callbacks_that_change_sizes_are_refused(void)
+{
+  steif_problem p = {.name = "p", .n = 2, .t0 = 0.5, .t1 = 1, .y0 = y0, .f = shorter};
+  refused((give){0}, p, STEIF_BAD_INPUT,
+          "f of problem 'p' gave a vector back with 1 components, it had 2");
+  p.f = longer;
+  refused((give){0}, p, STEIF_BAD_INPUT, "with 3 components, it had 2");
+  p.E = unit;
+  refused((give){0}, p, STEIF_BAD_INPUT, "with 3 components, it had 2");
+  p.f = elsewhere;
+  refused((give){0}, p, STEIF_BAD_INPUT, "with 2 components in another array");
+}
+
 static void bad_starts_are_refused(void)
 {
   steif_problem p = {.name = "p", .n = 2, .t0 = 0.5, .t1 = 1, .y0 = y0, .f = f};
   refused((give){.returned = 1}, p, STEIF_CALLBACK, "f of problem 'p' could not be evaluated");
-  refused((give){.value = NAN}, p, STEIF_NOT_FINITE, "slope 0 at the start");
+  refused((give){.value = NAN}, p, STEIF_NOT_FINITE,
+          "component 0 of f of problem 'p' is not finite at the start, t = 0.5");
+  p.E = unit;
+  refused((give){.returned = 1}, p, STEIF_CALLBACK, "f of problem 'p' could not be evaluated");
+  refused((give){.value = NAN}, p, STEIF_NOT_FINITE, "component 0 of f of problem 'p'");
+  p.f = NULL, p.A = unit, p.g = g;
+  refused((give){.value = NAN}, p, STEIF_NOT_FINITE, "component 1 of g of problem 'p'");
+  p.E = p.A = NULL, p.g = NULL, p.F = undefined, p.yp0 = yp0;
+  refused((give){.value = 1}, p, STEIF_NOT_FINITE, "component 1 of F of problem 'p'");
+  p.yp0 = NULL;
   p.f = NULL, p.F = F, p.start = begin;
   refused((give){.returned = 1}, p, STEIF_CALLBACK, "start of problem 'p' returned 1");
   refused((give){.value = INFINITY}, p, STEIF_NOT_FINITE, "start value 0 of problem");
@@ -111,4 +181,5 @@ CU_TestInfo tests_of_start[] = {
   {"slopes come from the form", slopes_come_from_the_form},
   {"a callback may give the start", a_callback_may_give_the_start},
   {"bad starts are refused", bad_starts_are_refused},
+  {"callbacks that change sizes are refused", callbacks_that_change_sizes_are_refused},
   CU_TEST_INFO_NULL};

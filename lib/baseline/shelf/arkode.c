@@ -28,6 +28,9 @@ static const stf_flag flags[] = {
   STF_FLAG(ARK_CONV_FAILURE, STEIF_BASELINE,
            "Newton's iteration failed repeatedly or the step reached its minimum",
            "Check df/dy against differences; with given steps make h smaller"),
+  STF_FLAG(ARK_CONSTR_FAIL, STEIF_INFEASIBLE,
+           "a declared constraint was not kept however small the step",
+           "The solution leaves .constraint here, or the tolerances are too loose"),
   STF_FLAG(ARK_LINIT_FAIL, STEIF_BASELINE, "the linear solver could not be set up",
            "Check storage and bandwidths"),
   STF_FLAG(ARK_LSETUP_FAIL, STEIF_BASELINE, "the Jacobian or its factorisation failed",
@@ -182,6 +185,7 @@ static int configure(arkode *s)
                  : s->base.atol ? ARKStepSVtolerances(m, o->rtol, s->base.atol)
                                 : ARKStepSStolerances(m, o->rtol, o->atol));
   STF_CALL(flag, ARKStepSetMaxHnilWarns(m, -1));
+  if (s->base.constraint) STF_CALL(flag, ARKStepSetConstraints(m, s->base.constraint));
   if (o->h0 > 0) STF_CALL(flag, ARKStepSetInitStep(m, o->h0));
   if (o->h_max > 0) STF_CALL(flag, ARKStepSetMaxStep(m, o->h_max));
   STF_CALL(flag, attach(s));

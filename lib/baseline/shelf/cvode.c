@@ -22,6 +22,9 @@ static const stf_flag flags[] = {
   STF_FLAG(CV_CONV_FAILURE, STEIF_BASELINE,
            "Newton's iteration failed repeatedly or the step reached its minimum",
            "Check df/dy against differences; a stiff discontinuity of f does this too"),
+  STF_FLAG(CV_CONSTR_FAIL, STEIF_INFEASIBLE,
+           "a declared constraint was not kept however small the step",
+           "The solution leaves .constraint here, or the tolerances are too loose"),
   STF_FLAG(CV_LINIT_FAIL, STEIF_BASELINE, "the linear solver could not be set up",
            "Check storage and bandwidths"),
   STF_FLAG(CV_LSETUP_FAIL, STEIF_BASELINE, "the Jacobian or its factorisation failed",
@@ -77,6 +80,7 @@ static int configure(cvode *s, int order)
                  : s->base.atol ? CVodeSVtolerances(m, o->rtol, s->base.atol)
                                 : CVodeSStolerances(m, o->rtol, o->atol));
   STF_CALL(flag, CVodeSetMaxOrd(m, order));
+  if (s->base.constraint) STF_CALL(flag, CVodeSetConstraints(m, s->base.constraint));
   STF_CALL(flag, CVodeSetMaxHnilWarns(m, -1));
   if (o->h0 > 0) STF_CALL(flag, CVodeSetInitStep(m, o->h0));
   if (o->h_max > 0) STF_CALL(flag, CVodeSetMaxStep(m, o->h_max));

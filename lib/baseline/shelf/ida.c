@@ -25,6 +25,9 @@ static const stf_flag flags[] = {
   STF_FLAG(IDA_CONV_FAIL, STEIF_BASELINE,
            "Newton's iteration failed repeatedly or the step reached its minimum",
            INDEX "check dF/dy + c dF/dy' against differences, or use a steif method"),
+  STF_FLAG(IDA_CONSTR_FAIL, STEIF_INFEASIBLE,
+           "a declared constraint was not kept however small the step",
+           "The solution leaves .constraint here, or the tolerances are too loose"),
   STF_FLAG(IDA_LINIT_FAIL, STEIF_BASELINE, "the linear solver could not be set up",
            "Check storage and bandwidths"),
   STF_FLAG(IDA_LSETUP_FAIL, STEIF_BASELINE,
@@ -108,6 +111,7 @@ static int configure(ida *s, int order)
                  : s->base.atol ? IDASVtolerances(m, o->rtol, s->base.atol)
                                 : IDASStolerances(m, o->rtol, o->atol));
   STF_CALL(flag, IDASetMaxOrd(m, order));
+  if (s->base.constraint) STF_CALL(flag, IDASetConstraints(m, s->base.constraint));
   if (o->h0 > 0) STF_CALL(flag, IDASetInitStep(m, o->h0));
   if (o->h_max > 0) STF_CALL(flag, IDASetMaxStep(m, o->h_max));
   STF_CALL(flag, attach(s));
