@@ -21,6 +21,7 @@
 #include <steif/pencil.h>
 #include <steif/phi.h>
 #include <steif/problem.h>
+#include <steif/record.h>
 #include <steif/report.h>
 #include <steif/solver.h>
 #include <steif/stability.h>
