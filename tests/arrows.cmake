@@ -7,6 +7,7 @@ cmake_minimum_required(VERSION 3.19)
 # The lowest room that may see a public header, where its name is not a room: methods read the
 # options and the statistics of solver.h, whose functions are those of march.
 set(room_of_solver method)
+set(room_of_record march)
 set(room_of_impulse descriptor)
 set(room_of_energy stability)
 set(room_of_counterexample stability)

@@ -43,6 +43,22 @@ foreach(k 0 1 2)
   endif()
 endforeach()
 
+# Hidden constraints: those enforced hold to rounding, those of the velocity
+# to the tolerance.
+expect(0 solve caraxis radau:s=5 --rtol 1e-8 --json)
+foreach(k 0 1)
+  string(JSON got GET "${out}" drift ${k})
+  if(NOT got MATCHES "e-(1[0-9]|[2-9][0-9])$" AND NOT got EQUAL 0)
+    message(SEND_ERROR "constraint ${k} of caraxis drifts by ${got}")
+  endif()
+endforeach()
+foreach(k 2 3)
+  string(JSON got GET "${out}" drift ${k})
+  if(NOT got MATCHES "e-(0[5-9]|1[0-9])$")
+    message(SEND_ERROR "velocity ${k} of caraxis drifts by ${got}")
+  endif()
+endforeach()
+
 # Limits end a run with a sentence and what was computed.
 expect(1 solve rober radau:s=3 --max-steps 20 --json ERR "20 steps made")
 member("step limit" status)

@@ -52,8 +52,9 @@ int stf_feasible_open(steif_solver *s)
                 "constraint[%lld] = %d of problem '%s' must be 0 (none), 1 (y >= 0), 2 (> 0), "
                 "-1 (<= 0) or -2 (< 0)",
                 (long long)i, p->constraint[i], p->name);
-  STEIF_CHECK(N_VGetArrayPointer(s->shown), s->ctx, STEIF_UNSUPPORTED,
-              "constraints of problem '%s' need vectors with a host array", p->name);
+  STEIF_CHECK(s->shown->ops->nvgetarraypointer && N_VGetArrayPointer(s->shown), s->ctx,
+              STEIF_UNSUPPORTED, "constraints of problem '%s' need vectors with a host array",
+              p->name);
   return stf_feasible_check(s, p->t0, s->shown, "at the start");
 }
 

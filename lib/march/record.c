@@ -17,7 +17,8 @@ struct steif_record {
   int degree;
   sunrealtype point[DEGREE + 1];
   sunrealtype *t, *y; /* count + 1 times; count x (degree + 1) x n values */
-  N_Vector work;
+  stf_pool *pool;
+  N_Vector work; /* of the pool */
 };
 
 steif_record *steif_record_new(steif_context *ctx, sunindextype n, int degree)
@@ -41,7 +42,7 @@ void steif_record_free(steif_record **record)
 {
   if (!record || !*record) return;
   steif_record *r = *record;
-  if (r->work) N_VDestroy(r->work);
+  stf_pool_free(&r->pool);
   stf_release(r->ctx, r->t);
   stf_release(r->ctx, r->y);
   stf_release(r->ctx, r);
@@ -76,9 +77,9 @@ static int begin(steif_record *r, const steif_solver *s, N_Vector y)
   STEIF_CHECK(N_VGetArrayPointer(y) && N_VGetLength(y) == (sunindextype)r->n, r->ctx,
               STEIF_BAD_INPUT,
               "a record of %zu components needs vectors of as many with a host array", r->n);
-  r->work = N_VClone(y);
-  STEIF_CHECK(r->work, r->ctx, STEIF_NO_MEMORY, "no memory for a vector of %zu components",
-              r->n);
+  if (!r->pool) r->pool = stf_pool_new(r->ctx);
+  r->work = r->pool ? stf_claim_vector(r->pool, y) : NULL;
+  if (!r->work) return STEIF_NO_MEMORY;
   STEIF_TRY(grow(r));
   r->t[0] = s->problem->t0;
   return STEIF_OK;

@@ -21,11 +21,17 @@ static int start_values(steif_context *ctx, const steif_problem *p, N_Vector y, 
   return STEIF_OK;
 }
 
+/* NULL without a host array. */
+static sunrealtype *array_of(N_Vector v)
+{
+  return v->ops->nvgetarraypointer ? N_VGetArrayPointer(v) : NULL;
+}
+
 /* A vector must come back from a callback as it went. */
 static int check_size(steif_context *ctx, const steif_problem *p, const char *what, N_Vector v,
                       const sunrealtype *array)
 {
-  STEIF_CHECK(N_VGetLength(v) == p->n && N_VGetArrayPointer(v) == array, ctx, STEIF_BAD_INPUT,
+  STEIF_CHECK(N_VGetLength(v) == p->n && array_of(v) == array, ctx, STEIF_BAD_INPUT,
               "%s of problem '%s' gave a vector back with %lld components%s, it had %lld: "
               "callbacks fill vectors and never replace or resize them",
               what, p->name, (long long)N_VGetLength(v),
@@ -40,7 +46,7 @@ static int first_call(steif_context *ctx, const steif_problem *p, int form, bool
   const char *what = form == STEIF_IMPLICIT ? "F" : form == STEIF_DESCRIPTOR ? "g" : "f";
   if ((form == STEIF_IMPLICIT && !known) || (form == STEIF_DESCRIPTOR && !p->g))
     return STEIF_OK;
-  sunrealtype *kept[] = {N_VGetArrayPointer(y), N_VGetArrayPointer(out)};
+  sunrealtype *kept[] = {array_of(y), array_of(out)};
   const int returned = form == STEIF_IMPLICIT     ? p->F(p->t0, y, yp, out, p->user)
                        : form == STEIF_DESCRIPTOR ? p->g(p->t0, 0, out, p->user)
                                                   : p->f(p->t0, y, out, p->user);
@@ -71,11 +77,9 @@ int stf_system_start(steif_context *ctx, const steif_problem *p, int form,
               (long long)stf_not_finite(yp), p->name);
   *known = p->yp0 || p->start || form == STEIF_ODE;
   if (form == STEIF_ODE) return first_call(ctx, p, form, true, y, yp, yp);
-  N_Vector out = N_VClone(y);
-  STEIF_CHECK(out, ctx, STEIF_NO_MEMORY, "no memory for a vector of %lld components",
-              (long long)p->n);
-  N_VConst(0, out);
-  const int code = first_call(ctx, p, form, *known, y, yp, out);
-  N_VDestroy(out);
+  stf_pool *pool = stf_pool_new(ctx);
+  N_Vector out = pool ? stf_claim_vector(pool, y) : NULL;
+  const int code = out ? first_call(ctx, p, form, *known, y, yp, out) : STEIF_NO_MEMORY;
+  stf_pool_free(&pool);
   return code;
 }

@@ -66,6 +66,32 @@ static void stepping_allocates_nothing(void)
 #endif
 }
 
+/* Events found, reacted to and begun anew from are part of stepping. */
+static void events_allocate_nothing(void)
+{
+#if REPLACED
+  static const char *const methods[] = {"radau:s=3", "bdf", "rodas4", "dirk:hw43"};
+  static const char *const watched[] = {"rectifier", "swing", "bounce"};
+  steif_context *ctx = steif_context_new(&(steif_setup){.threads = 1});
+  for (int i = 0; i < 3; i++)
+    for (int m = 0; m < 4; m++) {
+      steif_problem p;
+      CU_ASSERT_FATAL(!steif_problem_find(ctx, watched[i], &p));
+      steif_solver *s = steif_solver_new(ctx, &p, methods[m], NULL);
+      int code = 0;
+      for (int k = 0; s && k < 8 && !code; k++) code = steif_solve_step(s);
+      const long before = asked;
+      if (s && !code) code = steif_solve_to(s, p.t1);
+      if (asked != before)
+        printf("\n  %s %s: %ld", watched[i], methods[m], asked - before);
+      CHECK(s && !code && asked == before);
+      steif_solver_free(&s);
+      steif_problem_clear(ctx, &p);
+    }
+  steif_context_free(&ctx);
+#endif
+}
+
 typedef struct meal {
   long asked, fail_at, live;
 } meal;
@@ -133,6 +159,7 @@ static const char *const lives[][2] = {{"hires", "radau:s=3"},
                                        {"jordan:k=3", "dirk:alexander2"},
                                        {"parabolic:n=9", "hochost4"},
                                        {"bruss2d:n=4", "exprb43"},
+                                       {"swing", "radau:s=2"},
                                        {"fpu:n=3", "yoshida4:compensated=1"},
                                        {"pendulum", "gauss:s=2,compensated=1"},
                                        {"hires", "glm:irks,p=2"},
@@ -184,6 +211,7 @@ static void the_c_library_may_fail_anywhere(void)
 
 CU_TestInfo tests_of_law_memory[] = {
   {"stepping allocates nothing", stepping_allocates_nothing},
+  {"events allocate nothing", events_allocate_nothing},
   {"splitting methods allocate nothing while stepping", splitting_allocates_nothing},
   {"the allocator may fail anywhere", the_allocator_may_fail_anywhere},
   {"the C library may fail anywhere", the_c_library_may_fail_anywhere},

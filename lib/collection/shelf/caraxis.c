@@ -71,6 +71,22 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
   return 0;
 }
 
+/* Both constraints and their derivatives, all 0 along the solution; with slopes u_4 .. u_7 and the
+ * velocity (x_b', y_b') = (-y_b y_b'/x_b, BUMP OMEGA cos OMEGA t) of the road. */
+static int kept(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
+{
+  const sunrealtype *u = NV_DATA_S(y);
+  sunrealtype xb, yb;
+  (void)user;
+  road(t, &xb, &yb);
+  const sunrealtype dx = u[0] - u[2], dy = u[1] - u[3], rise = BUMP * OMEGA * cos(OMEGA * t);
+  value[0] = u[0] * xb + u[1] * yb;
+  value[1] = dx * dx + dy * dy - L * L;
+  value[2] = u[4] * xb + u[5] * yb - u[0] * yb * rise / xb + u[1] * rise;
+  value[3] = 2 * dx * (u[4] - u[6]) + 2 * dy * (u[5] - u[7]);
+  return 0;
+}
+
 static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
 {
   (void)t, (void)y, (void)yp, (void)user;
@@ -106,4 +122,6 @@ const steif_problem steif_problem_caraxis = {
   .index = index,
   .dae_index = 3,
   .reference = &reference,
+  .invariants = 4,
+  .invariant = kept,
 };
