@@ -32,22 +32,26 @@ typedef struct steif_lyapunov_options {
   sunrealtype h;         /* the step; lowered so that a whole number fills [t0, t1] */
   sunrealtype t1;        /* end; 0: the problem's */
   sunrealtype transient; /* time before the averages begin */
-  sunrealtype window;    /* length of the windows of the intervals; 0: a tenth of what is averaged */
-  int count;             /* exponents wanted, the largest first; 0: all n */
-  int linear;            /* 1: J does not depend on y, and no trajectory is run; -1: it does;
+  sunrealtype
+    window;       /* length of the windows of the intervals; 0: a tenth of what is averaged */
+  int count;      /* exponents wanted, the largest first; 0: all n */
+  int linear;     /* 1: J does not depend on y, and no trajectory is run; -1: it does;
                             0: as J at three random y tells */
-  sunrealtype *error;    /* room for count standard errors of the exponents, from the means over 16
+  int weak_start; /* 1: the history of a BDF by rk4 without its last stage, weights
+                            (1, 2, 2, 0)/6 (steif_growth_measure): an error of order h at the start */
+  sunrealtype *error; /* room for count standard errors of the exponents, from the means over 16
                             parts of the run; NaN below 32 steps. NULL: not wanted */
 } steif_lyapunov_options;
 
 typedef struct steif_lyapunov_facts {
-  long steps;            /* averaged */
-  int linear;            /* was J taken as free of y? */
-  sunrealtype h, time;   /* step in use, time averaged over */
-  sunrealtype sum;       /* of the exponents; with all n it equals, to the order of the method, ... */
-  sunrealtype trace;     /* ... the mean of trace J */
-  sunrealtype mu;        /* largest running average of the first exponent in the second half */
-  sunrealtype dimension; /* Kaplan and Yorke's j + (sum of the j largest) / |the next|, j the last
+  long steps;          /* averaged */
+  int linear;          /* was J taken as free of y? */
+  sunrealtype h, time; /* step in use, time averaged over */
+  sunrealtype sum; /* of the exponents; with all n it equals, to the order of the method, ... */
+  sunrealtype trace; /* ... the mean of trace J */
+  sunrealtype mu;    /* largest running average of the first exponent in the second half */
+  sunrealtype
+    dimension; /* Kaplan and Yorke's j + (sum of the j largest) / |the next|, j the last
                             with a sum >= 0; n where all sums are; NaN: more exponents decide it */
 } steif_lyapunov_facts;
 
@@ -70,19 +74,20 @@ typedef struct steif_growth_facts {
   sunrealtype mu;        /* max over n >= N/2 of ln(|w_n| / |x_0|) / (t_n - t_0) */
   sunrealtype mu_last;   /* the last of them */
   sunrealtype mu_window; /* growth of w per time over the second half */
-  sunrealtype lte_mean, lte_max; /* |x_{n+1} - X(t_{n+1}, t_n) x_n|, X the exact flow (Gauss, order
+  sunrealtype lte_mean,
+    lte_max; /* |x_{n+1} - X(t_{n+1}, t_n) x_n|, X the exact flow (Gauss, order
                                     12, with substeps) */
-  sunrealtype residual_mean, residual_max; /* of the BDF formula on the exact solution; else NaN */
+  sunrealtype residual_mean,
+    residual_max;                    /* of the BDF formula on the exact solution; else NaN */
   sunrealtype local_mean, local_max; /* the same on the exact solution through x_n */
-  sunrealtype tau_max;   /* largest ratio of consecutive lte; the first 50 are left out when there
+  sunrealtype tau_max; /* largest ratio of consecutive lte; the first 50 are left out when there
                             are 100 */
   sunrealtype norm_max, norm_end; /* of x_n */
 } steif_growth_facts;
 
 /* options: h, t1, linear. STEIF_UNSUPPORTED when J depends on y. */
 STEIF_EXPORT int steif_growth_measure(steif_context *ctx, const steif_problem *problem,
-                                      const char *method,
-                                      const steif_lyapunov_options *options,
+                                      const char *method, const steif_lyapunov_options *options,
                                       steif_growth_facts *facts);
 
 /* The one-step map of a linear problem that the recurrence settles on: after burn_in steps of
@@ -92,9 +97,9 @@ STEIF_EXPORT int steif_growth_measure(steif_context *ctx, const steif_problem *p
  * Phi_w by O(h^2) as a rule, whatever p is, since W_n = Z_n + O(h) (the change of coordinates
  * is bounded, so the exponents are the same). */
 typedef struct steif_underlying {
-  long burn_in;                        /* in; 0: twice as many as take the parasitic modes
+  long burn_in;                       /* in; 0: twice as many as take the parasitic modes
                                           of h = 0 below 1e-15, 64 at least; out */
-  sunrealtype *Phi_w, *Phi_f, *exact;  /* room for n x n each, by rows */
+  sunrealtype *Phi_w, *Phi_f, *exact; /* room for n x n each, by rows */
 } steif_underlying;
 
 /* start: k blocks n x n by rows at t0; NULL: u_j I. */

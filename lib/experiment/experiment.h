@@ -103,6 +103,23 @@ typedef struct stf_schemes {
 } stf_schemes;
 int stf_scheme_table(stf_trial *t);
 
+/* Local errors and growth of BDF2 on x' = A(t) x, in three ways: begun right, begun by rk4 without its
+ * last stage, and as printed. */
+typedef struct stf_growth {
+  sunrealtype lte_mean, lte_max, mu;
+} stf_growth;
+typedef struct stf_growth_line {
+  const char *problem, *label;
+  sunrealtype h, abscissa; /* of the picture */
+  long steps;
+  stf_growth right, weak, printed;
+} stf_growth_line;
+typedef struct stf_growths {
+  size_t lines;
+  const stf_growth_line *line;
+} stf_growths;
+int stf_growth_table(stf_trial *t);
+
 typedef struct stf_experiment_entry {
   const char *name;
   const steif_experiment *item;

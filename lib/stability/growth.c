@@ -14,7 +14,7 @@ typedef struct column {
   sunrealtype *z, *y;   /* exact column: k blocks, the oldest first; scratch */
   sunrealtype size0, lte_old;
   long defects, ratios, residuals;
-  bool multistep;
+  bool multistep, weak_start;
   sunrealtype log_half, t_half; /* ln |w| where the second half begins */
   steif_growth_facts out;
 } column;
@@ -124,6 +124,8 @@ static int begin_multistep(column *c)
     sunrealtype *x = c->v.X + j * d, *z = c->z + j * d;
     memcpy(x, x - d, bytes), memcpy(z, z - d, bytes);
     STEIF_TRY(stf_variation_carry(&c->start, t, h, 1, x));
+    const sunrealtype *last = c->start.K + 3 * d;
+    for (int a = 0; a < d && c->weak_start; a++) x[a] -= last[a] / 6;
     STEIF_TRY(exact_step(c, t, h, z));
     c->out.norm_max = fmax(c->out.norm_max, norm(d, x));
   }
@@ -222,7 +224,7 @@ int steif_growth_measure(steif_context *ctx, const steif_problem *problem, const
   STEIF_CHECK(problem && method && options && facts, ctx, STEIF_BAD_INPUT,
               "a problem, a method, options and room for the facts are needed");
   STEIF_TRY(steif_method_find(ctx, method, &info));
-  c.multistep = !strcmp(info.family, "bdf");
+  c.multistep = !strcmp(info.family, "bdf"), c.weak_start = options->weak_start != 0;
   stf_pool *pool = stf_pool_new(ctx);
   if (!pool) return STEIF_NO_MEMORY;
   int code = open(pool, ctx, problem, method, options, &c);
