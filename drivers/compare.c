@@ -31,6 +31,8 @@ static void one_method(struct call *call, const steif_problem *p, const char *me
     if (!steps) o.rtol = value[i];
     progress(call, "%s, %s %.3g", method, steps ? "h" : "rtol", value[i]);
     const outcome out = integrate(call->ctx, p, method, &o, NULL);
+    if (out.why[0])
+      say(call, "%s, %s %.3g: %s", method, steps ? "h" : "rtol", value[i], out.why);
     report_run(r, method, p, &o, &out);
     work_add(work, &out);
   }

@@ -42,6 +42,18 @@ static double tolerance_ratio(const steif_problem *problem, const steif_options 
   return o->atol > 0 && o->rtol > 0 ? o->atol / o->rtol : scale;
 }
 
+/* What a run that stopped by itself stopped for. */
+static void explain(steif_context *ctx, const steif_problem *problem, const char *method,
+                    const steif_options *options, outcome *o)
+{
+  static const int codes[] = {STEIF_NOT_FINITE, STEIF_SINGULAR,   STEIF_NO_CONVERGENCE,
+                              STEIF_CALLBACK,   STEIF_STEP_LIMIT, STEIF_STEP_SIZE};
+  static steif_failure f;
+  for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
+    if (o->code == codes[i] && !steif_failure_find(ctx, problem, method, options, &f))
+      snprintf(o->why, sizeof o->why, "%s", f.message);
+}
+
 outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
                   const steif_options *options, steif_solver **solver)
 {
@@ -62,6 +74,7 @@ outcome integrate(steif_context *ctx, const steif_problem *problem, const char *
     o.known =
       steif_problem_digits(ctx, problem, o.t, steif_solution(s),
                            tolerance_ratio(problem, options), &o.scd, &o.mescd) == STEIF_OK;
+  if (s && o.code < 0) explain(ctx, problem, method, options, &o);
   if (solver)
     *solver = s;
   else

@@ -8,6 +8,7 @@
 typedef struct outcome {
   int code;
   char message[1200]; /* "ok" or the sentence */
+  char why[2400];     /* where a run stopped, on what components and for what cause; or "" */
   double t;
   bool known; /* there is a reference at t: scd and mescd are set */
   double scd, mescd;

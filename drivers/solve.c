@@ -21,6 +21,7 @@ static void fill(steif_report *r, const char *const *word, const outcome *o, ste
   if (s && strcmp(word[1], steif_method_used(s)))
     steif_report_text(r, "used", steif_method_used(s));
   report_status(r, "", o);
+  if (o->why[0]) steif_report_text(r, "failure", o->why);
   steif_report_real(r, "t", o->t);
   steif_report_list(r, "y", s ? tr->n : 0, s ? N_VGetArrayPointer(steif_solution(s)) : NULL);
   report_digits(r, "", o);
@@ -45,6 +46,7 @@ static int finish(struct call *call, const outcome *o, steif_solver *s, const tr
         tr->short_of_memory ? "no memory for the trajectory; leave out --csv, --npz and "
                               "--plot, or ask for fewer --points"
                             : o->message);
+  if (o->why[0]) say(call, "%s", o->why);
   if (s && output == EXIT_OK) output = trajectory_save(call, tr);
   if (s && output == EXIT_OK) output = trajectory_plot(call, tr, title);
   return code ? code : output;

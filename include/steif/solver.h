@@ -54,7 +54,7 @@ typedef struct steif_options {
   sunrealtype t1;           /* end; 0: the problem's */
   long max_steps;           /* default 1 000 000 */
   sunrealtype newton;       /* Newton stops when the estimated error of the stages is below newton *
-                               tolerance; default 1e-3 (collocation), 1e-2 (DIRK, BDF) of
+                               tolerance; default 1e-4 (collocation), 1e-3 (DIRK, BDF) of
                                rtol |y| + atol with chosen steps, 1e-3 of
                                1e-10 (|y| + atol/rtol) (given steps) */
   int iterations;           /* most Newton iterations in a stage; default 10 (chosen), 30 (given) */

@@ -12,6 +12,7 @@
 #include <steif/discrete.h>
 #include <steif/energy.h>
 #include <steif/experiment.h>
+#include <steif/failure.h>
 #include <steif/hamiltonian.h>
 #include <steif/glm.h>
 #include <steif/impulse.h>

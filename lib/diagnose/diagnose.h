@@ -12,7 +12,7 @@
 #include "problem.h"
 #include <steif/diagnose.h>
 
-enum { STF_DEEPEST = 4, STF_NODES = 16 }; /* differentiations of the array; nodes of a fit */
+enum { STF_DEEPEST = 4, STF_FIT_NODES = 16 }; /* differentiations of the array; nodes of a fit */
 
 /* A problem to look at. Reals are host arrays of n values throughout. */
 typedef struct stf_lens {
@@ -114,8 +114,8 @@ int stf_growth_find(stf_lens *lens, const stf_view *view, stf_factor *f, const i
 /* Functionals of a fit through m nodes: weight[q * m + i] gives coefficient q <= order. */
 typedef struct stf_fit {
   int m, order;
-  sunrealtype node[STF_NODES]; /* in (-1, 1) */
-  sunrealtype weight[(STF_DEEPEST + 3) * STF_NODES], tail[2 * STF_NODES];
+  sunrealtype node[STF_FIT_NODES]; /* in (-1, 1) */
+  sunrealtype weight[(STF_DEEPEST + 3) * STF_FIT_NODES], tail[2 * STF_FIT_NODES];
 } stf_fit;
 void stf_fit_open(stf_fit *fit, int m, int order);
 

@@ -12,7 +12,7 @@ static const sunrealtype variation = 0.3;
 void stf_fit_open(stf_fit *fit, int m, int order)
 {
   const sunrealtype pi = 3.14159265358979323846;
-  sunrealtype power[STF_NODES][STF_NODES] = {{1}, {0, 1}};
+  sunrealtype power[STF_FIT_NODES][STF_FIT_NODES] = {{1}, {0, 1}};
   *fit = (stf_fit){.m = m, .order = order};
   for (int k = 2; k < m; k++)
     for (int q = 0; q <= k; q++)

@@ -3,6 +3,7 @@
  *   given steps                                   radau:s=3
  *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-4 or index above 1, else s=7
  *   dense systems up to n = 300                   radau:s=5: oscillations defeat BDF there
+ *   index 3 up to n = 300                         radau:s=5: multipliers have order s - 2
  *   band and sparse systems
  *     index above 1                               radau:s=3
  *     whose LU costs a few solves                 rodas5p down to rtol 1e-6, with a given Jacobian
@@ -65,6 +66,8 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
     method = "radau:s=7", reason = "small and dense, many digits wanted";
   else if (!high && storage_of(p, o) == STEIF_DENSE && p->n <= MEDIUM)
     method = "radau:s=5", reason = "dense, of medium size: few steps, oscillations do no harm";
+  else if (high && p->n <= MEDIUM && p->dae_index >= 3)
+    method = "radau:s=5", reason = "index 3: order 3 of multipliers, constraints kept";
   else if (high)
     method = "radau:s=3", reason = "index above 1: collocation keeps the constraints";
   else if (storage_of(p, o) == STEIF_SPARSE || storage_of(p, o) == STEIF_BAND)

@@ -150,7 +150,8 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
                 "loosen the tolerance or look for a singularity there",
                 s->problem->name, h, step->t);
     STEIF_TRY(renew_weights(s, h));
-    step->refused = tries > 0;
+    step->tries = tries, step->refused = tries > 0;
+    s->h_tried = h;
     const int code = quietly(s, h);
     if (code) {
       STEIF_TRY(refused(s, code, &h, tries));

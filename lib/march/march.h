@@ -30,7 +30,7 @@ struct steif_solver {
   long total, rejected; /* equal steps in all; refused attempts */
   long mesh_at;         /* given steps: intervals of the mesh or grid left behind */
   int next_break;
-  sunrealtype h_next, h_old, error_old; /* chosen steps */
+  sunrealtype h_next, h_old, h_tried, error_old; /* chosen steps */
   bool after_reject, failed;
   int pressed; /* steps in a row that a constraint has moved */
   int failure;

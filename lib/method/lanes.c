@@ -201,8 +201,8 @@ INLINE void filter(stf_lanes *L, const int n, const int lanes, double *x)
   solve(L, n, lanes, L->rhs, L->work);
   const double im = L->lambda[lanes];
   for (int i = 0; i < n; i++)
-    x[i] =
-      im == 0 ? L->work[i * 2 * lanes] : -L->lambda[0] / im * L->work[i * 2 * lanes + lanes];
+    x[i] = im == 0 || L->whole ? L->work[i * 2 * lanes]
+                               : -L->lambda[0] / im * L->work[i * 2 * lanes + lanes];
 }
 
 /* -- instruction sets ----------------------------------------------------------------------------- */

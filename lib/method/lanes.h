@@ -39,6 +39,7 @@ typedef struct stf_lanes {
   double *Z;                            /* n x wide */
   double *F, *Y;                        /* s x n, by stages: callbacks write and read them */
   const double *M;                      /* n x n by rows; NULL: identity */
+  bool whole;                           /* filter keeps stiff components: by the real part */
 } stf_lanes;
 
 /* Lanes of an eigen split (no coupling) for n components; claimed from the pool. */
@@ -56,7 +57,8 @@ void stf_lanes_begin(stf_lanes *L, const double *y);
 double stf_lanes_sweep(stf_lanes *L, const double *y, const double *weight, double h);
 /* Z from omega. */
 void stf_lanes_end(stf_lanes *L);
-/* x = (lambda_0 / h M - J)^{-1} x, by the real lane 0, or the quadratic filter of a pair. */
+/* x = (lambda_0 / h M - J)^{-1} x, by the real lane 0; of a pair the quadratic filter or, if `whole`,
+ * the real part. */
 void stf_lanes_filter(stf_lanes *L, double *x);
 
 #endif

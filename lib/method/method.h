@@ -55,7 +55,8 @@ struct stf_step {
   long count;           /* accepted steps */
   N_Vector y, yp;       /* accepted; yp: slope (start, or last implicit slope) */
   bool yp_known, adaptive, absolute; /* absolute: stages solved for Y, not for Y - y_n */
-  bool refused;                      /* this attempt repeats one that was refused */
+  bool refused;                      /* this attempt repeats one that was refused ... */
+  int tries;                         /* ... this many times */
   bool restart;      /* the next step follows a discontinuity: no history before t */
   bool ended;        /* stf_hermite has the slope at the end of the last step */
   sunrealtype h_try; /* of the trial */
@@ -64,6 +65,7 @@ struct stf_step {
   sunrealtype safety, grow_most, keep_up_to; /* of the next step's length, for this attempt */
   sunrealtype factor; /* of the next step's length, chosen by the family; 0: by the frame */
   sunrealtype shrink; /* factor for h after a refusal; 0: the frame's */
+  int undamped;       /* attempts of this step refused for undamped components */
   int error_order;    /* error = O(h^(error_order + 1)) */
   sunrealtype bias;            /* of the error when a step is made smaller, 1: the safety factor */
   sunrealtype error_tolerance; /* accept when norm(error) <= this */
@@ -85,11 +87,52 @@ int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_meth
  * Jacobian in every iteration, before giving up. */
 int stf_solve_stages(stf_step *s, const stf_stages *stages);
 
+/* How far the estimate of collocation, of order s, may exceed the tolerance because the method has
+ * order p. On y' = lambda y, omega = h |lambda|, the error is the estimate times
+ * s! / (gamma_0 (p + 1)!) omega^(p-s); omega is taken from the divided differences of order s
+ * through (0, 0) and all stages and of order s - 1 through the stages, whose ratio is omega / s.
+ * Small oscillations that a step does not resolve let the differences stay as large as they were
+ * below: then the error is as large as the estimate, unless they are
+ * below the tolerance themselves. Never more than a bound
+ * that makes the sum of the errors of all steps proportional to rtol where y is smooth, est^(p/(s+1))
+ * ~ rtol, and is 0.6 of the 0.1 rtol^((s+1)/(2s)) of Hairer and Wanner (II, IV.8) at rtol = 1e-3. */
+typedef struct stf_trust {
+  int s, beyond;                                        /* beyond: p - s */
+  sunrealtype gain, loosest;                            /* s! / (gamma_0 (p + 1)!) */
+  sunrealtype legendre; /* size of x^s + ... orthogonal to lower powers on [0, 1] */
+  sunrealtype top[STEIF_STAGES], below[STEIF_STAGES];   /* weights of Z_j */
+} stf_trust;
+void stf_trust_open(stf_trust *trust, const steif_table *T, const stf_split *split,
+                    sunrealtype rtol);
+/* s->error_tolerance and s->error_order of this attempt, from the norms of the two differences. */
+void stf_trust_set(stf_step *s, const stf_trust *trust, sunrealtype top, sunrealtype below);
+
+/* Velocities and multipliers of index 3 have no more than the order of the estimate: it is made
+ * larger for them, as if the tolerance had not been raised, but above rounding; not in the first steps,
+ * whose start they forget, nor where many shorter steps do not help. */
+void stf_trust_levels(stf_step *s);
+/* Is a large estimate to be filtered once more? That removes what a stiff component not on its slow
+ * manifold contributes at every step size: at the start and after a refusal, but not, without
+ * need, the errors of velocities at index 3. */
+bool stf_filters_twice(const stf_step *s);
+
+/* Error test of methods that do not damp, at the end of a step: what the second filter took from the
+ * first estimate is the deviation of stiff and algebraic components, which later steps will return
+ * with the same size; it must be small against the tolerance itself. Where shorter steps do not make it
+ * so, or Newton diverged in this step, it is taken from s->next. `first` holds the first estimate and is
+ * overwritten, s->error the second one. */
+int stf_test_undamped(stf_step *s, N_Vector first, bool diverged);
+
 /* May the family `small` (vector lanes) replace irk for this opened system? */
 bool stf_small_serves(const stf_step *s);
 extern const steif_method steif_method_small;
 /* The family for bdf with chosen steps. */
 extern const steif_method steif_method_vbdf;
+
+/* The largest eigenvalues of J by six steps of power iteration with J^2 from v, which is overwritten
+ * with w and work: omega if they are near +-i omega, for J^2 v = -omega^2 v whatever the norm, else 0.
+ * Of the ode form and the matrices at hand. */
+int stf_oscillation(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *omega);
 
 /* y <-> next. */
 void stf_swap(stf_step *s);

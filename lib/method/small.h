@@ -18,7 +18,10 @@ typedef struct stf_small {
   double K[STF_SMALL_STAGES][STF_WIDE]; /* a_k = sum_j K[j][k] Z_j */
   double d[STF_SMALL_STAGES], end[STF_SMALL_STAGES];
   double *f0, *before, *M;
+  stf_trust trust;
   double h_factored, theta, eta, kappa, first; /* first: ||first correction|| / ||omega|| */
+  bool accurate;                               /* the end is a stage */
+  bool rough;                                  /* rounding ended Newton's iteration */
   bool history, have_f0, renew, new_J, predicted;
 } stf_small;
 

@@ -3,7 +3,8 @@
 #include "small.h"
 #include <math.h>
 
-/* Coefficients of x^1 .. x^s of the Lagrange basis on 0, c_1 .. c_s at 1 + x, and its slope at 0. */
+/* Coefficients of x^1 .. x^s of the Lagrange basis on 0, c_1 .. c_s at 1 + x, and its slope at 0,
+ * or at 1 when the end is not a stage. */
 void stf_small_basis(stf_small *e, int j)
 {
   const sunrealtype *c = e->table->c;
@@ -18,7 +19,7 @@ void stf_small_basis(stf_small *e, int j)
   }
   for (int k = 0; k < e->s; k++) e->K[j][k] = (double)p[k + 1];
   for (int k = degree; k >= 1; k--) slope = slope * -1 + p[k] * k;
-  e->d[j] = -(double)slope;
+  e->d[j] = e->accurate ? -(double)slope : -e->K[j][0];
   e->end[j] = (double)p[0];
 }
 

@@ -152,6 +152,9 @@ static const sunrealtype end[] = {
 static const steif_reference reference = {
   .t = 5, .value = end, .digits = 7, .source = IVP_TEST_SET "beam"};
 
+/* The force ends at pi with a jump of its second derivative. */
+static const sunrealtype breaks[] = {3.14159265358979323846};
+
 const steif_problem steif_problem_beam = {
   .name = "beam",
   .about = "Elastic beam of 40 segments, stiff and oscillatory with eigenvalues near the "
@@ -162,4 +165,6 @@ const steif_problem steif_problem_beam = {
   .f = f,
   .jac = jac,
   .reference = &reference,
+  .breaks = breaks,
+  .break_count = 1,
 };

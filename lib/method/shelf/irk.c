@@ -5,7 +5,8 @@
  *   u(t_n + x h) = y_n + sum_j w_j(x) Z_j,   w(x)^T = (int_0^x l_i)_i^T B,
  * gives the end value (w(1) = b^T B), the start of the next iteration and dense output.
  * Error estimate (c_1 > 0): the shifted solve of -F(t_n, y_n, u'(t_n)) with the collocation
- * polynomial through (0, y_n) and all stages; order s (Hairer and Wanner II, IV.8).
+ * polynomial through (0, y_n) and all stages; order s (Hairer and Wanner II, IV.8). Where the end is
+ * not a stage, of -F(t_n + h, y_{n+1}, u'(t_n + h)): stiff and algebraic components are off there.
  * compensated=1: stages solved until rounding stops it, coefficients in two parts, and the end value
  * a sum that remembers its rounding (E. Hairer, R. I. McLachlan and A. Razakarivony, BIT 48 (2008)).
  *
@@ -21,8 +22,11 @@ typedef struct state {
   sunrealtype *P, ratio; /* next Z = P Z for step ratio */
   sunrealtype *row_sum;  /* B 1 */
   sunrealtype filter;    /* blended iteration: weight gamma_0 of the estimate */
-  sunrealtype *slope;    /* weights of u'(t_n) in Z, times h: error estimate */
-  N_Vector *Z, *trial;   /* of the last step and of the attempt, relative to y_n */
+  sunrealtype *slope;    /* weights in Z of u' where F is looked at for the error, times h */
+  bool accurate;         /* the end is a stage */
+  stf_trust trust;
+  long fails;          /* of Newton up to the accepted step */
+  N_Vector *Z, *trial; /* of the last step and of the attempt, relative to y_n */
   N_Vector *base, *offset, *X;
   N_Vector before; /* y_n of the last step */
   N_Vector work, imaginary;
@@ -61,7 +65,7 @@ static void fill_w(state *e, const sunrealtype *B)
     }
     e->end[j] = (sunrealtype)total;
   }
-  if (e->table->claims & STEIF_STIFFLY_ACCURATE)
+  if (e->accurate)
     for (int j = 0; j < s; j++) e->end[j] = j == s - 1;
 }
 
@@ -72,13 +76,14 @@ static sunrealtype weight(const state *e, int j, sunrealtype x)
   return sum;
 }
 
-/* Slope at 0 of the polynomial through (0, 0), (c_i, Z_i): needs c_1 > 0. */
+/* Slope of the polynomial through (0, 0), (c_i, Z_i), c_1 > 0: at 0, or at 1 if that is no node. */
 static void fill_slope(state *e)
 {
-  sunrealtype node[STEIF_STAGES + 1] = {0}, a[STEIF_STAGES + 1];
-  for (int i = 0; i < e->s; i++) node[i + 1] = e->table->c[i];
-  stf_differentiate(e->s, node, a);
-  for (int i = 0; i < e->s; i++) e->slope[i] = a[i + 1];
+  for (int j = 0; j < e->s; j++) {
+    const sunrealtype *w = e->w + j * e->s;
+    e->slope[j] = w[0];
+    for (int k = 1; !e->accurate && k < e->s; k++) e->slope[j] += (k + 1) * w[k];
+  }
 }
 
 static int claim(stf_step *s, state *e)
@@ -137,6 +142,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   state *e = s->state;
   stf_split split;
   e->table = table, e->s = table->s;
+  e->accurate = table->claims & STEIF_STIFFLY_ACCURATE;
   STEIF_TRY(stf_split_build(s->pool, s->ctx, table, &split));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
   STEIF_TRY(claim(s, e));
@@ -151,11 +157,10 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
               "'%s' has no error estimate (its first node is 0): give steps with h",
               table->name);
   if (table->c[0] > 0) fill_slope(e);
-  if (s->adaptive && !(s->options->newton > 0)) s->newton.tolerance = 1e-3;
+  if (s->adaptive && !(s->options->newton > 0)) s->newton.tolerance = 1e-4;
   if (s->adaptive && s->table->s > 1 && !s->system.linear && s->system.storage == STEIF_SPARSE)
     STEIF_TRY(blend(s));
-  s->error_order = e->s;
-  s->error_tolerance = 0.1 * pow(s->options->rtol, (e->s + 1.0) / (2 * e->s) - 1);
+  stf_trust_open(&e->trust, table, &split, s->options->rtol);
   return STEIF_OK;
 }
 
@@ -192,45 +197,66 @@ static void predict(stf_step *s, sunrealtype h)
   stf_mix(space, e->s, e->s, e->P, e->Z, e->trial);
 }
 
-/* error = -(lambda/h E - A)^{-1} F(t_n, y, u'(t_n)) with the real lane, or with a pair the
- * quadratic filter -(re/im) Im of the complex solve; with the one shift sigma of the blended
- * iteration -sigma h gamma_0 (sigma E - A)^{-1} F, gamma_0 = 1/lambda or re/|lambda|^2. */
-static int filtered(stf_step *s, sunrealtype h, N_Vector y)
+/* error = -(lambda/h E - A)^{-1} F(t, y, u') with the real lane; with a pair the quadratic filter
+ * -(re/im) Im of the complex solve, or its real part, which keeps stiff components; with the one
+ * shift sigma of the blended iteration -sigma h gamma_0 (sigma E - A)^{-1} F, gamma_0 = 1/lambda or
+ * re/|lambda|^2. */
+static int filtered(stf_step *s, sunrealtype h, sunrealtype t, N_Vector y)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
   const stf_split *split = &s->newton.split;
-  STEIF_TRY(stf_system_residual(&s->system, s->t, y, e->work, s->error));
-  if (s->newton.gamma > 0) {
-    STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, NULL));
+  const bool blended = s->newton.gamma > 0, real = blended || split->im[0] == 0;
+  STEIF_TRY(stf_system_residual(&s->system, t, y, e->work, s->error));
+  if (!real) stf_zero(space, e->imaginary);
+  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, real ? NULL : &e->imaginary));
+  if (blended)
     stf_scale(space, -e->filter * s->newton.shift * h, s->error, s->error);
-    return STEIF_OK;
-  }
-  if (split->im[0] == 0) {
-    STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, NULL));
+  else if (real || !e->accurate)
     stf_scale(space, -1, s->error, s->error);
-    return STEIF_OK;
-  }
-  stf_zero(space, e->imaginary);
-  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, &e->imaginary));
-  stf_scale(space, split->re[0] / split->im[0], e->imaginary, s->error);
+  else
+    stf_scale(space, split->re[0] / split->im[0], e->imaginary, s->error);
   return STEIF_OK;
 }
 
-/* At the start and after a refusal a large estimate is filtered once more, F at y_n + error: that
- * removes what a stiff component not on its slow manifold contributes at every step size. */
+static int estimate_end(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  N_Vector first = e->X[0];
+  STEIF_TRY(filtered(s, h, s->t + h, s->next));
+  stf_copy(space, s->error, first);
+  stf_sum(space, 1, s->next, 1, first, s->newton.Y);
+  STEIF_TRY(filtered(s, h, s->t + h, s->newton.Y));
+  return stf_test_undamped(s, first, s->newton.fails > e->fails);
+}
+
+/* Of the components of index 1: others begin at the error of the last step. */
+static sunrealtype size(stf_step *s, const sunrealtype *weight)
+{
+  state *e = s->state;
+  const int *index = s->problem->index;
+  stf_combine(&s->system.space, e->s, weight, e->trial, e->work);
+  sunrealtype *work = index ? N_VGetArrayPointer(e->work) : NULL;
+  for (sunindextype i = 0; work && i < s->problem->n; i++)
+    if (index[i] > 1) work[i] = 0;
+  return stf_norm(&s->system.space, e->work, s->weights);
+}
+
 static int estimate(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
+  stf_trust_set(s, &e->trust, size(s, e->trust.top), size(s, e->trust.below));
   sunrealtype slope[STEIF_STAGES];
   for (int j = 0; j < e->s; j++) slope[j] = e->slope[j] / h;
   stf_combine(space, e->s, slope, e->trial, e->work);
-  STEIF_TRY(filtered(s, h, s->y));
-  if (s->count > 0 && !s->refused) return STEIF_OK;
+  if (!e->accurate) return estimate_end(s, h);
+  STEIF_TRY(filtered(s, h, s->t, s->y));
+  if (!stf_filters_twice(s)) return STEIF_OK;
   if (stf_norm(space, s->error, s->weights) <= s->error_tolerance) return STEIF_OK;
   stf_sum(space, 1, s->y, 1, s->error, s->newton.Y);
-  return filtered(s, h, s->newton.Y);
+  return filtered(s, h, s->t, s->newton.Y);
 }
 
 static int solve(stf_step *s, sunrealtype h)
@@ -247,7 +273,7 @@ static int solve(stf_step *s, sunrealtype h)
   for (int j = 0; j < e->s; j++) stf_scale(space, -e->row_sum[j] / h, s->y, e->offset[j]);
   g.offset = e->offset;
   STEIF_TRY(stf_solve_stages(s, &g));
-  if (e->table->claims & STEIF_STIFFLY_ACCURATE) stf_copy(space, e->trial[e->s - 1], s->next);
+  if (e->accurate) stf_copy(space, e->trial[e->s - 1], s->next);
   for (int j = 0; j < e->s; j++) stf_axpy(space, -1, s->y, e->trial[j]);
   return STEIF_OK;
 }
@@ -264,12 +290,15 @@ static int attempt(stf_step *s, sunrealtype h)
     stf_axpy(space, 1, e->imaginary, e->work);
     stf_add_compensated(space, e->work, (stf_point){s->y, e->lost},
                         (stf_point){s->next, e->next_lost});
-  } else if (!(e->table->claims & STEIF_STIFFLY_ACCURATE)) {
+  } else if (!e->accurate) {
     stf_combine(space, e->s, e->end, e->trial, s->next);
     stf_axpy(space, 1, s->y, s->next);
   } else if (!s->absolute)
     stf_sum(space, 1, s->y, 1, e->trial[e->s - 1], s->next);
-  return s->adaptive ? estimate(s, h) : STEIF_OK;
+  if (!s->adaptive) return STEIF_OK;
+  STEIF_TRY(estimate(s, h));
+  stf_trust_levels(s);
+  return STEIF_OK;
 }
 
 static void commit(stf_step *s)
@@ -280,7 +309,7 @@ static void commit(stf_step *s)
   e->before = s->y, s->y = s->next, s->next = y;
   N_Vector lost = e->lost;
   e->lost = e->next_lost, e->next_lost = lost;
-  e->history = true;
+  e->history = true, e->fails = s->newton.fails;
   if (s->system.form == STEIF_IMPLICIT)
     stf_copy(&s->system.space, s->newton.Zp[e->s - 1], s->yp);
 }

@@ -39,7 +39,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
       return STEIF_NO_MEMORY;
   s->newton.fresh = false;
   s->error_order = e->r->order - 1;
-  s->error_tolerance = 1;
+  s->error_tolerance = 0.1;
   return STEIF_OK;
 }
 

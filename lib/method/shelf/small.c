@@ -6,7 +6,7 @@
  *   the factors when the rate of convergence was above 1e-3.
  *   Newton: theta_m = ||d^m|| / ||d^(m-1)||, eta = theta/(1 - theta), stop at eta ||d|| <= kappa.
  *   Error: (lambda_0/h M - J)^{-1} [f(t_n, y_n) + M/h sum d_j Z_j], filtered twice at the start and
- *   after a refusal.
+ *   after a refusal; where the end is not a stage, the same of f and the slope at the end.
  * Hairer and Wanner, Solving ODEs II, IV.8.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -70,18 +70,19 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   state *e = s->state;
   stf_split split;
   e->table = table, e->s = table->s, e->n = (int)s->problem->n;
+  e->accurate = table->claims & STEIF_STIFFLY_ACCURATE;
   STEIF_TRY(stf_split_build(s->pool, s->ctx, table, &split));
   STEIF_TRY(fill_M(s, e));
   STEIF_TRY(stf_lanes_open(s->pool, &split, e->n, e->M, &e->L));
   STEIF_TRY(claim(s, e));
+  e->L.whole = !e->accurate;
   for (int j = 0; j < e->s; j++) stf_small_basis(e, j);
   e->itmax =
     s->options->iterations ? s->options->iterations : 7 + (e->s > 3 ? 5 * (e->s - 3) / 2 : 0);
-  e->kappa = s->options->newton > 0 ? s->options->newton : 1e-3;
-  if (s->problem->dae_index >= 3 && !(s->options->newton > 0)) e->kappa = 1e-4;
+  e->kappa = s->options->newton > 0 ? s->options->newton : 1e-4;
+  if (s->problem->dae_index >= 3 && !(s->options->newton > 0)) e->kappa = 1e-5;
   e->eta = 1, e->new_J = true;
-  s->error_order = e->s;
-  s->error_tolerance = 0.1 * pow(s->options->rtol, (e->s + 1.0) / (2 * e->s) - 1);
+  stf_trust_open(&e->trust, table, &split, s->options->rtol);
   return STEIF_OK;
 }
 
@@ -173,13 +174,24 @@ static int evaluate(stf_step *s, double h)
   return STEIF_OK;
 }
 
+/* Corrections that no longer shrink, or grow once they are small, are rounding: so is then what the
+ * differences of highest order show. Multipliers of higher index are not to be left at that. */
+static bool stalled(stf_step *s, double norm, double last, double tolerance)
+{
+  state *e = s->state;
+  const bool high = s->problem->dae_index > 1;
+  e->rough = (norm >= 0.5 * last && norm <= fmax(tolerance, high ? 0.01 : 0.1)) ||
+             (norm >= last && norm <= 1 && !high);
+  return e->rough;
+}
+
 static int iterate(stf_step *s, double h)
 {
   state *e = s->state;
   const double tolerance = floor_of(s, e), mean = 1 / (double)(e->s * e->n);
   const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
   double last = 0, quotient = 0, theta = 0;
-  e->eta = pow(fmax(e->eta, STF_EPS), 0.8);
+  e->eta = pow(fmax(e->eta, STF_EPS), 0.8), e->rough = false;
   stf_lanes_begin(&e->L, y);
   for (int m = 1;; m++) {
     STEIF_TRY(evaluate(s, h));
@@ -191,6 +203,7 @@ static int iterate(stf_step *s, double h)
       const double now = norm / last;
       theta = m == 2 ? now : sqrt(now * quotient);
       quotient = now;
+      if (stalled(s, norm, last, tolerance)) break;
       if (!(theta < 0.99)) return refuse(s, h, norm, theta, 0.5);
       e->eta = theta / (1 - theta);
       const int left = e->itmax - 1 - m;
@@ -209,10 +222,10 @@ static int iterate(stf_step *s, double h)
 
 /* -- error, end ---------------------------------------------------------------------------------------- */
 
-static int slope(stf_step *s, N_Vector y, double *out)
+static int slope(stf_step *s, double t, N_Vector y, double *out)
 {
   state *e = s->state;
-  STEIF_TRY(stf_system_rhs(&s->system, s->t, y, s->error));
+  STEIF_TRY(stf_system_rhs(&s->system, t, y, s->error));
   memcpy(out, STF_ARRAY(s->error), (size_t)e->n * sizeof *out);
   return STEIF_OK;
 }
@@ -232,21 +245,58 @@ static void defect(const state *e, const double *f, double h, double *x)
   }
 }
 
-static int estimate(stf_step *s, double h)
+/* The estimate with f at y + the first one: free of what stiff components off their slow manifold
+ * add to that at every step size, and at index 3 of the errors of velocities. */
+static int filter_again(stf_step *s, double t, N_Vector y, double h)
 {
   state *e = s->state;
   double *x = STF_ARRAY(s->error), f[STF_SMALL_LARGEST];
-  if (!e->have_f0) STEIF_TRY(slope(s, s->y, e->f0));
-  e->have_f0 = true;
-  defect(e, e->f0, h, x);
-  stf_lanes_filter(&e->L, x);
-  if (s->count > 0 && !s->refused) return STEIF_OK;
-  if (stf_norm(&s->system.space, s->error, s->weights) <= s->error_tolerance) return STEIF_OK;
-  for (int i = 0; i < e->n; i++) STF_ARRAY(e->moved)[i] = STF_ARRAY(s->y)[i] + x[i];
-  STEIF_TRY(slope(s, e->moved, f));
+  stf_sum(&s->system.space, 1, y, 1, s->error, e->moved);
+  STEIF_TRY(slope(s, t, e->moved, f));
   defect(e, f, h, x);
   stf_lanes_filter(&e->L, x);
   return STEIF_OK;
+}
+
+static int estimate(stf_step *s, double h)
+{
+  state *e = s->state;
+  if (!e->have_f0) STEIF_TRY(slope(s, s->t, s->y, e->f0));
+  e->have_f0 = true;
+  defect(e, e->f0, h, STF_ARRAY(s->error));
+  stf_lanes_filter(&e->L, STF_ARRAY(s->error));
+  if (!stf_filters_twice(s)) return STEIF_OK;
+  if (stf_norm(&s->system.space, s->error, s->weights) <= s->error_tolerance) return STEIF_OK;
+  return filter_again(s, s->t, s->y, h);
+}
+
+static int estimate_end(stf_step *s, double h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  double f[STF_SMALL_LARGEST];
+  STEIF_TRY(slope(s, s->t + h, s->next, f));
+  defect(e, f, h, STF_ARRAY(s->error));
+  stf_lanes_filter(&e->L, STF_ARRAY(s->error));
+  STEIF_TRY(filter_again(s, s->t + h, s->next, h));
+  stf_sum(space, 1, e->moved, -1, s->next, e->moved);
+  return stf_test_undamped(s, e->moved, e->fails > 0);
+}
+
+static void trust(stf_step *s, const state *e)
+{
+  const double *w = STF_ARRAY(s->weights);
+  double top = 0, below = 0;
+  const int *index = s->problem->index;
+  for (int i = 0; i < e->n; i++) {
+    const double *z = e->L.Z + i * e->L.wide;
+    double high = 0, low = 0;
+    if (index && index[i] > 1) continue;
+    for (int j = 0; j < e->s; j++)
+      high += e->trust.top[j] * z[j], low += e->trust.below[j] * z[j];
+    top += w[i] * w[i] * high * high, below += w[i] * w[i] * low * low;
+  }
+  stf_trust_set(s, &e->trust, e->rough ? 0 : sqrt(top), sqrt(below));
 }
 
 static int attempt(stf_step *s, sunrealtype h)
@@ -256,20 +306,22 @@ static int attempt(stf_step *s, sunrealtype h)
   STEIF_TRY(prepare(s, h));
   STEIF_TRY(iterate(s, h));
   stf_lanes_end(&e->L);
+  trust(s, e);
   double *next = STF_ARRAY(s->next);
   const double *y = STF_ARRAY(s->y);
-  const bool accurate = e->table->claims & STEIF_STIFFLY_ACCURATE;
   for (int i = 0; i < e->n; i++) {
     const double *z = e->L.Z + i * e->L.wide;
-    double sum = accurate ? z[e->s - 1] : 0;
-    for (int j = 0; !accurate && j < e->s; j++) sum += e->end[j] * z[j];
+    double sum = e->accurate ? z[e->s - 1] : 0;
+    for (int j = 0; !e->accurate && j < e->s; j++) sum += e->end[j] * z[j];
     next[i] = y[i] + sum;
   }
   const int reach = 2 * e->itmax;
   s->safety = fmin(0.9, 0.9 * (reach + 1) / (e->iterations + reach));
   s->grow_most = e->theta > 0.05 ? fmax(1, 0.5 / e->theta) : 5;
   s->keep_up_to = e->theta <= 1e-3 ? 1.2 : 1;
-  return estimate(s, h);
+  STEIF_TRY(e->accurate ? estimate(s, h) : estimate_end(s, h));
+  stf_trust_levels(s);
+  return STEIF_OK;
 }
 
 static void commit(stf_step *s)

@@ -6,7 +6,8 @@
  * pred_k the extrapolation through k + 1 past points. Factors are kept while alpha_0/h stays
  * within a ratio of 1.67; steps grow only by factors above 1.5, and every k + 1 steps the
  * neighbouring orders are compared (biases 6, 6, 10 as in VODE: Brown, Byrne, Hindmarsh, SISC
- * 10, 1989). Newton stops at a hundredth of the tolerance: what it leaves in the past values is
+ * 10, 1989). The error of a step is kept below a tenth of the tolerance, and Newton stops at a
+ * hundredth of that: what it leaves in the past values is
  * amplified by up to 2^(k+1) - 1 in the estimate, and more of it would hold the step down where
  * the solution is smooth.
  *
@@ -21,7 +22,9 @@ typedef struct state {
   int p, k, last;   /* highest order; order of the trial; of the last step */
   int points, wait; /* valid past points; steps until the order is looked at */
   int refusals;
-  long seen, since; /* Jacobians made, and the step of the last one */
+  sunrealtype omega; /* frequency of the fastest part if that oscillates; 0: it does not */
+  long seen, since;  /* Jacobians made, and the step of the last one */
+  long heard;        /* Jacobians made when omega was found */
   N_Vector y[POINTS + 1];
   sunrealtype t[POINTS + 1];
   sunrealtype alpha[HIGHEST + 1];
@@ -71,6 +74,18 @@ static int solve(stf_step *s, sunrealtype h)
   return STEIF_OK;
 }
 
+/* Orders above 2 amplify oscillations whose frequency times h is of size 1; where the fastest are
+ * beyond, slower ones are there. */
+static int listen(stf_step *s)
+{
+  state *e = s->state;
+  e->heard = s->system.nje;
+  stf_sum(&s->system.space, 1, s->next, -1, e->y[0], e->Z);
+  return stf_oscillation(s, e->Z, e->other, e->offset, &e->omega);
+}
+
+static bool rings(const state *e, sunrealtype h) { return e->omega * h > 3; }
+
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
@@ -82,13 +97,14 @@ static int attempt(stf_step *s, sunrealtype h)
   if (s->count - e->since >= AGE) s->newton.wanted = true;
   predict(s, h);
   STEIF_TRY(solve(s, h));
+  if (s->system.nje != e->heard) STEIF_TRY(listen(s));
   const sunrealtype span = e->points > e->k ? s->t + h - e->t[e->k] : 2 * h;
   stf_sum(&s->system.space, h / span, s->next, -h / span, e->base, s->error);
   s->error_order = e->k;
   return STEIF_OK;
 }
 
-/* Norm of the error of order k, in units of the tolerance, for the step just solved. */
+/* Norm of the error of order k, in units of what is allowed, for the step just solved. */
 static sunrealtype error_at(stf_step *s, int k)
 {
   state *e = s->state;
@@ -98,7 +114,7 @@ static sunrealtype error_at(stf_step *s, int k)
   extrapolate(e, k + 1, t, weight);
   stf_combine(space, k + 1, weight, e->y, e->other);
   stf_sum(space, scale, s->next, -scale, e->other, e->other);
-  return stf_norm(space, e->other, s->weights);
+  return stf_norm(space, e->other, s->weights) / s->error_tolerance;
 }
 
 static sunrealtype growth(sunrealtype bias, sunrealtype error, int k)
@@ -112,15 +128,21 @@ static void choose(stf_step *s)
   state *e = s->state;
   const int k = e->k;
   const sunrealtype cap = s->options->h_max > 0 ? s->options->h_max / s->h_try : INFINITY;
-  sunrealtype best = growth(6, stf_norm(&s->system.space, s->error, s->weights), k);
+  const sunrealtype now = stf_norm(&s->system.space, s->error, s->weights);
+  sunrealtype best = growth(6, now / s->error_tolerance, k);
   int order = k;
   if (--e->wait <= 0) {
     const sunrealtype lower = k > 1 ? growth(6, error_at(s, k - 1), k - 1) : 0;
-    const bool room = k < e->p && e->points >= k + 2;
+    const bool room = k < (rings(e, s->h_try) ? 2 : e->p) && e->points >= k + 2;
     const sunrealtype higher = room ? growth(10, error_at(s, k + 1), k + 1) : 0;
     if (fmin(lower, cap) > best) best = lower, order = k - 1;
     if (fmin(higher, cap) >= fmin(best, cap)) best = higher, order = k + 1;
     e->wait = 2;
+  }
+  if (k > 2 && rings(e, s->h_try)) {
+    e->k = 2, e->wait = 3;
+    s->factor = fmax(fmin(growth(6, error_at(s, 2), 2), 1), 0.1);
+    return;
   }
   s->factor = best < 1.5 ? 1 : fmin(best, s->count < 2 ? 1e4 : 10);
   if (s->factor == 1 && !(order > k && best >= cap)) return;
@@ -165,7 +187,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(stf_split_single(s->pool, 1, &split));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
   s->newton.window = 1.67, s->newton.join = true, s->newton.stale = 0.7;
-  if (!(s->options->newton > 0)) s->newton.tolerance = 0.01;
+  if (!(s->options->newton > 0)) s->newton.tolerance = 0.001;
   e->base = stf_claim_vector(s->pool, s->y);
   e->offset = stf_claim_vector(s->pool, s->y);
   e->Z = stf_claim_vector(s->pool, s->y);
@@ -175,7 +197,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->points = 1, e->k = 1, e->wait = 2;
   for (int j = 1; j <= POINTS; j++)
     if (!(e->y[j] = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
-  s->error_tolerance = 1, s->bias = 6;
+  s->error_tolerance = 0.1, s->bias = 6;
   return STEIF_OK;
 }
 

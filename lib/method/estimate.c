@@ -1,0 +1,87 @@
+/* estimate.c: what collocation makes of its error estimate.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "method.h"
+#include <math.h>
+
+/* Weights of the divided difference through k + 1 nodes. */
+static void difference(int k, const sunrealtype *node, sunrealtype *weight)
+{
+  for (int j = 0; j <= k; j++) {
+    weight[j] = 1;
+    for (int m = 0; m <= k; m++)
+      if (m != j) weight[j] /= node[j] - node[m];
+  }
+}
+
+void stf_trust_open(stf_trust *trust, const steif_table *T, const stf_split *split,
+                    sunrealtype rtol)
+{
+  const int s = T->s;
+  const sunrealtype re = split->re[0], im = split->im[0], anchor = 1e-3;
+  sunrealtype node[STEIF_STAGES + 1] = {0}, weight[STEIF_STAGES + 1];
+  for (int i = 0; i < s; i++) node[i + 1] = T->c[i];
+  difference(s, node, weight);
+  for (int i = 0; i < s; i++) trust->top[i] = weight[i + 1];
+  difference(s - 1, node + 1, trust->below);
+  trust->s = s, trust->beyond = T->order - s;
+  trust->gain = re + im * im / re;
+  for (int k = s + 1; k <= T->order + 1; k++) trust->gain /= k;
+  trust->legendre = 1;
+  for (int k = 1; k <= s; k++) trust->legendre *= (sunrealtype)k / (s + k);
+  trust->loosest =
+    0.06 * pow(anchor, (s + 1.0) / (2 * s)) * pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
+}
+
+void stf_trust_set(stf_step *s, const stf_trust *trust, sunrealtype top, sunrealtype below)
+{
+  const sunrealtype wanted = 0.3;
+  const bool seen = top * trust->legendre > wanted;
+  sunrealtype ratio = seen ? trust->gain : 0; /* of the error to the estimate */
+  for (int k = 0; k < trust->beyond; k++) ratio *= trust->s * top / below;
+  const bool less = ratio * trust->loosest > wanted && trust->loosest > wanted;
+  s->error_tolerance = !less ? trust->loosest : ratio < 1 ? wanted / ratio : wanted;
+  s->error_order = trust->s + (less && ratio < 1 ? trust->beyond : 0);
+}
+
+/* Unknowns of index 3 forget their start in so many steps; what so many refusals have not cured is not
+ * theirs. */
+enum { SETTLED = 3, PATIENT = 3 };
+
+/* Linear systems start from impulses, which they forget more slowly. */
+static bool watched(const stf_step *s)
+{
+  return s->problem->dae_index >= 3 && !s->system.linear;
+}
+
+static bool settled(const stf_step *s) { return s->count >= SETTLED && s->tries < PATIENT; }
+
+bool stf_filters_twice(const stf_step *s)
+{
+  return watched(s) ? !settled(s) : s->count == 0 || s->refused;
+}
+
+void stf_trust_levels(stf_step *s)
+{
+  const int *index = s->problem->index;
+  const sunrealtype rounding = 1e-11, strict = 0.05 + rounding / s->options->rtol;
+  if (!index || !watched(s) || !settled(s) || s->error_tolerance <= strict) return;
+  sunrealtype *error = N_VGetArrayPointer(s->error);
+  for (sunindextype i = 0; i < s->problem->n; i++)
+    if (index[i] > 1) error[i] *= s->error_tolerance / strict;
+}
+
+int stf_test_undamped(stf_step *s, N_Vector first, bool diverged)
+{
+  enum { PATIENCE = 2 };
+  const stf_space *space = &s->system.space;
+  const sunrealtype bound = 0.1;
+  stf_axpy(space, -1, s->error, first);
+  const sunrealtype part = stf_norm(space, first, s->weights);
+  if (!s->refused) s->undamped = 0;
+  if (part > bound) s->undamped++;
+  if (s->undamped > PATIENCE || diverged)
+    stf_axpy(space, 1, first, s->next);
+  else if (s->undamped)
+    stf_scale(space, s->error_tolerance / bound, first, s->error);
+  return STEIF_OK;
+}
