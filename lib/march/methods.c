@@ -50,8 +50,7 @@ static const char *const fixed[] = {
   "radau1a:s=3", "lobatto3c:s=2", "lobatto3c:s=3", "lobatto3c:s=4", "rodas4",    "rodas4p",
   "rodas4p2",    "rodas5p",       "symeuler:first=q", "verlet:first=drift",
   "glm:ab,p=2",  "glm:ab,p=3",    "glm:ab,p=4",    "glm:am,p=2",    "glm:am,p=3", "glm:am,p=4",
-  "glm:bdf,p=3", "glm:dimsim1",   "glm:dimsim2",   "glm:nord22",
-  "glm:irks,p=1", "glm:irks,p=2", "glm:irks,p=3", "glm:irks,p=4",
+  "glm:bdf,p=3", "glm:irks,p=1", "glm:irks,p=2", "glm:irks,p=3", "glm:irks,p=4",
   "glm:nordsieck,of=bdf,p=2", "glm:nordsieck,of=bdf,p=4",
   "glm:nordsieck,of=am,p=3",  "glm:nordsieck,of=am,p=5",
 };
@@ -71,9 +70,12 @@ static bool spec_at(size_t i, char *text, size_t size)
     return snprintf(text, size, "%s", stf_exponential_rb[i].name) > 0;
   i -= stf_exponential_rb_count;
   for (size_t k = 0; k < stf_table_count; k++) {
-    const enum steif_table_kind kind = stf_table_shelf[k].item->kind;
-    if (kind == STEIF_COLLOCATION || kind == STEIF_GLM || i--) continue;
-    return snprintf(text, size, "%s%s", kind == STEIF_DIRK ? "dirk:" : "",
+    const steif_table *item = stf_table_shelf[k].item;
+    if (item->build || item->fill || i--) continue;
+    return snprintf(text, size, "%s%s",
+                    item->kind == STEIF_DIRK  ? "dirk:"
+                    : item->kind == STEIF_GLM ? "glm:"
+                                              : "",
                     stf_table_shelf[k].name) > 0;
   }
   if (i-- == 0) return snprintf(text, size, "auto") > 0;

@@ -71,6 +71,14 @@ static void steps_are_propagators(void)
   steif_context *ctx = steif_context_new(NULL);
   for (int m = 0; m < law_method_count; m++)
     for (int i = 0; i < 4; i++) one(ctx, law_methods[m], points[i]);
+  steif_method_info info;
+  int seen = 0;
+  for (size_t m = 0; steif_method_at(ctx, m, &info) == STEIF_OK; m++) {
+    if (strcmp(info.family, "glm")) continue;
+    for (int i = 0; i < 4; i++) one(ctx, info.name, points[i]);
+    seen++;
+  }
+  CHECK(seen > 12);
   steif_context_free(&ctx);
 }
 

@@ -55,6 +55,22 @@ static const char *const all[] = {
 };
 enum { ALL = sizeof all / sizeof *all };
 
+/* A table added to the shelf is added to the list above. */
+static void every_table_is_listed(void)
+{
+  int seen = 0;
+  for (size_t k = 0; k < stf_table_count; k++) {
+    const steif_table *item = stf_table_shelf[k].item;
+    if (item->kind != STEIF_GLM) continue;
+    int found = 0;
+    for (int i = 0; i < ALL; i++) found += !strncmp(all[i], item->name, strlen(item->name));
+    if (!found) printf("\n  '%s' is not tested", item->name);
+    CHECK(found > 0);
+    seen++;
+  }
+  CHECK(seen >= 8);
+}
+
 /* The order after the last '='; without one, 2. */
 static int claimed(const char *spec)
 {
@@ -314,6 +330,7 @@ static void unstable_and_inconsistent_ones_are_refused(void)
 }
 
 CU_TestInfo tests_of_general[] = {
+  {"every table is listed here", every_table_is_listed},
   {"orders follow from the matrices", orders_follow_from_the_matrices},
   {"local errors relative to the start have the order", local_errors_have_the_order},
   {"left eigenvectors, parasitic roots, errors", eigenvectors_roots_and_errors},

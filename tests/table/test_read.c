@@ -96,8 +96,51 @@ static void files_are_tables(void)
   steif_context_free(&ctx);
 }
 
+struct hunger {
+  int left, blocks;
+};
+
+static void *starve(size_t bytes, void *user)
+{
+  struct hunger *h = user;
+  if (h->left-- <= 0) return NULL;
+  h->blocks++;
+  return malloc(bytes);
+}
+
+static void feed(void *block, void *user)
+{
+  struct hunger *h = user;
+  if (block) h->blocks--;
+  free(block);
+}
+
+/* The text, its matrices, the table: three allocations, each may fail. */
+static void short_memory_is_reported(void)
+{
+  char path[] = "tableXXXXXX", spec[64];
+  const int file = mkstemp(path);
+  CU_ASSERT_FATAL(file >= 0 && write(file, nord22, strlen(nord22)) == (ssize_t)strlen(nord22));
+  close(file);
+  snprintf(spec, sizeof spec, "glm:file=%s", path);
+  for (int k = 0; k <= 3; k++) {
+    struct hunger h = {.left = 1000};
+    steif_context *ctx = steif_context_new(&(steif_setup){starve, feed, &h, 1});
+    CU_ASSERT_FATAL(ctx != NULL);
+    const int own = h.blocks;
+    h.left = k;
+    steif_table *t = steif_table_new(ctx, spec);
+    CHECK((t != NULL) == (k == 3) && (t || steif_status(ctx) == STEIF_NO_MEMORY));
+    steif_table_free(ctx, &t);
+    CHECK(h.blocks == own);
+    steif_context_free(&ctx);
+  }
+  unlink(path);
+}
+
 CU_TestInfo tests_of_read[] = {
   {"the three ways to write a tableau are read", the_three_ways_to_write_are_read},
   {"mistakes are named with their line", mistakes_are_named_with_their_line},
   {"files are tables", files_are_tables},
+  {"a failing allocation is reported", short_memory_is_reported},
   CU_TEST_INFO_NULL};
