@@ -51,4 +51,7 @@ enum { STF_FRONTS_WIDE = 8 };
 void stf_fronts_solve(const stf_fronts *f, const double *factor, const int *pivot, int nrhs,
                       double *b, sunindextype ld, double *work);
 
+/* sparse.c: the fronts whose factors a slot has in use, and these; NULL: KLU's are. */
+const stf_fronts *stf_sparse_fronts(const steif_pencil *p, int slot, const double **block);
+
 #endif

@@ -2,6 +2,7 @@
  * pass over the entries of E and A.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "pattern.h"
+#include <math.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
@@ -71,6 +72,15 @@ static void unite(steif_pencil *p, stf_pattern *u, sunindextype *seen)
   for (sunindextype k = 0; u->straight && k < u->nnz; k++) u->straight = u->placeA[k] == k;
 }
 
+/* Room for values on the union, where those of E and A are not there already. */
+static int values(steif_pencil *p, stf_pattern *u)
+{
+  const size_t nnz = (size_t)u->nnz;
+  if (p->E && !(u->e = stf_allocate(p->ctx, nnz, sizeof *u->e))) return STEIF_NO_MEMORY;
+  if (!u->straight && !(u->a = stf_allocate(p->ctx, nnz, sizeof *u->a))) return STEIF_NO_MEMORY;
+  return STEIF_OK;
+}
+
 int stf_pattern_build(steif_pencil *p, stf_pattern *u)
 {
   const size_t bytes = (size_t)(p->n + 1) * sizeof(sunindextype);
@@ -85,7 +95,7 @@ int stf_pattern_build(steif_pencil *p, stf_pattern *u)
   memcpy(u->ptrA, SM_INDEXPTRS_S(p->A), bytes);
   unite(p, u, seen);
   stf_release(p->ctx, seen);
-  return STEIF_OK;
+  return values(p, u);
 }
 
 static bool same(const stf_pattern *u, SUNMatrix M, const sunindextype *ptr,
@@ -111,36 +121,69 @@ void stf_pattern_free(steif_pencil *p, stf_pattern *u)
   stf_release(p->ctx, u->placeA);
   stf_release(p->ctx, u->ptrE);
   stf_release(p->ctx, u->ptrA);
+  stf_release(p->ctx, u->e);
+  stf_release(p->ctx, u->a);
   memset(u, 0, sizeof *u);
 }
 
-static void minus_A(const steif_pencil *p, const stf_pattern *u, sunindextype step,
-                    double *restrict v)
+static void gather(double *restrict to, sunindextype nnz, const double *restrict from,
+                   const sunindextype *restrict place, sunindextype count)
 {
-  const double *restrict a = SM_DATA_S(p->A);
-  const sunindextype *restrict place = u->placeA, nA = u->ptrA[u->n];
-  if (u->straight && step == 1)
-    for (sunindextype k = 0; k < nA; k++) v[k] = -a[k];
-  else if (u->straight)
-    for (sunindextype k = 0; k < nA; k++) v[2 * k] = -a[k], v[2 * k + 1] = 0;
-  else {
-    memset(v, 0, (size_t)(u->nnz * step) * sizeof *v);
-    for (sunindextype k = 0; k < nA; k++) v[step * place[k]] -= a[k];
-  }
+  memset(to, 0, (size_t)nnz * sizeof *to);
+  for (sunindextype k = 0; k < count; k++) to[place[k]] += from[k];
+}
+
+static double largest(const double *restrict a, sunindextype count)
+{
+  double most = 0;
+  for (sunindextype k = 0; k < count; k++) most = fabs(a[k]) > most ? fabs(a[k]) : most;
+  return most;
+}
+
+void stf_pattern_fill(const steif_pencil *p, stf_pattern *u)
+{
+  if (u->e) gather(u->e, u->nnz, SM_DATA_S(p->E), u->placeE, u->ptrE[u->n]);
+  if (u->a) gather(u->a, u->nnz, SM_DATA_S(p->A), u->placeA, u->ptrA[u->n]);
+  u->most_e = u->e ? largest(u->e, u->nnz) : 1;
+  u->most_a = largest(stf_pattern_A(p, u), u->nnz);
+}
+
+bool stf_pattern_moderate(const stf_pattern *u, steif_shift s)
+{
+  return isfinite(fmax(fabs(s.re), fabs(s.im)) * u->most_e + u->most_a);
+}
+
+const double *stf_pattern_A(const steif_pencil *p, const stf_pattern *u)
+{
+  return u->a ? u->a : SM_DATA_S(p->A);
+}
+
+/* The identity has few places, E as many as A or nearly. */
+static void shift_identity(const stf_pattern *u, steif_shift s, bool complex,
+                           double *restrict v)
+{
+  const sunindextype *restrict place = u->placeE;
+  for (sunindextype k = 0; k < u->n; k++)
+    if (complex)
+      v[2 * place[k]] += s.re, v[2 * place[k] + 1] = s.im;
+    else
+      v[place[k]] += s.re;
 }
 
 void stf_pattern_assemble(const steif_pencil *p, const stf_pattern *u, steif_shift s,
                           double *restrict v)
 {
   const bool complex = stf_is_complex(s);
-  const double *restrict e = p->E ? SM_DATA_S(p->E) : NULL;
-  const sunindextype *restrict place = u->placeE, nE = e ? u->ptrE[u->n] : u->n;
-  minus_A(p, u, complex ? 2 : 1, v);
-  if (!complex)
-    for (sunindextype k = 0; k < nE; k++) v[place[k]] += e ? s.re * e[k] : s.re;
+  const double *restrict e = u->e, *restrict a = stf_pattern_A(p, u);
+  const sunindextype nnz = u->nnz;
+  if (e && complex)
+    for (sunindextype k = 0; k < nnz; k++)
+      v[2 * k] = s.re * e[k] - a[k], v[2 * k + 1] = s.im * e[k];
+  else if (e)
+    for (sunindextype k = 0; k < nnz; k++) v[k] = s.re * e[k] - a[k];
+  else if (complex)
+    for (sunindextype k = 0; k < nnz; k++) v[2 * k] = -a[k], v[2 * k + 1] = 0;
   else
-    for (sunindextype k = 0; k < nE; k++) {
-      v[2 * place[k]] += e ? s.re * e[k] : s.re;
-      v[2 * place[k] + 1] += e ? s.im * e[k] : s.im;
-    }
+    for (sunindextype k = 0; k < nnz; k++) v[k] = -a[k];
+  if (!e) shift_identity(u, s, complex, v);
 }

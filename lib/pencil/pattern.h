@@ -12,14 +12,27 @@ typedef struct stf_pattern {
   sunindextype *placeE, *placeA; /* entry k of E or A is entry place[k] of the union */
   sunindextype *ptrE, *ptrA;     /* column pointers as they were; ptrE also for the identity */
   bool straight;                 /* A is the union, in order */
+  double *e, *a;                 /* values on the union; e NULL: identity, a NULL: straight */
+  double most_e, most_a;         /* their largest sizes */
 } stf_pattern;
 
 /* Build for p->E and p->A, after checking their index arrays; p->E NULL counts as the diagonal. */
 int stf_pattern_build(steif_pencil *p, stf_pattern *u);
 bool stf_pattern_same(const steif_pencil *p, const stf_pattern *u);
 void stf_pattern_free(steif_pencil *p, stf_pattern *u);
-/* s E - A on the union, interleaved when s is complex; duplicate entries add up. */
+/* The values of E and A as they are now; duplicate entries add up. */
+void stf_pattern_fill(const steif_pencil *p, stf_pattern *u);
+/* A on the union. */
+const double *stf_pattern_A(const steif_pencil *p, const stf_pattern *u);
+/* s E - A on the union, interleaved when s is complex, of the values filled in. */
 void stf_pattern_assemble(const steif_pencil *p, const stf_pattern *u, steif_shift s,
                           double *value);
+/* No entry of s E - A can overflow. */
+bool stf_pattern_moderate(const stf_pattern *u, steif_shift s);
+
+/* sparse.c: the pattern of a sparse pencil; of a factored slot s E - A on it, and its factors. */
+const stf_pattern *stf_sparse_pattern(const steif_pencil *p);
+const double *stf_sparse_values(const steif_pencil *p, int slot);
+const klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot);
 
 #endif

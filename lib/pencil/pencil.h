@@ -51,6 +51,8 @@ struct steif_pencil {
   double *work;  /* STF_COLUMNS * n, for solve; NULL where not needed */
   steif_pencil_stats stats;
   bool stale; /* E and A have not been looked at since they changed */
+  /* Sparse: pivots in use serve new values whatever the growth: residuals are looked at instead. */
+  bool trusted;
   int slots;  /* slots in use */
   steif_shift shift[STEIF_PENCIL_SLOTS];
   bool fresh[STEIF_PENCIL_SLOTS];
@@ -84,6 +86,16 @@ bool stf_all_finite(const double *x, size_t count);
 /* The solve of a sparse slot and nothing around it, b in its own layout (complex: interleaved):
  * the floor that benchmarks compare with. */
 void stf_sparse_direct(steif_pencil *p, int slot, double *b);
+
+/* residual.c, sparse pencils, M = s E - A of a factored slot, complex where s is: r, which comes as
+ * b, becomes b - M x. Returns the root mean square of the rows' backward errors
+ * |b - M x|_i / (|M| |x| + |b|)_i, |z| = |Re z| + |Im z| (W. Oettli & W. Prager, Numer. Math. 6,
+ * 1964): their maximum grows with the number of rows. size: scratch, n. */
+double stf_sparse_residual(const steif_pencil *p, int slot, const double *x, double *r,
+                           double *size);
+/* The same of b - radius E x + A y, the terms being of size (radius |E| + |A|) z. */
+double stf_sparse_balance(const steif_pencil *p, double radius, const double *x,
+                          const double *y, const double *z, double *r, double *size);
 
 /* log |det(s E - A)| of a factored slot, sparse pencils only: the logarithms of the diagonal of U
  * and of KLU's row scales, summed with compensation. */

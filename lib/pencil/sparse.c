@@ -35,6 +35,7 @@ typedef struct sparse {
   klu_l_common common;
   klu_l_symbolic *symbolic;
   stf_fronts fronts; /* n = 0: none */
+  bool looked;       /* whether there are any */
   double *work;      /* of their solves */
   factors *slot[STEIF_PENCIL_SLOTS];
 } sparse;
@@ -77,26 +78,7 @@ static void forget(steif_pencil *p)
   stf_fronts_free(p->ctx, &s->fronts);
   stf_release(p->ctx, s->work);
   s->work = NULL;
-}
-
-/* Fronts take over real shifts of large patterns, where an entry of the factors meets enough work to
- * pay for the blocks, unless the block triangular form that KLU finds or its unsymmetric pattern is
- * much sparser. */
-static int open_fronts(steif_pencil *p)
-{
-  sparse *s = p->state;
-  stf_fronts *f = &s->fronts;
-  const klu_l_symbolic *k = s->symbolic;
-  if (p->n < FRONTS || p->n > INT_MAX / 2 || k->structural_rank < k->n) return STEIF_OK;
-  if (k->est_flops >= 0 && k->est_flops < DENSE * (k->lnz + k->unz)) return STEIF_OK;
-  STEIF_TRY(stf_fronts_open(p->ctx, &s->pattern, f));
-  if (k->lnz >= 0 && (double)f->size > 2 * (k->lnz + k->unz)) {
-    stf_fronts_free(p->ctx, f);
-    return STEIF_OK;
-  }
-  s->work =
-    stf_allocate(p->ctx, (size_t)(f->n + f->highest), STF_FRONTS_WIDE * sizeof *s->work);
-  return s->work ? STEIF_OK : STEIF_NO_MEMORY;
+  s->looked = false;
 }
 
 static int analyse(steif_pencil *p)
@@ -116,7 +98,7 @@ static int analyse(steif_pencil *p)
     "KLU refused the pattern of %lld unknowns and %lld entries: check the index arrays", n,
     nnz);
   p->stats.analyses++;
-  return open_fronts(p);
+  return STEIF_OK;
 }
 
 static int check(steif_pencil *p, const char *name, SUNMatrix M)
@@ -141,7 +123,39 @@ static int update(steif_pencil *p)
     STEIF_TRY(code);
   }
   if (p->E) STEIF_TRY(check(p, "E", p->E));
-  return check(p, "A", p->A);
+  STEIF_TRY(check(p, "A", p->A));
+  stf_pattern_fill(p, &s->pattern);
+  return STEIF_OK;
+}
+
+/* Fronts take over real shifts of large patterns, where an entry of the factors meets enough work to
+ * pay for the blocks, unless the block triangular form that KLU finds or its unsymmetric pattern is
+ * much sparser. */
+static int choose_fronts(steif_pencil *p)
+{
+  sparse *s = p->state;
+  stf_fronts *f = &s->fronts;
+  const klu_l_symbolic *k = s->symbolic;
+  if (p->n < FRONTS || p->n > INT_MAX / 2 || k->structural_rank < k->n) return STEIF_OK;
+  if (k->est_flops >= 0 && k->est_flops < DENSE * (k->lnz + k->unz)) return STEIF_OK;
+  STEIF_TRY(stf_fronts_open(p->ctx, &s->pattern, f));
+  if (k->lnz >= 0 && (double)f->size > 2 * (k->lnz + k->unz)) {
+    stf_fronts_free(p->ctx, f);
+    return STEIF_OK;
+  }
+  s->work =
+    stf_allocate(p->ctx, (size_t)(f->n + f->highest), STF_FRONTS_WIDE * sizeof *s->work);
+  return s->work ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+/* With the first real shift: circles of complex ones do without. */
+static int open_fronts(steif_pencil *p)
+{
+  sparse *s = p->state;
+  const int code = choose_fronts(p);
+  s->looked = code == STEIF_OK;
+  if (code) stf_fronts_free(p->ctx, &s->fronts);
+  return code;
 }
 
 static int prepare_fronts(steif_pencil *p, factors *f)
@@ -163,6 +177,7 @@ static int prepare(steif_pencil *p, int slot, steif_shift shift)
     if (!(f = s->slot[slot] = stf_allocate(p->ctx, 1, sizeof *f))) return STEIF_NO_MEMORY;
     defaults(&f->common);
   }
+  if (!wide && !s->looked) STEIF_TRY(open_fronts(p));
   if (s->fronts.n && !wide && !f->block && !f->refused) STEIF_TRY(prepare_fronts(p, f));
   if (f->value && (f->wide || !wide)) return STEIF_OK;
   stf_release(p->ctx, f->value);
@@ -180,13 +195,13 @@ static double growth(sparse *s, factors *f)
 }
 
 /* New values with the old pivots; false when these have become bad. */
-static bool refactor(sparse *s, factors *f)
+static bool refactor(const steif_pencil *p, sparse *s, factors *f)
 {
   stf_pattern *u = &s->pattern;
   const SuiteSparse_long good = (f->complex ? klu_zl_refactor : klu_l_refactor)(
     u->ptr, u->row, f->value, s->symbolic, f->numeric, &f->common);
   if (!good || f->common.status != KLU_OK) return false;
-  return growth(s, f) >= fmin(GROWTH, SLACK * f->growth);
+  return p->trusted || growth(s, f) >= fmin(GROWTH, SLACK * f->growth);
 }
 
 static void judge(const sparse *s, const factors *f, stf_outcome *out)
@@ -202,7 +217,7 @@ static void judge(const sparse *s, const factors *f, stf_outcome *out)
     out->rank = (sunindextype)s->symbolic->structural_rank;
 }
 
-static void full(sparse *s, factors *f, stf_outcome *out)
+static void full(const steif_pencil *p, sparse *s, factors *f, stf_outcome *out)
 {
   stf_pattern *u = &s->pattern;
   f->numeric = (f->complex ? klu_zl_factor : klu_l_factor)(u->ptr, u->row, f->value,
@@ -212,7 +227,7 @@ static void full(sparse *s, factors *f, stf_outcome *out)
     judge(s, f, out);
     drop(f);
   } else
-    f->growth = growth(s, f);
+    f->growth = p->trusted ? 1 : growth(s, f);
 }
 
 static void factor(steif_pencil *p, int slot, steif_shift shift, stf_outcome *out)
@@ -221,7 +236,8 @@ static void factor(steif_pencil *p, int slot, steif_shift shift, stf_outcome *ou
   factors *f = s->slot[slot];
   const bool complex = stf_is_complex(shift);
   stf_pattern_assemble(p, &s->pattern, shift, f->value);
-  if (!stf_all_finite(f->value, (size_t)s->pattern.nnz * (complex ? 2 : 1))) {
+  if (!stf_pattern_moderate(&s->pattern, shift) &&
+      !stf_all_finite(f->value, (size_t)s->pattern.nnz * (complex ? 2 : 1))) {
     out->code = STEIF_NOT_FINITE;
     return;
   }
@@ -236,12 +252,12 @@ static void factor(steif_pencil *p, int slot, steif_shift shift, stf_outcome *ou
   f->dense = false;
   if (f->numeric && f->complex != complex) drop(f);
   f->complex = complex;
-  if (f->numeric && refactor(s, f))
+  if (f->numeric && refactor(p, s, f))
     out->refactors = 1;
   else {
     out->fallbacks = f->numeric != NULL;
     drop(f);
-    full(s, f, out);
+    full(p, s, f, out);
   }
   if (f->numeric)
     out->fill = f->numeric->lnz + f->numeric->unz - s->pattern.n + f->numeric->nzoff;
@@ -266,64 +282,26 @@ static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im
 
 void stf_sparse_direct(steif_pencil *p, int slot, double *b) { columns(p, slot, 1, b, p->n); }
 
-/* sum += log x for many x: their product is carried on, and its logarithm taken when it has grown
- * or shrunk much. The error of the sum is carried along (A. Neumaier, ZAMM 54, 1974). */
-typedef struct logs {
-  double product, sum, error;
-} logs;
-
-static void flush(logs *l, double x)
+const stf_pattern *stf_sparse_pattern(const steif_pencil *p)
 {
-  const double y = log(x), t = l->sum + y;
-  l->error += fabs(l->sum) >= fabs(y) ? (l->sum - t) + y : (y - t) + l->sum;
-  l->sum = t;
+  return &((const sparse *)p->state)->pattern;
 }
 
-static inline void multiply(logs *l, double x)
+const double *stf_sparse_values(const steif_pencil *p, int slot)
 {
-  const double product = l->product * x;
-  if (product > 1e-100 && product < 1e100) {
-    l->product = product;
-    return;
-  }
-  flush(l, l->product);
-  flush(l, x);
-  l->product = 1;
+  return ((const sparse *)p->state)->slot[slot]->value;
 }
 
-/* The diagonals of the fronts hold the reciprocals of the pivots. */
-static void of_fronts(const stf_fronts *f, const double *block, logs *l)
+const klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot)
 {
-  for (int s = 0; s < f->count; s++) {
-    const stf_front *g = &f->front[s];
-    for (int k = 0; k < g->width; k++)
-      multiply(l, fabs(block[g->place + k * (g->width + g->below + (sunindextype)1)]));
-  }
-  flush(l, l->product);
+  return ((const sparse *)p->state)->slot[slot]->numeric;
 }
 
-int stf_pencil_logdet(steif_pencil *p, int slot, sunrealtype *log_abs_det)
+const stf_fronts *stf_sparse_fronts(const steif_pencil *p, int slot, const double **block)
 {
-  STEIF_CHECK(p->backend == &stf_backend_sparse, p->ctx, STEIF_UNSUPPORTED,
-              "the determinant of a %s pencil is not kept: use sparse matrices",
-              p->backend->name);
-  STEIF_CHECK(slot >= 0 && slot < p->slots && p->fresh[slot], p->ctx, STEIF_BAD_INPUT,
-              "slot %d of %d has no factors: call steif_pencil_factor first", slot, p->slots);
-  const factors *f = ((sparse *)p->state)->slot[slot];
-  logs l = {.product = 1};
-  if (f->dense) {
-    of_fronts(&((sparse *)p->state)->fronts, f->block, &l);
-    *log_abs_det = -(l.sum + l.error);
-    return STEIF_OK;
-  }
-  const double *u = f->numeric->Udiag, *row = f->numeric->Rs;
-  for (sunindextype k = 0; k < p->n; k++) {
-    multiply(&l, f->complex ? hypot(u[2 * k], u[2 * k + 1]) : fabs(u[k]));
-    if (row) multiply(&l, row[k]);
-  }
-  flush(&l, l.product);
-  *log_abs_det = l.sum + l.error;
-  return STEIF_OK;
+  const sparse *s = p->state;
+  *block = s->slot[slot]->block;
+  return s->slot[slot]->dense ? &s->fronts : NULL;
 }
 
 static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)

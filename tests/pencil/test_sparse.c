@@ -249,6 +249,98 @@ static void determinant(void)
   end();
 }
 
+/* Diagonal entries whose squares leave the range of numbers, among others. */
+static void determinant_of_extremes(void)
+{
+  static const double d[7] = {3.7e-200, -0.61, 2.9e190, 5.3e-17, 1.9, -8.3e120, 7.1e-290};
+  ctx = steif_context_new(NULL);
+  A = SUNSparseMatrix(7, 7, 7, CSC_MAT, steif_sundials(ctx));
+  E = SUNMatClone(A);
+  double expected[2] = {0, 0}, value;
+  for (int j = 0; j < 7; j++) {
+    SM_INDEXPTRS_S(A)
+    [j] = SM_INDEXPTRS_S(E)[j] = SM_INDEXVALS_S(A)[j] = SM_INDEXVALS_S(E)[j] = j;
+    SM_DATA_S(A)[j] = 0, SM_DATA_S(E)[j] = d[j];
+    expected[0] += log(fabs(d[j])) + log(2.3), expected[1] += log(fabs(d[j])) + log(2.5);
+  }
+  SM_INDEXPTRS_S(A)[7] = SM_INDEXPTRS_S(E)[7] = 7;
+  p = steif_pencil_new(ctx, E, A);
+  const steif_shift s[2] = {{-2.3, 0}, {1.5, 2}};
+  CHECK(steif_pencil_factor(p, 2, s) == STEIF_OK);
+  for (int i = 0; i < 2; i++) {
+    CHECK(stf_pencil_logdet(p, i, &value) == STEIF_OK);
+    CLOSE(value, expected[i], 1e-14);
+  }
+  end();
+}
+
+/* Of r = b - M x row by row: rounding for a solution; for x = 0 all of b, in rows without b
+ * nothing. */
+static void backward_errors(void)
+{
+  begin(false);
+  const steif_shift s[2] = {{1.3, 0}, {0.9, 2.1}};
+  double x[2 * N], r[2 * N], b[2 * N], size[N];
+  CHECK(steif_pencil_factor(p, 2, s) == STEIF_OK);
+  for (int k = 0; k < 2; k++) {
+    const int length = k ? 2 * N : N;
+    for (int i = 0; i < length; i++) b[i] = i < length / 4 ? cos(1.7 * i) : 0;
+    memcpy(x, b, sizeof x), memcpy(r, b, sizeof r);
+    stf_sparse_direct(p, k, x);
+    const double good = stf_sparse_residual(p, k, x, r, size);
+    CHECK(good < 1e-13);
+    memcpy(r, b, sizeof r);
+    x[length / 2] += 1e-6;
+    CHECK(stf_sparse_residual(p, k, x, r, size) > 1e-9);
+    memset(x, 0, sizeof x), memcpy(r, b, sizeof r);
+    CLOSE(stf_sparse_residual(p, k, x, r, size), 0.5, 1e-15);
+    for (int i = 0; i < length; i++) CHECK(r[i] == b[i]);
+    x[0] = NAN;
+    CHECK(!(stf_sparse_residual(p, k, x, r, size) <= 1));
+  }
+  end();
+}
+
+/* (s E - A) x = b in two real products: b = s E x - A x. */
+static void balance(void)
+{
+  begin(false);
+  const steif_shift s = {1.7, 0};
+  double x[N], z[N], r[N], b[N], size[N];
+  for (int i = 0; i < N; i++) b[i] = r[i] = x[i] = 1 + sin(2.3 * i);
+  CHECK(steif_pencil_factor(p, 1, &s) == STEIF_OK);
+  stf_sparse_direct(p, 0, x);
+  for (int i = 0; i < N; i++) z[i] = fabs(x[i]);
+  CHECK(stf_sparse_balance(p, s.re, x, x, z, r, size) < 1e-13);
+  for (int i = 0; i < N; i++) r[i] = b[i] + 1e-5;
+  CHECK(stf_sparse_balance(p, s.re, x, x, z, r, size) > 1e-8);
+  end();
+}
+
+/* Who looks at residuals may keep pivots that have become bad. */
+static void trusted_pivots(void)
+{
+  long factors[2];
+  for (int trusted = 0; trusted < 2; trusted++) {
+    ctx = steif_context_new(NULL);
+    A = SUNSparseMatrix(2, 2, 4, CSC_MAT, steif_sundials(ctx));
+    static const double value[2][4] = {{4.1, 0.3, 0.7, 2.9}, {1e-13, 0.3, 0.7, 2.9}};
+    for (int k = 0; k < 4; k++) SM_INDEXVALS_S(A)[k] = k % 2, SM_DATA_S(A)[k] = value[0][k];
+    for (int j = 0; j < 3; j++) SM_INDEXPTRS_S(A)[j] = 2 * j;
+    E = SUNMatClone(A);
+    SUNMatZero(E);
+    p = steif_pencil_new(ctx, E, A);
+    p->trusted = trusted;
+    CHECK(steif_pencil_factor(p, 1, &(steif_shift){1, 0}) == STEIF_OK);
+    memcpy(SM_DATA_S(A), value[1], sizeof value[1]);
+    CHECK(steif_pencil_update(p) == STEIF_OK);
+    CHECK(steif_pencil_factor(p, 1, &(steif_shift){1, 0}) == STEIF_OK);
+    factors[trusted] = steif_pencil_statistics(p)->factors;
+    end();
+  }
+  CHECK(factors[0] == 2 && factors[1] == 1);
+}
+
 CU_TestInfo tests_of_sparse[] = {
   {"one analysis serves all shifts, real and complex", one_analysis},
   {"a refactorisation is counted and equals a factorisation", refactor_is_factor},
@@ -260,5 +352,9 @@ CU_TestInfo tests_of_sparse[] = {
   {"bad index arrays are refused by place, and may be mended", bad_indices},
   {"a pattern without full rank is called so", structurally_singular},
   {"the determinant is the product of the eigenvalues", determinant},
+  {"a determinant of factors outside the range of squares", determinant_of_extremes},
+  {"backward errors row by row", backward_errors},
+  {"the backward error of two products in balance", balance},
+  {"trusted pivots are kept", trusted_pivots},
   CU_TEST_INFO_NULL,
 };
