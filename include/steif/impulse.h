@@ -40,7 +40,7 @@ typedef struct steif_analysis {
   enum steif_algorithm algorithm;
   sunrealtype radius;       /* of the circle; 0: raised until the count equals the degree */
   int points;               /* of the quadrature; 0: 16 */
-  int refinements;          /* of each solve; 0: 2; -1: none */
+  int refinements;          /* of each solve, at most, where residuals ask; 0: 2; -1: none */
   int index_most;           /* largest index looked for; 0: 8 */
   unsigned seed;            /* of the random directions; 0: 1 */
 } steif_analysis;
@@ -64,6 +64,7 @@ typedef struct steif_structure {
   sunindextype equations_count, unknowns_count; /* offenders, 0-based, when singular or index > 1 */
   sunindextype *equations, *unknowns;
   steif_pencil_stats cost;  /* of the sparse algorithms: complex shifts of circles */
+  struct stf_circle *circle; /* their factors, kept for steif_impulse_find of the same matrices */
   char message[512];
 } steif_structure;
 

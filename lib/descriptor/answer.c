@@ -2,7 +2,7 @@
  * residuals of an impulse, E c_{k-2} = 0, F c_i + E c_{i-1} = 0, F c_0 + E (x(0+) - x(0-)) = 0.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "structure.h"
+#include "circle.h"
 #include <math.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
@@ -20,6 +20,7 @@ void steif_structure_clear(steif_context *ctx, steif_structure *structure)
   stf_release(ctx, structure->weyr);
   stf_release(ctx, structure->equations);
   stf_release(ctx, structure->unknowns);
+  stf_circle_close(ctx, &structure->circle);
   *structure = (steif_structure){0};
 }
 

@@ -16,41 +16,62 @@ typedef struct stf_scaled {
   SUNMatrix givenE, givenF;         /* as given, borrowed */
   SUNMatrix E, A;                   /* scaled, A = -F: the pencil s E - A = s E + F */
   sunrealtype *row, *column, *most; /* scales of rows and columns; scratch, 2 n */
+  sunrealtype size;                 /* that of the scales; 0: none yet */
   sunrealtype log_scale;            /* log det(scaled) - log det(given) */
-  sunrealtype norm;                 /* largest column sum of size |E| + |F|, scaled */
+  sunrealtype norm[2];              /* largest column sums of |E| and |F|, scaled */
   N_Vector like;
   steif_pencil *pencil;
 } stf_scaled;
 
+/* A backward error by rows that refinement does not lessen: that of the rounding of residuals. */
+#define STF_STEADY (2 * STF_EPS)
+
 int stf_scaled_open(steif_context *ctx, SUNMatrix E, SUNMatrix F, stf_scaled *s);
 void stf_scaled_close(stf_scaled *s);
-/* Equilibrate size |E| + |F| and hand the values to the pencil. */
+/* Equilibrate size |E| + |F|, unless scales of a size near are there, and hand the values to the
+ * pencil. */
 int stf_scaled_set(stf_scaled *s, sunrealtype size);
-/* x <- (s E + F)^{-1} b with slot k, refined; in scaled coordinates. xi, bi NULL for a real shift.
- * r: scratch like x. */
-int stf_scaled_solve(stf_scaled *s, int k, steif_shift at, int refinements, const N_Vector b[2],
-                     N_Vector x[2], N_Vector r[2]);
+/* Whether it holds these matrices, entry for entry; they are the given ones from now on. */
+bool stf_scaled_adopt(stf_scaled *s, SUNMatrix E, SUNMatrix F);
+/* b <- M^{-1} b in scaled coordinates, M = s E + F as factored in slot k; for complex s all vectors
+ * are interleaved, 2 n. */
+void stf_scaled_direct(stf_scaled *s, int k, sunrealtype *b);
+/* One step of refinement of M x = b where it is needed: r comes as b and is overwritten. False:
+ * the backward error of x is STF_STEADY or less. */
+bool stf_scaled_refine(stf_scaled *s, int k, sunrealtype *x, sunrealtype *r);
 
-/* A right-hand side at s in scaled coordinates; how often it is asked for does not matter. */
-typedef void stf_circle_source(const stf_scaled *scaled, steif_shift s, void *user,
-                               sunrealtype *re, sunrealtype *im);
+/* A right-hand side at s = 1/z in scaled coordinates, interleaved; how often it is asked for does
+ * not matter. z = 0: its constant part. */
+typedef void stf_circle_source(const stf_scaled *scaled, steif_shift z, void *user,
+                               sunrealtype *b);
 
 /* The quadrature with `points` nodes R e^{2 pi i (j + 1/2) / points}, of which half are factored:
- * the data are real. `slots` at a time, so that factors of few points are alive. */
+ * the data are real; as many at a time as there are threads, up to four. */
 typedef struct stf_circle {
   stf_scaled scaled;
-  int points, refinements, slots, lowest, count;
-  N_Vector *sum; /* R^i times the coefficient of s^i, i = lowest .. lowest + count - 1 */
-  N_Vector b[2], x[2], r[2];
+  int points, refinements, slots, room, count;
+  bool careful;   /* pivots are watched and solves refined; else the sums alone are looked at */
+  bool counts;    /* log_det is wanted */
+  sunrealtype *x; /* solutions of some points */
+  sunrealtype *sum; /* count x n by rows: R^i times the coefficient of s^i, i = -1, 0, ... */
+  sunrealtype *size, *r; /* sum of |sums|, n; scratch, 2 n */
+  sunrealtype *square;   /* squared norms of the sums */
   sunrealtype radius;
-  sunrealtype log_det;   /* mean of log |det(s E + F)| over the circle */
-  sunrealtype amplified; /* smallest ||(s E + F)^{-1} b|| / ||b|| met */
+  sunrealtype log_det; /* mean of log |det(s E + F)| over the circle */
 } stf_circle;
 
-/* Room for coefficients lowest .. lowest + count - 1. Defaults of the analysis are filled in. */
+/* Largest index that may be looked for. */
+enum { STF_INDEX_MOST = 64 };
+
+/* Room for coefficients -1, 0 .. room - 2, all of them counted, two at least. Defaults of the
+ * analysis are filled in. */
 int stf_circle_open(steif_context *ctx, SUNMatrix E, SUNMatrix F,
-                    const steif_analysis *analysis, int lowest, int count, stf_circle *circle);
-void stf_circle_close(stf_circle *circle);
+                    const steif_analysis *analysis, int room, stf_circle **circle);
+void stf_circle_close(steif_context *ctx, stf_circle **circle);
+/* Whether an open circle serves these matrices, this analysis and so many coefficients, which are
+ * counted from now on. */
+bool stf_circle_adopt(stf_circle *circle, SUNMatrix E, SUNMatrix F,
+                      const steif_analysis *analysis, int room);
 /* Factor around the circle of radius R; source NULL: determinant only. */
 int stf_circle_run(stf_circle *circle, sunrealtype R, stf_circle_source *source, void *user);
 

@@ -29,8 +29,8 @@ enum { CIRCLES = 32, MOMENTS = 65 };
 
 /* What one circle showed. */
 typedef struct sample {
-  sunrealtype radius, log_det, gap, rcond;
-  sunrealtype below, count; /* with the smaller circle of radius `below`; NaN: none */
+  sunrealtype radius, log_det, gap, rcond; /* gap 0: no moments */
+  sunrealtype above, count; /* with the larger circle of radius `above`; NaN: none */
   int index, last;          /* by the largest gap, by the last that is wide enough */
   bool singular;
 } sample;
@@ -39,37 +39,36 @@ typedef struct search {
   steif_context *ctx;
   steif_analysis analysis;
   steif_structure *structure;
-  stf_circle circle;
-  sunrealtype *v;
+  stf_circle *circle;
+  sunrealtype *v, size; /* random, and its norm */
   sunindextype pattern; /* structural index */
   sunrealtype start, end;
   int circles;
   sample of[CIRCLES];
 } search;
 
-static void random_source(const stf_scaled *scaled, steif_shift s, void *user, sunrealtype *re,
-                          sunrealtype *im)
+static void random_source(const stf_scaled *scaled, steif_shift z, void *user, sunrealtype *b)
 {
   const sunrealtype *v = user;
-  (void)s;
-  for (sunindextype i = 0; i < scaled->n; i++) re[i] = v[i], im[i] = 0;
+  (void)z;
+  for (sunindextype i = 0; i < scaled->n; i++) b[2 * i] = v[i], b[2 * i + 1] = 0;
 }
 
-/* m_i = ||R^i Phi_i v||, i = -1 .. most; the index is one more than the last i with m_i > 0. */
+/* m_i = ||R^i Phi_i v||, i = -1 .. most; the index is one more than the last i with m_i > 0. The
+ * root of sum m_i^2 is the mean size of (s E + F)^{-1} v. */
 static void judge(search *w, sample *now)
 {
-  sunrealtype m[MOMENTS + 1], largest = 0, tail = 0;
-  const int count = w->circle.count;
-  for (int k = 0; k < count; k++) {
-    const sunrealtype *x = NV_DATA_S(w->circle.sum[k]);
-    sunrealtype sum = 0;
-    for (sunindextype i = 0; i < w->circle.scaled.n; i++) sum += x[i] * x[i];
-    m[k] = sqrt(sum);
+  const stf_circle *c = w->circle;
+  sunrealtype m[MOMENTS + 1], largest = 0, tail = 0, square = 0;
+  for (int k = 0; k < c->count; k++) {
+    m[k] = sqrt(c->square[k]);
     largest = fmax(largest, m[k]);
+    square += c->square[k];
   }
-  now->gap = 0;
+  const sunrealtype norm = c->radius * c->scaled.norm[0] + c->scaled.norm[1];
+  now->rcond = w->size / (norm * sqrt((sunrealtype)c->scaled.n * square));
   now->index = now->last = -1;
-  for (int k = count - 1; k > 0; k--) {
+  for (int k = c->count - 1; k > 0; k--) {
     tail = fmax(tail, m[k]);
     const sunrealtype gap = m[k - 1] / fmax(tail, STF_EPS * largest);
     if (gap >= GAP && now->last < 0) now->last = k - 1;
@@ -83,23 +82,20 @@ static int draw(search *w, sunrealtype radius, bool moments)
 {
   sample *now = &w->of[w->circles++];
   *now = (sample){.radius = radius, .count = NAN};
-  const int code = stf_circle_run(&w->circle, radius, moments ? random_source : NULL, w->v);
+  const int code = stf_circle_run(w->circle, radius, moments ? random_source : NULL, w->v);
   now->singular = code == STEIF_SINGULAR;
   if (now->singular) steif_forget(w->ctx);
   if (code) return now->singular ? STEIF_OK : code;
-  now->log_det = w->circle.log_det;
-  if (!moments) return STEIF_OK;
-  now->rcond =
-    1 / (w->circle.scaled.norm * sqrt((sunrealtype)w->circle.scaled.n) * w->circle.amplified);
-  judge(w, now);
+  now->log_det = w->circle->log_det;
+  if (moments) judge(w, now);
   return STEIF_OK;
 }
 
-static void count(sample *larger, const sample *smaller)
+static void count(sample *smaller, const sample *larger)
 {
   if (larger->singular || smaller->singular) return;
-  larger->below = smaller->radius;
-  larger->count = (larger->log_det - smaller->log_det) / log(larger->radius / smaller->radius);
+  smaller->above = larger->radius;
+  smaller->count = (larger->log_det - smaller->log_det) / log(larger->radius / smaller->radius);
 }
 
 /* More eigenvalues than the pattern allows are rounding. */
@@ -119,7 +115,7 @@ static bool complete(const search *w, const sample *s)
  * in size where equations are scaled badly. */
 static sunrealtype bound(search *w)
 {
-  const stf_scaled *s = &w->circle.scaled;
+  const stf_scaled *s = &w->circle->scaled;
   const sunindextype n = s->n;
   sunrealtype *e = s->most, *f = s->row, most = w->start;
   for (int across = 0; across < 2; across++) {
@@ -144,35 +140,43 @@ static bool clear(const search *w, const sample *s)
   return s->gap >= WIDE || (s->gap >= CLEAR && s->last == w->pattern);
 }
 
-/* Up until all finite eigenvalues are inside, and the moments decide or part no further. */
+/* Up until all finite eigenvalues are inside, and the moments decide or part no further. Where they
+ * decide, all that is asked of the next circle is its determinant; more, if the count does not
+ * agree. */
 static int grow(search *w)
 {
   STEIF_TRY(draw(w, w->end, true));
   for (int k = 1; k < CIRCLES / 2 && w->of[k - 1].radius < w->end * BEYOND; k++) {
-    const sample *now = &w->of[k];
-    STEIF_TRY(draw(w, GROW * now[-1].radius, true));
-    count(&w->of[k], now - 1);
-    if (!complete(w, now) || now->gap < GAP) continue;
-    if (clear(w, now) || now->gap < GROW * now[-1].gap) break;
+    sample *last = &w->of[k - 1], *now = last + 1;
+    const sunrealtype radius = GROW * last->radius;
+    STEIF_TRY(draw(w, radius, !clear(w, last)));
+    count(last, now);
+    if (complete(w, last) && clear(w, last)) break;
+    if (clear(w, last)) {
+      w->circles--;
+      STEIF_TRY(draw(w, radius, true));
+    }
+    if (complete(w, last) && last->gap >= GAP && now->gap < GROW * last->gap) break;
   }
   return STEIF_OK;
 }
 
-/* Down from the first circle: while all eigenvalues stay inside, when they are inside the second
+/* Down from the first circle: while all eigenvalues stay inside, when they are inside of it
  * already, since rounding grows with R; or through the radii left out, when they never are. */
 static int shrink(search *w)
 {
-  const bool inside = w->circles == 2 && complete(w, &w->of[1]);
+  const bool inside = w->circles == 2 && complete(w, &w->of[0]);
+  const bool decided = inside && clear(w, &w->of[0]);
   bool outside = true;
   for (int k = 0; k < w->circles; k++) outside &= !complete(w, &w->of[k]);
   const sunrealtype factor = inside ? SHRINK : GROW, least = outside ? w->start / GROW : 0;
   if (!(inside && w->structure->degree > 0) && !outside) return STEIF_OK;
   sample *lowest = &w->of[0];
   while (w->circles < CIRCLES && lowest->radius / factor >= least) {
-    STEIF_TRY(draw(w, lowest->radius / factor, true));
+    STEIF_TRY(draw(w, lowest->radius / factor, !decided));
     sample *now = &w->of[w->circles - 1];
-    count(lowest, now);
-    if (inside && !complete(w, lowest)) break;
+    count(now, lowest);
+    if (inside && !complete(w, now)) break;
     lowest = now;
   }
   return STEIF_OK;
@@ -184,8 +188,7 @@ static int explore(search *w)
   if (given > 0) {
     STEIF_TRY(draw(w, given, true));
     STEIF_TRY(draw(w, 2 * given, false));
-    count(&w->of[1], &w->of[0]);
-    w->of[0].count = w->of[1].count;
+    count(&w->of[0], &w->of[1]);
     w->circles = 1;
     return STEIF_OK;
   }
@@ -223,9 +226,9 @@ static sunrealtype settle(const search *w, const sample *chosen)
   if (w->analysis.radius > 0 || !complete(w, chosen)) return chosen->radius;
   for (int k = 0; k < w->circles; k++)
     if (complete(w, &w->of[k]) && w->of[k].radius < chosen->radius) chosen = &w->of[k];
-  const sunrealtype m = w->analysis.points, ratio = chosen->radius / chosen->below;
+  const sunrealtype m = w->analysis.points, ratio = chosen->above / chosen->radius;
   const sunrealtype off = fmax(fabs(chosen->count - round(chosen->count)), 1e-12);
-  return chosen->below * pow(off * m * log(ratio) / STF_EPS, 1 / m);
+  return chosen->radius * pow(off * m * log(ratio) / STF_EPS, 1 / m);
 }
 
 static void say(const search *w, const sample *chosen)
@@ -300,11 +303,16 @@ static void conclude(search *w)
 static int analyse(search *w, SUNMatrix E, SUNMatrix F)
 {
   const sunrealtype e = stf_largest(E), f = stf_largest(F);
-  const sunindextype n = w->circle.scaled.n;
-  w->v = stf_claim(w->circle.scaled.pool, (size_t)n, sizeof *w->v);
+  const sunindextype n = w->circle->scaled.n;
+  sunrealtype square = 0;
+  w->v = stf_claim(w->circle->scaled.pool, (size_t)n, sizeof *w->v);
   if (!w->v) return STEIF_NO_MEMORY;
   stf_random random = {w->analysis.seed};
-  for (sunindextype i = 0; i < n; i++) w->v[i] = stf_random_in(&random, -1, 1);
+  for (sunindextype i = 0; i < n; i++) {
+    w->v[i] = stf_random_in(&random, -1, 1);
+    square += w->v[i] * w->v[i];
+  }
+  w->size = sqrt(square);
   w->start = e > 0 && f > 0 ? f / e : 1;
   w->end = fmin(bound(w), SPREAD * w->start);
   STEIF_TRY(explore(w));
@@ -340,9 +348,11 @@ int stf_contour(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analys
     reject(structure, rank);
     return STEIF_OK;
   }
-  STEIF_TRY(stf_circle_open(ctx, E, F, analysis, -1, w.analysis.index_most + 2, &w.circle));
+  stf_circle_close(ctx, &structure->circle);
+  STEIF_TRY(stf_circle_open(ctx, E, F, analysis, w.analysis.index_most + 2, &w.circle));
+  w.circle->counts = true;
   const int code = analyse(&w, E, F);
-  structure->cost = *steif_pencil_statistics(w.circle.scaled.pencil);
-  stf_circle_close(&w.circle);
+  structure->cost = *steif_pencil_statistics(w.circle->scaled.pencil);
+  structure->circle = w.circle;
   return code;
 }

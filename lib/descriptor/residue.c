@@ -26,41 +26,59 @@ typedef struct residue {
   steif_context *ctx;
   const stf_sources *sources;
   steif_impulse *impulse;
-  stf_circle circle;
+  stf_circle *circle;
   int terms; /* of the forcing */
   answer at[3];
 } residue;
 
-/* E x(0-) + sum_j f^(j) s^{-j-1} by Horner's rule in 1/s. */
-static void source(const stf_scaled *scaled, steif_shift s, void *user, sunrealtype *re,
-                   sunrealtype *im)
+/* Unknowns taken together, so that the terms pass over them in the first cache. */
+enum { BLOCK = 256 };
+
+/* (re, im) <- z (re + f, im). */
+static void horner(steif_shift z, const sunrealtype *restrict f, int n,
+                   sunrealtype *restrict re, sunrealtype *restrict im)
+{
+  for (int i = 0; i < n; i++) {
+    const sunrealtype p = re[i] + f[i], q = im[i];
+    re[i] = z.re * p - z.im * q;
+    im[i] = z.re * q + z.im * p;
+  }
+}
+
+/* E x(0-) + sum_j f^(j) z^{j+1} by Horner's rule. */
+static void source(const stf_scaled *scaled, steif_shift z, void *user, sunrealtype *b)
 {
   const residue *w = user;
   const sunindextype n = scaled->n;
-  const sunrealtype square = s.re * s.re + s.im * s.im, a = s.re / square, b = -s.im / square;
-  for (sunindextype i = 0; i < n; i++) re[i] = im[i] = 0;
-  for (int j = w->terms - 1; j >= 0; j--) {
-    const sunrealtype *f = w->sources->f + j * n;
-    for (sunindextype i = 0; i < n; i++) {
-      const sunrealtype p = re[i] + f[i], q = im[i];
-      re[i] = a * p - b * q;
-      im[i] = a * q + b * p;
+  for (sunindextype at = 0; at < n; at += BLOCK) {
+    const int now = n - at < BLOCK ? (int)(n - at) : BLOCK;
+    const sunrealtype *restrict row = scaled->row + at, *restrict Ex0 = w->sources->Ex0 + at;
+    sunrealtype re[BLOCK] = {0}, im[BLOCK] = {0}, *restrict to = b + 2 * at;
+    for (int j = w->terms - 1; j >= 0; j--) horner(z, w->sources->f + j * n + at, now, re, im);
+    for (int i = 0; i < now; i++) {
+      to[2 * i] = (re[i] + Ex0[i]) * row[i];
+      to[2 * i + 1] = im[i] * row[i];
     }
   }
-  for (sunindextype i = 0; i < n; i++) {
-    re[i] = (re[i] + w->sources->Ex0[i]) * scaled->row[i];
-    im[i] *= scaled->row[i];
-  }
+}
+
+static int claim(residue *w, answer *out)
+{
+  const size_t size = (size_t)w->impulse->n * (size_t)(w->impulse->count + 1);
+  if (!out->x) out->x = stf_allocate(w->ctx, size, sizeof *out->x);
+  return out->x ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 static int draw(residue *w, sunrealtype R, answer *out)
 {
-  const sunindextype n = w->circle.scaled.n;
-  STEIF_TRY(stf_circle_run(&w->circle, R, source, w));
-  for (int k = 0; k < w->circle.count; k++) {
-    const sunrealtype power = pow(R, 1 - k), *sum = NV_DATA_S(w->circle.sum[k]);
+  const stf_circle *c = w->circle;
+  const sunindextype n = c->scaled.n;
+  STEIF_TRY(claim(w, out));
+  STEIF_TRY(stf_circle_run(w->circle, R, source, w));
+  for (int k = 0; k <= w->impulse->count; k++) {
+    const sunrealtype power = pow(R, 1 - k), *sum = c->sum + k * n;
     for (sunindextype i = 0; i < n; i++)
-      out->x[k * n + i] = power * w->circle.scaled.column[i] * sum[i];
+      out->x[k * n + i] = power * c->scaled.column[i] * sum[i];
   }
   return STEIF_OK;
 }
@@ -68,7 +86,7 @@ static int draw(residue *w, sunrealtype R, answer *out)
 static sunrealtype difference(const residue *w, const answer *a, const answer *b)
 {
   sunrealtype off = 0, size = 0;
-  for (sunindextype i = 0; i < w->circle.scaled.n; i++) {
+  for (sunindextype i = 0; i < w->impulse->n; i++) {
     const sunrealtype d = a->x[i] - b->x[i];
     off += d * d;
     size += a->x[i] * a->x[i];
@@ -148,27 +166,38 @@ static void say(const residue *w, const steif_structure *s, sunrealtype R)
              out->index, s->index < 0 ? " assumed" : "", R, out->estimate);
 }
 
-static int claim(residue *w)
-{
-  const size_t size = (size_t)w->circle.scaled.n * (size_t)w->circle.count;
-  for (int k = 0; k < 3; k++) {
-    w->at[k].x = stf_claim(w->circle.scaled.pool, size, sizeof *w->at[k].x);
-    if (!w->at[k].x) return STEIF_NO_MEMORY;
-  }
-  return STEIF_OK;
-}
-
 static int analyse(residue *w, sunrealtype R, bool fixed, const steif_structure *structure)
 {
   steif_impulse *out = w->impulse;
   const size_t n = (size_t)out->n, count = (size_t)out->count;
-  STEIF_TRY(claim(w));
   STEIF_TRY(find(w, fixed, &R));
   memcpy(out->x_plus, w->at[0].x, n * sizeof *out->x_plus);
   if (count) memcpy(out->c, w->at[0].x + n, n * count * sizeof *out->c);
   out->certified = structure->certified && out->estimate <= CERTIFIED;
   say(w, structure, R);
   return STEIF_OK;
+}
+
+static steif_pencil_stats spent(const steif_pencil_stats *before, const steif_pencil_stats *now)
+{
+  return (steif_pencil_stats){.analyses = now->analyses - before->analyses,
+                              .factors = now->factors - before->factors,
+                              .refactors = now->refactors - before->refactors,
+                              .fallbacks = now->fallbacks - before->fallbacks,
+                              .solves = now->solves - before->solves,
+                              .fill = now->fill};
+}
+
+/* The circles of the structure serve again if they are of these matrices. */
+static int prepare(residue *w, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
+                   steif_structure *structure)
+{
+  const int room = w->impulse->count + 1;
+  if (stf_circle_adopt(structure->circle, E, F, analysis, room)) {
+    w->circle = structure->circle;
+    return STEIF_OK;
+  }
+  return stf_circle_open(w->ctx, E, F, analysis, room, &w->circle);
 }
 
 int stf_contour_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
@@ -185,11 +214,16 @@ int stf_contour_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
               "index %d asks for derivatives of the forcing up to order %d, %d is known: give "
               "them in the forcing function",
               index, index - 1, sources->derivatives);
+  STEIF_CHECK(index <= STF_INDEX_MOST, ctx, STEIF_UNSUPPORTED,
+              "index %d: circles give impulses up to index %d", index, (int)STF_INDEX_MOST);
   STEIF_TRY(stf_impulse_claim(ctx, sources->n, index, impulse));
   impulse->method = "contour";
-  STEIF_TRY(stf_circle_open(ctx, E, F, analysis, -1, impulse->count + 1, &w.circle));
+  STEIF_TRY(prepare(&w, E, F, analysis, structure));
+  w.circle->counts = false;
+  const steif_pencil_stats before = *steif_pencil_statistics(w.circle->scaled.pencil);
   const int code = analyse(&w, stf_radius(E, F, analysis, structure), fixed, structure);
-  impulse->cost = *steif_pencil_statistics(w.circle.scaled.pencil);
-  stf_circle_close(&w.circle);
+  impulse->cost = spent(&before, steif_pencil_statistics(w.circle->scaled.pencil));
+  for (int k = 0; k < 3; k++) stf_release(ctx, w.at[k].x);
+  if (w.circle != structure->circle) stf_circle_close(ctx, &w.circle);
   return code;
 }

@@ -4,11 +4,15 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "circle.h"
+#include "pencil.h"
 #include <math.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
 enum { SWEEPS = 6 };
+
+/* Scales serve radii up to this far from the one they were made for. */
+#define NEAR 16.0
 
 sunrealtype stf_largest(SUNMatrix M)
 {
@@ -121,63 +125,65 @@ static void equilibrate(stf_scaled *s, sunrealtype size)
   s->log_scale = twos * log(2);
 }
 
-/* to = sign scale(from); adds size times the column sums. */
-static void scale(const stf_scaled *s, SUNMatrix from, sunrealtype sign, sunrealtype size,
-                  SUNMatrix to)
+/* to = sign scale(from); returns the largest column sum. */
+static sunrealtype scale(const stf_scaled *s, SUNMatrix from, sunrealtype sign, SUNMatrix to)
 {
   const sunindextype *ptr = SM_INDEXPTRS_S(from), *row = SM_INDEXVALS_S(from);
   const sunrealtype *value = SM_DATA_S(from);
-  sunrealtype *out = SM_DATA_S(to);
-  for (sunindextype j = 0; j < s->n; j++)
+  sunrealtype *out = SM_DATA_S(to), most = 0;
+  for (sunindextype j = 0; j < s->n; j++) {
+    sunrealtype sum = 0;
     for (sunindextype k = ptr[j]; k < ptr[j + 1]; k++) {
       out[k] = sign * value[k] * s->row[row[k]] * s->column[j];
-      s->most[j] += size * fabs(out[k]);
+      sum += fabs(out[k]);
     }
+    if (sum > most) most = sum;
+  }
+  return most;
 }
 
 int stf_scaled_set(stf_scaled *s, sunrealtype size)
 {
+  if (s->size > 0 && size <= NEAR * s->size && s->size <= NEAR * size) return STEIF_OK;
   equilibrate(s, size);
-  memset(s->most, 0, (size_t)s->n * sizeof *s->most);
-  scale(s, s->givenE, 1, size, s->E);
-  scale(s, s->givenF, -1, 1, s->A);
-  s->norm = 0;
-  for (sunindextype j = 0; j < s->n; j++) s->norm = fmax(s->norm, s->most[j]);
+  s->norm[0] = scale(s, s->givenE, 1, s->E);
+  s->norm[1] = scale(s, s->givenF, -1, s->A);
+  s->size = size;
   return steif_pencil_update(s->pencil);
 }
 
-/* r -= (a + i b) M x. */
-static void subtract(const stf_scaled *s, SUNMatrix M, steif_shift a, const N_Vector x[2],
-                     N_Vector r[2])
+static bool holds(const stf_scaled *s, SUNMatrix from, sunrealtype sign, SUNMatrix to)
 {
-  const sunindextype *restrict ptr = SM_INDEXPTRS_S(M), *restrict row = SM_INDEXVALS_S(M);
-  const sunrealtype *restrict value = SM_DATA_S(M), *restrict xr = NV_DATA_S(x[0]),
-                              *restrict xi = x[1] ? NV_DATA_S(x[1]) : NULL;
-  sunrealtype *restrict rr = NV_DATA_S(r[0]), *restrict ri = xi ? NV_DATA_S(r[1]) : NULL;
-  for (sunindextype j = 0; j < s->n; j++) {
-    const sunrealtype re = a.re * xr[j] - (xi ? a.im * xi[j] : 0);
-    const sunrealtype im = xi ? a.re * xi[j] + a.im * xr[j] : 0;
-    for (sunindextype k = ptr[j]; k < ptr[j + 1]; k++) {
-      rr[row[k]] -= value[k] * re;
-      if (ri) ri[row[k]] -= value[k] * im;
-    }
-  }
+  const sunindextype n = s->n, *ptr = SM_INDEXPTRS_S(to), *row = SM_INDEXVALS_S(to);
+  const sunrealtype *value = SM_DATA_S(from), *out = SM_DATA_S(to);
+  if (memcmp(SM_INDEXPTRS_S(from), ptr, (size_t)(n + 1) * sizeof *ptr)) return false;
+  if (memcmp(SM_INDEXVALS_S(from), row, (size_t)ptr[n] * sizeof *row)) return false;
+  bool same = true;
+  for (sunindextype j = 0; j < n && same; j++)
+    for (sunindextype k = ptr[j]; k < ptr[j + 1]; k++)
+      same &= out[k] == sign * value[k] * s->row[row[k]] * s->column[j];
+  return same;
 }
 
-int stf_scaled_solve(stf_scaled *s, int k, steif_shift at, int refinements, const N_Vector b[2],
-                     N_Vector x[2], N_Vector r[2])
+bool stf_scaled_adopt(stf_scaled *s, SUNMatrix E, SUNMatrix F)
 {
-  const int parts = b[1] ? 2 : 1;
-  const size_t bytes = (size_t)s->n * sizeof(sunrealtype);
-  for (int c = 0; c < parts; c++) memcpy(NV_DATA_S(x[c]), NV_DATA_S(b[c]), bytes);
-  STEIF_TRY(steif_pencil_solve(s->pencil, k, 1, x, parts > 1 ? x + 1 : NULL));
-  for (int sweep = 0; sweep < refinements; sweep++) {
-    for (int c = 0; c < parts; c++) memcpy(NV_DATA_S(r[c]), NV_DATA_S(b[c]), bytes);
-    subtract(s, s->E, at, x, r);
-    subtract(s, s->A, (steif_shift){-1, 0}, x, r);
-    STEIF_TRY(steif_pencil_solve(s->pencil, k, 1, r, parts > 1 ? r + 1 : NULL));
-    for (int c = 0; c < parts; c++)
-      for (sunindextype i = 0; i < s->n; i++) NV_Ith_S(x[c], i) += NV_Ith_S(r[c], i);
-  }
-  return STEIF_OK;
+  if (!(s->size > 0) || s->n != SM_COLUMNS_S(E) || s->n != SM_COLUMNS_S(F)) return false;
+  if (!holds(s, E, 1, s->E) || !holds(s, F, -1, s->A)) return false;
+  s->givenE = E, s->givenF = F;
+  return true;
+}
+
+void stf_scaled_direct(stf_scaled *s, int k, sunrealtype *b)
+{
+  stf_sparse_direct(s->pencil, k, b);
+  s->pencil->stats.solves++;
+}
+
+bool stf_scaled_refine(stf_scaled *s, int k, sunrealtype *x, sunrealtype *r)
+{
+  const sunindextype length = stf_is_complex(s->pencil->shift[k]) ? 2 * s->n : s->n;
+  if (stf_sparse_residual(s->pencil, k, x, r, s->most) <= STF_STEADY) return false;
+  stf_scaled_direct(s, k, r);
+  for (sunindextype i = 0; i < length; i++) x[i] += r[i];
+  return true;
 }

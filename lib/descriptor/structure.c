@@ -148,7 +148,8 @@ typedef struct question {
   sunrealtype t;
   steif_forcing f;
   void *user;
-  steif_structure found; /* without the lists of the caller's */
+  steif_structure found; /* without the lists of the caller's; its circle is lent */
+  bool lent;
   stf_sources sources;
 } question;
 
@@ -234,7 +235,7 @@ static int know(question *q, const steif_structure *structure, int *index)
     s->rcond);
   *index = working(s);
   if (given) {
-    q->found = *structure;
+    q->found = *structure, q->lent = true;
     q->found.weyr = q->found.equations = q->found.unknowns = NULL;
     q->found.weyr_count = 0, q->found.equations_count = q->found.unknowns_count = 0;
   }
@@ -277,6 +278,7 @@ int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F, const sunre
     stf_impulse_residuals(E, F, x0, q.sources.f, impulse);
   else
     steif_impulse_clear(ctx, impulse);
+  if (q.lent) q.found.circle = NULL;
   steif_structure_clear(ctx, &q.found);
   stf_pool_free(&q.pool);
   return code;

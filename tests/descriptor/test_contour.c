@@ -279,6 +279,51 @@ static void bad_requests(void)
   system_close(&s);
 }
 
+/* The circles of a structure serve its impulses with their analysis and pivots; not those of a
+ * matrix that has changed since, of other points or with more sums than there are. */
+static void circles_kept(void)
+{
+  analysed a, fresh;
+  analyse(&a, "springs:n=3000,c=300", NULL);
+  CHECK(a.structure.cost.analyses == 1 && a.structure.cost.factors > 0);
+  CHECK(a.impulse.cost.analyses == 0 && a.impulse.cost.factors == 0);
+  CHECK(a.impulse.cost.refactors > 0);
+  system_ *s = &a.s;
+  SM_DATA_S(s->F)[7] *= 1.75;
+  steif_impulse_clear(s->ctx, &a.impulse);
+  CHECK(stf_contour_impulse(s->ctx, s->E, s->F, NULL, s->problem.y0, &s->sources, &a.structure,
+                            &a.impulse) == STEIF_OK);
+  CHECK(a.impulse.cost.analyses == 1);
+  memset(&fresh, 0, sizeof fresh);
+  CHECK(stf_contour(s->ctx, s->E, s->F, NULL, &fresh.structure) == STEIF_OK);
+  fresh.structure.radius = a.structure.radius;
+  CHECK(stf_contour_impulse(s->ctx, s->E, s->F, NULL, s->problem.y0, &s->sources,
+                            &fresh.structure, &fresh.impulse) == STEIF_OK);
+  CHECK(fresh.impulse.cost.analyses == 0);
+  CHECK(system_error(s->n, a.impulse.x_plus, fresh.impulse.x_plus) < 1e-12);
+  steif_impulse_clear(s->ctx, &fresh.impulse);
+  const steif_analysis finer = {.points = 32};
+  CHECK(stf_contour_impulse(s->ctx, s->E, s->F, &finer, s->problem.y0, &s->sources,
+                            &fresh.structure, &fresh.impulse) == STEIF_OK);
+  CHECK(fresh.impulse.cost.analyses == 1);
+  steif_impulse_clear(s->ctx, &fresh.impulse);
+  steif_structure_clear(s->ctx, &fresh.structure);
+  drop(&a);
+}
+
+/* One solve a point where plain ones are good, two where rounding fills zero blocks. */
+static void refined_where_needed(void)
+{
+  analysed a;
+  const steif_analysis eight = {.radius = 1e6};
+  analyse(&a, "ladder:n=200", &eight);
+  CHECK(a.structure.cost.solves == 8 && a.impulse.cost.solves == 16);
+  drop(&a);
+  analyse(&a, "stokes:m=16", &(steif_analysis){.radius = 1e4});
+  CHECK(a.structure.cost.solves >= 16 && a.impulse.cost.solves >= 32);
+  drop(&a);
+}
+
 /* Structure and both starts with request number k refused; the answer when none was. */
 static int with_refusal(system_ *s, failing *fails, long k)
 {
@@ -325,6 +370,8 @@ CU_TestInfo tests_of_contour[] = {
   {"refinement keeps the zero blocks", refinement_matters},
   {"one real factorisation gives the start by Drazin inverses", drazin_inverses},
   {"a ladder of 102 000 unknowns", large_ladder},
+  {"the circles of a structure serve its impulses", circles_kept},
+  {"solves are refined where residuals ask for it", refined_where_needed},
   {"bad requests are refused with their values", bad_requests},
   {"no memory at any place leaves nothing behind", no_memory},
   CU_TEST_INFO_NULL};
