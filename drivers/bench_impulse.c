@@ -18,6 +18,8 @@ static void add(steif_report *r, const steif_bench_impulse *row)
   steif_report_real(r, "rows.floor_s", row->floor_s);
   steif_report_real(r, "rows.ratio", row->ratio);
   steif_report_real(r, "rows.us_per_unknown", 1e6 * row->cpu_s / (double)row->n);
+  steif_report_real(r, "rows.floor_us_per_unknown", 1e6 * row->floor_s / (double)row->n);
+  steif_report_real(r, "rows.analyse_us_per_unknown", 1e6 * row->analyse_s / (double)row->n);
   steif_report_real(r, "rows.peak_mb", row->peak_mb);
   steif_report_real(r, "rows.bytes_per_unknown", row->bytes_per_unknown);
   steif_report_real(r, "rows.estimate", row->estimate);

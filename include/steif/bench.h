@@ -99,14 +99,16 @@ STEIF_EXPORT sunrealtype steif_bench_speed(const steif_bench_match *match, size_
 STEIF_EXPORT sunrealtype steif_bench_sundials(steif_context *ctx);
 
 /* Structure, x(0+) and impulses of a sparse descriptor system by circles against the complex
- * factorisations (with and without new pivots) and solves that they take, called directly in KLU.
- * Processor seconds; the goal is a ratio of 1.3. */
+ * factorisations (with and without new pivots) and solves that they take, called directly in KLU
+ * in the same order, each on a matrix of its own. Processor seconds, both in one thread; the goal
+ * is a ratio of 1.3. */
 typedef struct steif_bench_impulse {
   char problem[STEIF_SPEC_WORD];
   sunindextype n;
   long factors, refactors, solves;
   sunrealtype cpu_s, wall_s;      /* the whole analysis and the impulses */
   sunrealtype floor_s, ratio;
+  sunrealtype analyse_s;          /* KLU's symbolic analysis, one for all: not in the floor */
   sunrealtype peak_mb;            /* of the process so far: measure one row in a process */
   sunrealtype bytes_per_unknown;  /* of what the peak grew by */
   sunrealtype estimate;           /* relative error of x(0+) by the algorithm's own account */
