@@ -222,7 +222,7 @@ static bool visit(stf_circle *c, int slot, int number, steif_shift z, stf_circle
   stf_scaled_direct(s, slot, x);
   for (int sweep = 0; c->careful && sweep < c->refinements; sweep++) {
     source(s, z, user, c->r);
-    if (!stf_scaled_refine(s, slot, x, c->r)) break;
+    if (!stf_scaled_refine(s, slot, sweep == 0, x, c->r)) break;
   }
   if (c->careful || number > 0) return true;
   source(s, z, user, c->r);
@@ -276,6 +276,12 @@ static int around(stf_circle *c, stf_circle_source *source, void *user, bool *go
   return STEIF_OK;
 }
 
+int stf_circle_care(stf_circle *c)
+{
+  c->careful = true;
+  return steif_pencil_update(c->scaled.pencil);
+}
+
 int stf_circle_run(stf_circle *c, sunrealtype R, stf_circle_source *source, void *user)
 {
   bool good;
@@ -283,7 +289,6 @@ int stf_circle_run(stf_circle *c, sunrealtype R, stf_circle_source *source, void
   STEIF_TRY(stf_scaled_set(&c->scaled, R));
   STEIF_TRY(around(c, source, user, &good));
   if (good) return STEIF_OK;
-  c->careful = true;
-  STEIF_TRY(steif_pencil_update(c->scaled.pencil));
+  STEIF_TRY(stf_circle_care(c));
   return around(c, source, user, &good);
 }

@@ -36,9 +36,9 @@ bool stf_scaled_adopt(stf_scaled *s, SUNMatrix E, SUNMatrix F);
 /* b <- M^{-1} b in scaled coordinates, M = s E + F as factored in slot k; for complex s all vectors
  * are interleaved, 2 n. */
 void stf_scaled_direct(stf_scaled *s, int k, sunrealtype *b);
-/* One step of refinement of M x = b where it is needed: r comes as b and is overwritten. False:
- * the backward error of x is STF_STEADY or less. */
-bool stf_scaled_refine(stf_scaled *s, int k, sunrealtype *x, sunrealtype *r);
+/* One step of refinement of M x = b where it is needed, or anyway: r comes as b and is overwritten.
+ * False: none was made, as the backward error of x is STF_STEADY or less. */
+bool stf_scaled_refine(stf_scaled *s, int k, bool anyway, sunrealtype *x, sunrealtype *r);
 
 /* A right-hand side at s = 1/z in scaled coordinates, interleaved; how often it is asked for does
  * not matter. z = 0: its constant part. */
@@ -72,6 +72,8 @@ void stf_circle_close(steif_context *ctx, stf_circle **circle);
  * counted from now on. */
 bool stf_circle_adopt(stf_circle *circle, SUNMatrix E, SUNMatrix F,
                       const steif_analysis *analysis, int room);
+/* From now on pivots are watched and solves refined. */
+int stf_circle_care(stf_circle *circle);
 /* Factor around the circle of radius R; source NULL: determinant only. */
 int stf_circle_run(stf_circle *circle, sunrealtype R, stf_circle_source *source, void *user);
 

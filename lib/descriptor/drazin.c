@@ -39,7 +39,7 @@ static void solve(drazin *z, N_Vector b, N_Vector x)
   stf_scaled_direct(&z->scaled, 0, NV_DATA_S(x));
   for (int sweep = 0; sweep < z->refinements; sweep++) {
     memcpy(NV_DATA_S(z->r), NV_DATA_S(b), bytes);
-    if (!stf_scaled_refine(&z->scaled, 0, NV_DATA_S(x), NV_DATA_S(z->r))) break;
+    if (!stf_scaled_refine(&z->scaled, 0, sweep == 0, NV_DATA_S(x), NV_DATA_S(z->r))) break;
   }
 }
 

@@ -125,13 +125,24 @@ static int walk(residue *w, bool up, sunrealtype *R, sunrealtype *estimate)
   return STEIF_OK;
 }
 
+static int pair(residue *w, sunrealtype R)
+{
+  STEIF_TRY(draw(w, R, &w->at[0]));
+  STEIF_TRY(draw(w, 2 * R, &w->at[1]));
+  w->impulse->estimate = difference(w, &w->at[0], &w->at[1]);
+  return STEIF_OK;
+}
+
+/* Where plain solves do not agree, refined ones may. */
 static int find(residue *w, bool fixed, sunrealtype *R)
 {
   sunrealtype *estimate = &w->impulse->estimate;
   const sunrealtype first = *R;
-  STEIF_TRY(draw(w, *R, &w->at[0]));
-  STEIF_TRY(draw(w, 2 * *R, &w->at[1]));
-  *estimate = difference(w, &w->at[0], &w->at[1]);
+  STEIF_TRY(pair(w, *R));
+  if (*estimate > AGREED && !w->circle->careful) {
+    STEIF_TRY(stf_circle_care(w->circle));
+    STEIF_TRY(pair(w, *R));
+  }
   if (fixed || *estimate <= AGREED) return STEIF_OK;
   STEIF_TRY(walk(w, false, R, estimate));
   return *R < first || *estimate <= AGREED ? STEIF_OK : walk(w, true, R, estimate);

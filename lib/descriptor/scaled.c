@@ -179,10 +179,11 @@ void stf_scaled_direct(stf_scaled *s, int k, sunrealtype *b)
   s->pencil->stats.solves++;
 }
 
-bool stf_scaled_refine(stf_scaled *s, int k, sunrealtype *x, sunrealtype *r)
+bool stf_scaled_refine(stf_scaled *s, int k, bool anyway, sunrealtype *x, sunrealtype *r)
 {
   const sunindextype length = stf_is_complex(s->pencil->shift[k]) ? 2 * s->n : s->n;
-  if (stf_sparse_residual(s->pencil, k, x, r, s->most) <= STF_STEADY) return false;
+  const sunrealtype error = stf_sparse_residual(s->pencil, k, x, r, s->most);
+  if (!anyway && error <= STF_STEADY) return false;
   stf_scaled_direct(s, k, r);
   for (sunindextype i = 0; i < length; i++) x[i] += r[i];
   return true;
