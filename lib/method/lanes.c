@@ -8,6 +8,15 @@
 #include <float.h>
 #include <math.h>
 
+struct stf_lanes_kernels {
+  int (*factor)(stf_lanes *L, const double *J, double h);
+  void (*begin)(stf_lanes *L, const double *y);
+  double (*sweep)(stf_lanes *L, const double *y, const double *weight, double h);
+  void (*end)(stf_lanes *L);
+  void (*filter)(stf_lanes *L, double *x);
+  void (*solve_thin)(stf_lanes *L, double *rhs, double *x);
+};
+
 /* Call body(L, n, lanes, ...) with constants for common sizes. */
 #define WITH_LANES(body, n, ...)                                                               \
   switch (L->lanes) {                                                                          \
@@ -63,10 +72,6 @@ INLINE double pivot(stf_lanes *L, const int n, const int lanes, int k)
 INLINE void eliminate(stf_lanes *L, const int n, const int lanes, const double *J, double h,
                       int *failed)
 {
-  if (L->thin) {
-    eliminate_thin(L, lanes, J, h, failed);
-    return;
-  }
   assemble(L, n, lanes, J, h);
   for (int i = 0; i < n; i++) L->order[i] = i;
   for (int k = 0; k < n; k++) {
@@ -92,7 +97,7 @@ INLINE void solve(stf_lanes *L, const int n, const int lanes, double *restrict r
                   double *restrict x)
 {
   if (L->thin) {
-    solve_thin(L, lanes, rhs, x);
+    L->kernels->solve_thin(L, rhs, x);
     return;
   }
   for (int i = 0; i < n; i++) {
@@ -207,20 +212,15 @@ INLINE void filter(stf_lanes *L, const int n, const int lanes, double *x)
 
 /* -- instruction sets ----------------------------------------------------------------------------- */
 
-struct stf_lanes_kernels {
-  int (*factor)(stf_lanes *L, const double *J, double h);
-  void (*begin)(stf_lanes *L, const double *y);
-  double (*sweep)(stf_lanes *L, const double *y, const double *weight, double h);
-  void (*end)(stf_lanes *L);
-  void (*filter)(stf_lanes *L, double *x);
-};
-
 /* The kernels once more for an instruction set. */
 #define KERNELS(isa, attribute)                                                                \
   attribute static int factor_##isa(stf_lanes *L, const double *J, double h)                   \
   {                                                                                            \
     int failed = 0;                                                                            \
-    WITH_SIZES(eliminate, J, h, &failed)                                                       \
+    if (L->thin)                                                                               \
+      WITH_LANES(eliminate_thin, L->n, J, h, &failed)                                          \
+    else                                                                                       \
+      WITH_SIZES(eliminate, J, h, &failed)                                                     \
     return failed;                                                                             \
   }                                                                                            \
   attribute static void begin_##isa(stf_lanes *L, const double *y){                            \
@@ -232,12 +232,14 @@ struct stf_lanes_kernels {
     return sum;                                                                                \
   }                                                                                            \
   attribute static void end_##isa(stf_lanes *L){                                               \
-    WITH_SIZES(end_of, 0)} attribute static void filter_##isa(stf_lanes *L, double *x)         \
+    WITH_SIZES(end_of, 0)} attribute static void filter_##isa(stf_lanes *L, double *x){        \
+    WITH_SIZES(filter, x)} attribute static void thin_##isa(stf_lanes *L, double *rhs,         \
+                                                            double *x)                         \
   {                                                                                            \
-    WITH_SIZES(filter, x)                                                                      \
+    WITH_LANES(solve_thin, L->n, rhs, x)                                                       \
   }                                                                                            \
-  static const struct stf_lanes_kernels isa = {factor_##isa, begin_##isa, sweep_##isa,         \
-                                               end_##isa, filter_##isa};
+  static const struct stf_lanes_kernels isa = {factor_##isa, begin_##isa,  sweep_##isa,        \
+                                               end_##isa,    filter_##isa, thin_##isa};
 
 KERNELS(plain, )
 #ifdef STF_SIMD_X86

@@ -6,19 +6,10 @@
 
 #include "lanes.h"
 #include "lanes_vector.h"
+#include "thin.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-/* A pivot on the diagonal keeps the order; it is kept down to this part of the largest. */
-#define KEEP 0.1
-
-INLINE int take(uint64_t *set)
-{
-  const int i = __builtin_ctzll(*set);
-  *set &= *set - 1;
-  return i;
-}
 
 /* The entries of the pattern, all lanes. */
 INLINE void assemble_thin(stf_lanes *L, const int lanes, const double *J, double h)
@@ -28,7 +19,7 @@ INLINE void assemble_thin(stf_lanes *L, const int lanes, const double *J, double
   for (int k = 0; k < 2 * lanes; k++) s[k] = L->lambda[k] / h;
   for (int j = 0; j < n; j++)
     for (uint64_t rows = L->pattern[j]; rows;) {
-      const int i = take(&rows);
+      const int i = stf_take_row(&rows);
       const double m = L->M ? L->M[i * n + j] : i == j, a = J[i + n * j];
       double *e = L->lu + (j * n + i) * 2 * lanes;
       for (int k = 0; k < lanes; k++) e[k] = s[k] * m - a, e[lanes + k] = s[lanes + k] * m;
@@ -41,27 +32,27 @@ INLINE int pivot_thin(const int lanes, uint64_t rows, const double *a, int diago
   double big = 0, own = 0;
   int p = -1;
   while (rows) {
-    const int i = take(&rows);
+    const int i = stf_take_row(&rows);
     const double *e = a + i * 2 * lanes, size = fabs(e[0]) + fabs(e[lanes]);
     if (size > big) big = size, p = i;
     if (i == diagonal) own = size;
   }
   if (!(big >= DBL_MIN)) return -1;
-  return own >= KEEP * big ? diagonal : p;
+  return own >= STF_THIN_KEEP * big ? diagonal : p;
 }
 
 INLINE int list(uint64_t rows, unsigned char *row)
 {
   int count = 0;
-  while (rows) row[count++] = (unsigned char)take(&rows);
+  while (rows) row[count++] = (unsigned char)stf_take_row(&rows);
   return count;
 }
 
-INLINE void eliminate_thin(stf_lanes *L, const int lanes, const double *J, double h,
-                           int *failed)
+INLINE void eliminate_thin(stf_lanes *L, const int n, const int lanes, const double *J,
+                           double h, int *failed)
 {
-  const int n = L->n, step = 2 * lanes;
-  uint64_t live[STF_LANES_LARGEST], active = n < 64 ? ((uint64_t)1 << n) - 1 : ~(uint64_t)0;
+  const int step = 2 * lanes;
+  uint64_t live[STF_LANES_LARGEST], active = stf_all_rows(n);
   memcpy(live, L->pattern, (size_t)n * sizeof *live);
   assemble_thin(L, lanes, J, h);
   L->lower[0] = 0;
@@ -86,7 +77,7 @@ INLINE void eliminate_thin(stf_lanes *L, const int lanes, const double *J, doubl
       if (!(live[j] >> p & 1)) continue;
       double *other = L->lu + j * n * step;
       for (uint64_t fill = below & ~live[j]; fill;)
-        memset(other + take(&fill) * step, 0, (size_t)step * sizeof *other);
+        memset(other + stf_take_row(&fill) * step, 0, (size_t)step * sizeof *other);
       live[j] |= below;
       subtract_at(lanes, count, row, column, other + p * step, other);
     }
@@ -94,9 +85,10 @@ INLINE void eliminate_thin(stf_lanes *L, const int lanes, const double *J, doubl
 }
 
 /* rhs is overwritten. */
-INLINE void solve_thin(stf_lanes *L, const int lanes, double *restrict rhs, double *restrict x)
+INLINE void solve_thin(stf_lanes *L, const int n, const int lanes, double *restrict rhs,
+                       double *restrict x)
 {
-  const int n = L->n, step = 2 * lanes;
+  const int step = 2 * lanes;
   for (int k = 0; k < n; k++)
     subtract_at(lanes, L->upper[k] - L->lower[k], L->row + L->lower[k],
                 L->lu + L->column[k] * n * step, rhs + L->order[k] * step, rhs);

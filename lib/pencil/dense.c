@@ -1,9 +1,10 @@
-/* dense.c: dense pencils. Up to n = 16 the elimination of small.c, above it LAPACK; every slot
- * keeps its factors, and E and A stay as they are.
+/* dense.c: dense pencils. Up to n = 16 the elimination of small.c, real ones up to 64 with many zeros
+ * that of thin.c, the others LAPACK; every slot keeps its factors, and E and A stay as they are.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "lapack.h"
 #include "pencil.h"
 #include "small.h"
+#include "thin.h"
 #include <limits.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -12,6 +13,8 @@ typedef struct factors {
   double *a; /* n^2 entries: split when small and complex, interleaved when large and complex */
   bool wide; /* room for complex entries */
   int *pivot;
+  stf_thin *thin; /* NULL: not looked at */
+  bool skips;     /* the factors in use are those of thin */
 } factors;
 
 typedef struct dense {
@@ -53,6 +56,10 @@ static int prepare(steif_pencil *p, int slot, steif_shift s)
   const size_t n = (size_t)p->n;
   const bool wide = stf_is_complex(s);
   if (!f->pivot && !(f->pivot = stf_allocate(p->ctx, n, sizeof(int)))) return STEIF_NO_MEMORY;
+  if (!f->thin && !wide && p->n > STF_SMALL && p->n <= STF_THIN) {
+    if (!(f->thin = stf_allocate(p->ctx, 1, sizeof *f->thin))) return STEIF_NO_MEMORY;
+    f->thin->n = (int)p->n;
+  }
   if (f->a && (f->wide || !wide)) return STEIF_OK;
   stf_release(p->ctx, f->a);
   f->a = stf_allocate(p->ctx, n * (wide ? 2 : 1), n * sizeof(double));
@@ -112,7 +119,7 @@ static void assemble(steif_pencil *p, steif_shift s, double *a)
 
 static void factor(steif_pencil *p, int slot, steif_shift s, stf_outcome *out)
 {
-  const factors *f = &((dense *)p->state)->slot[slot];
+  factors *f = &((dense *)p->state)->slot[slot];
   const int n = (int)p->n;
   const bool complex = stf_is_complex(s);
   int info;
@@ -121,7 +128,10 @@ static void factor(steif_pencil *p, int slot, steif_shift s, stf_outcome *out)
     out->code = STEIF_NOT_FINITE;
     return;
   }
-  if (n <= STF_SMALL)
+  f->skips = !complex && f->thin && stf_thin_look(f->thin, f->a);
+  if (f->skips)
+    info = stf_thin_factor(f->thin, f->a);
+  else if (n <= STF_SMALL)
     info = complex ? stf_small_zfactor(n, f->a, f->a + n * n, f->pivot)
                    : stf_small_factor(n, f->a, f->pivot);
   else
@@ -135,6 +145,8 @@ static int columns(steif_pencil *p, int slot, int nrhs, double *b, sunindextype 
   const factors *f = &((dense *)p->state)->slot[slot];
   const int n = (int)p->n, ldb = (int)ld;
   int info;
+  for (int k = 0; k < nrhs && f->skips; k++) stf_thin_solve(f->thin, f->a, b + k * ld);
+  if (f->skips) return STEIF_OK;
   (stf_is_complex(p->shift[slot]) ? zgetrs_ : dgetrs_)("N", &n, &nrhs, f->a, &n, f->pivot, b,
                                                        &ldb, &info, 1);
   return STEIF_OK;
@@ -172,6 +184,7 @@ static void finish(steif_pencil *p)
   for (int k = 0; k < STEIF_PENCIL_SLOTS; k++) {
     stf_release(p->ctx, d->slot[k].a);
     stf_release(p->ctx, d->slot[k].pivot);
+    stf_release(p->ctx, d->slot[k].thin);
   }
 }
 
