@@ -85,3 +85,13 @@ int stf_test_undamped(stf_step *s, N_Vector first, bool diverged)
     stf_scale(space, s->error_tolerance / bound, first, s->error);
   return STEIF_OK;
 }
+
+int stf_refuse_index(const stf_step *s, const char *name)
+{
+  STEIF_CHECK(
+    !s->adaptive || s->system.linear || s->problem->dae_index < 3, s->ctx, STEIF_UNSUPPORTED,
+    "'%s' cannot choose steps for problem '%s' of index %d, whose multipliers it does "
+    "not find: use radau, or give steps with h",
+    name, s->problem->name, s->problem->dae_index);
+  return STEIF_OK;
+}

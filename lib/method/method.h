@@ -123,6 +123,10 @@ bool stf_filters_twice(const stf_step *s);
  * overwritten, s->error the second one. */
 int stf_test_undamped(stf_step *s, N_Vector first, bool diverged);
 
+/* Refuses chosen steps on nonlinear problems of index 3: methods whose stages have order 1 or
+ * that do not damp do not find the multipliers there, and no estimate of theirs would tell. */
+int stf_refuse_index(const stf_step *s, const char *name);
+
 /* May the family `small` (vector lanes) replace irk for this opened system? */
 bool stf_small_serves(const stf_step *s);
 extern const steif_method steif_method_small;

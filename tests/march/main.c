@@ -5,7 +5,8 @@
 extern CU_TestInfo tests_of_steps[], tests_of_run[], tests_of_options[], tests_of_dense[],
   tests_of_digits[], tests_of_counts[], tests_of_breaks[], tests_of_engines[],
   tests_of_weights[], tests_of_events[], tests_of_reactions[], tests_of_limits[],
-  tests_of_auto[], tests_of_constraints[], tests_of_record[];
+  tests_of_auto[], tests_of_constraints[], tests_of_record[],
+  tests_of_success[];
 
 SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "run", .pTests = tests_of_run},
@@ -21,4 +22,5 @@ SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "limits", .pTests = tests_of_limits},
            {.pName = "auto", .pTests = tests_of_auto},
            {.pName = "constraints", .pTests = tests_of_constraints},
-           {.pName = "record", .pTests = tests_of_record})
+           {.pName = "record", .pTests = tests_of_record},
+           {.pName = "success", .pTests = tests_of_success})

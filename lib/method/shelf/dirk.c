@@ -47,6 +47,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->accurate = table->claims & STEIF_STIFFLY_ACCURATE;
   e->chain = (stf_chain){.s = e->s, .k = 1, .A = table->A, .c = table->c};
   STEIF_TRY(check(s, e));
+  STEIF_TRY(stf_refuse_index(s, table->name));
   STEIF_TRY(stf_chain_open(s, table->name, &e->chain));
   e->old = stf_claim_vectors(s->pool, e->s, s->y);
   e->before = stf_claim_vector(s->pool, s->y);

@@ -143,6 +143,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   stf_split split;
   e->table = table, e->s = table->s;
   e->accurate = table->claims & STEIF_STIFFLY_ACCURATE;
+  if (!e->accurate) STEIF_TRY(stf_refuse_index(s, table->name));
   STEIF_TRY(stf_split_build(s->pool, s->ctx, table, &split));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
   STEIF_TRY(claim(s, e));

@@ -28,6 +28,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   state *e = s->state;
   stf_split split;
   e->r = find(spec->name);
+  STEIF_TRY(stf_refuse_index(s, spec->name));
   STEIF_TRY(stf_split_single(s->pool, 1 / e->r->g, &split));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
   N_Vector *const all[] = {&e->Y, &e->sum, &e->ft, &e->f0, &e->before};

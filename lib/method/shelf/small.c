@@ -71,6 +71,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   stf_split split;
   e->table = table, e->s = table->s, e->n = (int)s->problem->n;
   e->accurate = table->claims & STEIF_STIFFLY_ACCURATE;
+  if (!e->accurate) STEIF_TRY(stf_refuse_index(s, table->name));
   STEIF_TRY(stf_split_build(s->pool, s->ctx, table, &split));
   STEIF_TRY(fill_M(s, e));
   STEIF_TRY(stf_lanes_open(s->pool, &split, e->n, e->M, &e->L));

@@ -1,0 +1,167 @@
+/* A run that succeeds is right: errors of at most ten tolerances at the end of the problems of the
+ * collection, relative to atol/rtol + |reference|; multipliers of index 2 and 3 have two digits less.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "smooth.h"
+
+typedef struct row {
+  const char *problem;
+  double less; /* digits that no local error control keeps: lost to the problem's own growth */
+} row;
+
+/* The beam's oscillations of up to 6400 outlive the steps that do not resolve them, e5 ends at
+ * 1e-22 after thirteen decades, solutions of steyer grow by exp(2 a) on the way. */
+static const row rows[] = {
+  {"andrews", 0},       {"beam", 1.3},    {"caraxis", 0},   {"chemakzo", 0},  {"e5", 1.1},
+  {"hires", 0},         {"impact", 0},    {"jordan", 0},    {"kepler", 0},    {"orego", 0},
+  {"medakzo:n=100", 0}, {"pendulum", 0},  {"pendulum3", 0}, {"plei", 0},      {"pollu", 0},
+  {"prothero", 0},      {"rober", 0},     {"steyer", 0.9},  {"stiffpair", 0}, {"transamp", 0},
+  {"vdpol", 0},         {"heat:n=100", 0}};
+
+/* Tolerances of error beyond which a component is wrong. */
+static double allowed(const steif_problem *p, sunindextype i)
+{
+  const int multiplier = p->index && p->dae_index >= 2 && p->index[i] >= p->dae_index;
+  return multiplier ? 1000 : 10;
+}
+
+/* The largest error in units of what is allowed; NaN when nothing is known. */
+static double excess(const steif_problem *p, double rtol, N_Vector y)
+{
+  const steif_reference *r = p->reference;
+  const double floor = p->rtol_scale > 0 ? p->rtol_scale : 1;
+  N_Vector known = N_VClone(y);
+  double most = 0;
+  if (!r && (!p->exact || p->exact(p->t1, known, NULL, p->user))) most = NAN;
+  const sunindextype count = r && r->count ? r->count : p->n;
+  for (sunindextype k = 0; k < count && !isnan(most); k++) {
+    const sunindextype i = r && r->component ? r->component[k] : k;
+    const double value = r ? r->value[k] : NV_Ith_S(known, i);
+    const double error = fabs(NV_Ith_S(y, i) - value) / (floor + fabs(value));
+    most = fmax(most, error / (allowed(p, i) * rtol));
+    if (isnan(error)) most = INFINITY;
+  }
+  N_VDestroy(known);
+  return most;
+}
+
+/* Failures are failures; successes are looked at. Returns 1 when the run succeeded. */
+static int look(const row *at, const char *method, double rtol)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, at->problem, &p));
+  steif_options o = steif_defaults();
+  o.rtol = rtol;
+  steif_solver *s = steif_solver_new(ctx, &p, method, &o);
+  const int good = s && steif_solve_to(s, p.t1) == STEIF_OK;
+  if (good) {
+    const double found = excess(&p, rtol, steif_solution(s));
+    if (found > pow(10, at->less))
+      printf("\n  %s %s %g: %.3g times what is allowed", at->problem, method, rtol, found);
+    CHECK(!(found > pow(10, at->less)));
+  } else
+    CHECK(strlen(steif_message(ctx)) > 20);
+  steif_solver_free(&s);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+  return good;
+}
+
+static void success_means_digits(void)
+{
+  static const char *const methods[] = {"auto", "radau:s=5", "radau:s=7", "gauss:s=4"};
+  static const double rtol[] = {1e-3, 1e-5, 1e-7};
+  for (int m = 0; m < 4; m++) {
+    int succeeded = 0;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+      for (int k = 0; k < 3; k++) {
+        if (m == 3 && rows[i].less > 1) continue; /* Gauss resolves every oscillation: slow */
+        succeeded += look(rows + i, methods[m], rtol[k]);
+      }
+    CHECK(succeeded >= (m < 3 ? 64 : 48));
+  }
+}
+
+/* y1 of Robertson's kinetics falls below zero, and then without end, when stiff components are left
+ * off their slow manifold. */
+static void gauss_stays_on_the_slow_manifold(void)
+{
+  static const char *const methods[] = {"gauss:s=2", "gauss:s=3", "gauss:s=4", "gauss:s=5"};
+  static const double rtol[] = {1e-3, 1e-4, 1e-6, 1e-8};
+  const row rober = {"rober", 0};
+  for (int m = 0; m < 4; m++)
+    for (int k = 0; k < 4; k++) CHECK(look(&rober, methods[m], rtol[k]));
+}
+
+/* No estimate of theirs would tell that the multipliers are wrong. */
+static void methods_that_miss_multipliers_refuse(void)
+{
+  static const char *const methods[] = {"dirk:hw43", "dirk:esdirk43", "rodas4", "gauss:s=3"};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, "caraxis", &p));
+  for (int m = 0; m < 4; m++)
+    smooth_refused(&p, methods[m], NULL, STEIF_UNSUPPORTED, "index 3");
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* BDF above order 2 amplifies the oscillations of the beam: 63 000 steps. */
+static void bdf_takes_the_stable_order(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_options o = steif_defaults();
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, "beam", &p));
+  o.rtol = 1e-4;
+  steif_solver *s = smooth_open(ctx, &p, "bdf:p=5", &o);
+  CHECK(!steif_solve_to(s, p.t1));
+  CHECK(steif_statistics(s)->steps < 2000);
+  steif_solver_free(&s);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* Counts of the day they were written, a quarter more at most: thrift. Steps, evaluations of f,
+ * Jacobians, factorisations. */
+static void counts_do_not_grow(void)
+{
+  static const struct {
+    const char *problem, *method;
+    double rtol;
+    long most[4];
+  } runs[] = {{"vdpol", "radau:s=7", 1e-6, {118, 6306, 102, 616}},
+              {"rober", "radau:s=7", 1e-6, {67, 2763, 63, 276}},
+              {"hires", "radau:s=7", 1e-6, {34, 2114, 29, 168}},
+              {"pollu", "radau:s=7", 1e-6, {13, 500, 11, 68}},
+              {"chemakzo", "radau:s=5", 1e-4, {15, 333, 15, 54}},
+              {"transamp", "radau:s=7", 1e-6, {285, 22077, 307, 1876}},
+              {"hires", "bdf:p=5", 1e-6, {508, 1425, 30, 31}}};
+  for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_problem p;
+    steif_options o = steif_defaults();
+    CU_ASSERT_FATAL(!steif_problem_find(ctx, runs[i].problem, &p));
+    o.rtol = runs[i].rtol;
+    steif_solver *s = smooth_open(ctx, &p, runs[i].method, &o);
+    CHECK(!steif_solve_to(s, p.t1));
+    const steif_stats *n = steif_statistics(s);
+    const long found[] = {n->steps, n->nfe, n->nje, n->nlu};
+    for (int k = 0; k < 4; k++) {
+      if (found[k] > runs[i].most[k] * 5 / 4)
+        printf("\n  %s %s, count %d: %ld", runs[i].problem, runs[i].method, k, found[k]);
+      CHECK(found[k] <= runs[i].most[k] * 5 / 4);
+    }
+    steif_solver_free(&s);
+    steif_problem_clear(ctx, &p);
+    steif_context_free(&ctx);
+  }
+}
+
+CU_TestInfo tests_of_success[] = {
+  {"success means digits", success_means_digits},
+  {"Gauss stays on the slow manifold", gauss_stays_on_the_slow_manifold},
+  {"methods that miss multipliers refuse", methods_that_miss_multipliers_refuse},
+  {"BDF takes the stable order", bdf_takes_the_stable_order},
+  {"counts do not grow", counts_do_not_grow},
+  CU_TEST_INFO_NULL};
