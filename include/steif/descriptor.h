@@ -53,7 +53,9 @@ enum { STEIF_ALL = -1 }; /* components */
  * where everything is known in closed form, of another descriptor problem of the collection, or of
  * a system of one's own. For these the impulses come from the pencil and the smooth part from its
  * closed solution, where there is one, or from radau:s=5 on the slow part and the derivatives of f
- * on the rest. */
+ * on the rest. Dense and small systems of index k > 1 are run in coordinates in which N is strictly
+ * triangular: the same sequence, with rounding of eps h^-(k-1) where that of E and F as they are
+ * given would be eps h^(-2 (k-1)). */
 typedef struct steif_weak_query {
   const char *method;     /* "be", "bdf:p=3", "radau:s=2", ... */
   const char *problem;    /* "jordan:k=3,case=H-inc", "ut5" */

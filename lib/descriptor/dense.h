@@ -77,10 +77,9 @@ void stf_split_finite(const stf_split *split, char op, int columns, sunrealtype 
 /* x(0+) and c_i of index k from R, L and N. */
 int stf_split_impulse(const stf_split *split, int k, const stf_sources *sources,
                       steif_impulse *impulse);
-/* The slow projector Q [0 R; 0 I] Q^T. */
-int stf_split_projector(stf_pool *pool, const stf_split *split, sunrealtype *slow);
-/* w = sum_j (-N)^j F_inf^{-1} [I L] P^T f^(j) above E_f v' + F_f v = P_f^T f, in the unknowns x. */
-int stf_split_reduce(stf_pool *pool, const stf_split *split, stf_reduction *out);
+/* The slow projector Q [0 R; 0 I] Q^T; w = sum_j (-N)^j F_inf^{-1} [I L] P^T f^(j) above E_f v' +
+ * F_f v = P_f^T f, in the unknowns x; the same in z = (w, v). */
+int stf_split_give(stf_pool *pool, const stf_split *split, const stf_parts *parts);
 /* Equations and unknowns that carry the leading Laurent coefficient Phi_{k-1}. */
 int stf_split_offenders(stf_pool *pool, stf_split *split, int k, steif_structure *structure);
 

@@ -3,6 +3,7 @@
 #ifndef STF_DESCRIPTOR_H
 #define STF_DESCRIPTOR_H
 
+#include "apart.h"
 #include "base.h"
 #include <steif/collection.h>
 #include <steif/descriptor.h>
@@ -47,6 +48,7 @@ typedef struct stf_trace {
   size_t steps;
   sunrealtype *t, *x; /* steps + 1 times; as many rows of `count` values */
   long double stage, stage_size;
+  stf_apart *apart; /* run in its coordinates; NULL: in those of the problem */
 } stf_trace;
 
 /* Run `steps` equal steps h of the method; t and x are the caller's. */

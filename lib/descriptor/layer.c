@@ -74,6 +74,7 @@ static int twin_error(layer *l, size_t lead, sunrealtype *work, sunrealtype *lev
   STEIF_TRY(twin_start(l, lead, &twin.t0, x0));
   twin.y0 = x0, twin.yp0 = NULL;
   stf_trace trace = {.count = (int)n, .steps = steps, .t = t, .x = x};
+  trace.apart = stf_subject_apart(s, l->method, l->start);
   STEIF_TRY(stf_trace_run(l->ctx, &twin, l->method, l->start, l->h, &trace));
   memcpy(exact, x0, n * sizeof *exact);
   STEIF_TRY(s->block.k ? stf_subject_smooth(s, rows, t, exact)
@@ -102,6 +103,7 @@ static int follow(layer *l, sunrealtype *t, sunrealtype *x, sunrealtype *exact,
 {
   const size_t n = (size_t)l->subject.n;
   stf_trace trace = {.count = (int)n, .steps = l->steps, .t = t, .x = x};
+  trace.apart = stf_subject_apart(&l->subject, l->method, l->start);
   STEIF_TRY(stf_trace_run(l->ctx, &l->subject.problem, l->method, l->start, l->h, &trace));
   STEIF_TRY(stf_subject_smooth(&l->subject, l->steps + 1, t, exact));
   compare(l, l->steps, x, exact, error);

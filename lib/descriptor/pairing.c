@@ -104,7 +104,7 @@ static int scale_sources(pairing *p, const sunrealtype *x0, const stf_sources *s
 static int staircase(pairing *p, bool answers)
 {
   return stf_staircase(p->ctx, p->n, p->E, p->F, p->analysis, p->x0,
-                       answers ? &p->sources : NULL, &p->stairs, &p->one, NULL, NULL);
+                       answers ? &p->sources : NULL, &p->stairs, &p->one, NULL);
 }
 
 static int schur(pairing *p)
@@ -313,29 +313,40 @@ int stf_dense_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
   return code;
 }
 
-/* Back to the unknowns and the right-hand sides as they were given. */
-static void restore(const pairing *p, sunrealtype *P, const stf_reduction *r)
+/* A := diag(left) A diag(right); NULL: I. */
+static void stretch(int n, const sunrealtype *left, const sunrealtype *right, bool over,
+                    sunrealtype *A)
 {
-  const size_t n = (size_t)p->n;
-  for (size_t j = 0; j < n; j++)
-    for (size_t i = 0; i < n; i++) {
-      const size_t at = j * n + i;
-      if (P) P[at] *= p->column[i] / p->column[j];
-      if (r) r->E[at] /= p->column[j], r->F[at] /= p->column[j];
-      for (size_t k = 0; r && k < (size_t)r->terms; k++) r->G[k * n * n + at] *= p->row[j];
-    }
+  const size_t m = (size_t)n;
+  for (size_t j = 0; j < m; j++)
+    for (size_t i = 0; i < m; i++)
+      A[j * m + i] *= (left ? left[i] : 1) * (right ? over ? 1 / right[j] : right[j] : 1);
+}
+
+/* Back to the unknowns and the right-hand sides as they were given. */
+static void restore(const pairing *p, const stf_parts *parts)
+{
+  const stf_reduction *r = parts->reduction;
+  const stf_decoupling *d = parts->decoupling;
+  const size_t size = (size_t)p->n * (size_t)p->n;
+  if (parts->slow) stretch(p->n, p->column, p->column, true, parts->slow);
+  if (r) stretch(p->n, NULL, p->column, true, r->E), stretch(p->n, NULL, p->column, true, r->F);
+  for (int k = 0; r && k < r->terms; k++)
+    stretch(p->n, NULL, p->row, false, r->G + (size_t)k * size);
+  if (!d) return;
+  stretch(p->n, NULL, p->row, false, d->G);
+  stretch(p->n, NULL, p->column, true, d->to);
+  stretch(p->n, p->column, NULL, false, d->back);
 }
 
 int stf_dense_parts(steif_context *ctx, SUNMatrix E, SUNMatrix F,
-                    const steif_analysis *analysis, sunrealtype *P,
-                    stf_reduction *reduction)
+                    const steif_analysis *analysis, const stf_parts *parts)
 {
   pairing p;
   int code = open(ctx, E, F, analysis, &p);
   if (code == STEIF_OK)
-    code = stf_staircase(ctx, p.n, p.E, p.F, analysis, p.x0, NULL, &p.stairs, &p.one, P,
-                         reduction);
-  if (code == STEIF_OK && p.stairs.regular) restore(&p, P, reduction);
+    code = stf_staircase(ctx, p.n, p.E, p.F, analysis, p.x0, NULL, &p.stairs, &p.one, parts);
+  if (code == STEIF_OK && p.stairs.regular) restore(&p, parts);
   const int regular = p.stairs.regular, index = p.stairs.index;
   const sunrealtype rcond = p.stairs.rcond, gap = p.stairs.gap;
   close(&p);

@@ -11,10 +11,8 @@ int stf_dense_structure(steif_context *ctx, SUNMatrix E, SUNMatrix F,
 int stf_dense_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                       const steif_analysis *analysis, const sunrealtype *x0,
                       const stf_sources *sources, steif_impulse *impulse);
-/* The slow projector, or a system of index 1; either may be NULL. STEIF_NOT_CERTIFIED where the
- * index is undecided. */
+/* STEIF_NOT_CERTIFIED where the index is undecided. */
 int stf_dense_parts(steif_context *ctx, SUNMatrix E, SUNMatrix F,
-                    const steif_analysis *analysis, sunrealtype *P,
-                    stf_reduction *reduction);
+                    const steif_analysis *analysis, const stf_parts *parts);
 
 #endif

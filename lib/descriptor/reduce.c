@@ -64,12 +64,13 @@ static int claim(stf_reduced *r, int index)
   r->maps.G = stf_allocate(r->ctx, (size_t)r->maps.terms * size + 1, sizeof *r->maps.G);
   if (!r->maps.G) return STEIF_NO_MEMORY;
   if (l->f) r->linear.f = force, r->linear.user = r;
-  STEIF_TRY(stf_dense_parts(r->ctx, l->E, l->F, &(steif_analysis){0}, NULL, &r->maps));
+  STEIF_TRY(stf_dense_parts(r->ctx, l->E, l->F, &(steif_analysis){0},
+                            &(stf_parts){.reduction = &r->maps}));
   if (r->slope) differentiate(r);
   return STEIF_OK;
 }
 
-static bool reducible(const steif_structure *s, bool keeps)
+bool stf_reducible(const steif_structure *s, bool keeps)
 {
   const bool dense = !strcmp(s->method, "staircase") || !strcmp(s->method, "qz");
   return dense && s->index > (keeps ? 0 : 1);
@@ -79,7 +80,7 @@ int stf_reduced_open(steif_context *ctx, const steif_linear *from,
                      const steif_structure *structure, bool keeps, stf_reduced *r)
 {
   *r = (stf_reduced){.ctx = ctx, .from = from, .n = (int)structure->n, .slope = keeps};
-  if (!reducible(structure, keeps)) return STEIF_OK;
+  if (!stf_reducible(structure, keeps)) return STEIF_OK;
   const int code = claim(r, structure->index);
   if (code) stf_reduced_close(r);
   return code;

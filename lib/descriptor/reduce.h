@@ -16,6 +16,8 @@ typedef struct stf_reduced {
   N_Vector g; /* room for a value of f */
 } stf_reduced;
 
+/* Was the infinite part split off, with something to gain: index above 1 (`keeps`: above 0)? */
+bool stf_reducible(const steif_structure *structure, bool keeps);
 /* Only for dense and small pencils of a decided index above 1: STEIF_OK with linear.E NULL for
  * others. `keeps`: for methods that do not damp algebraic unknowns, such as Gauss's, and for index 1
  * too; f is asked for one more derivative. */

@@ -141,7 +141,7 @@ int stf_split_impulse(const stf_split *split, int k, const stf_sources *sources,
   return STEIF_OK;
 }
 
-int stf_split_projector(stf_pool *pool, const stf_split *split, sunrealtype *slow)
+static int projector(stf_pool *pool, const stf_split *split, sunrealtype *slow)
 {
   const int n = split->n, m = split->m, f = n - m;
   const size_t head = (size_t)n * (size_t)m;
@@ -177,7 +177,18 @@ static void rows_of(const stf_split *split, const sunrealtype *A, bool algebraic
   stf_gemm('N', 'T', f, n, f, 1, A + (size_t)n * (size_t)m + m, n, finite, n, 0, B + m, n);
 }
 
-int stf_split_reduce(stf_pool *pool, const stf_split *split, stf_reduction *out)
+/* G = T above P_f^T, or above zeros. */
+static void sources_of(const stf_split *split, const sunrealtype *T, bool finite,
+                       sunrealtype *G)
+{
+  const size_t n = (size_t)split->n, m = (size_t)split->m;
+  for (size_t j = 0; j < n; j++) {
+    memcpy(G + j * n, T + j * m, m * sizeof *G);
+    for (size_t i = m; i < n; i++) G[j * n + i] = finite ? split->P[i * n + j] : 0;
+  }
+}
+
+static int reduce(stf_pool *pool, const stf_split *split, stf_reduction *out)
 {
   const int n = split->n, m = split->m;
   const size_t rows = (size_t)n, size = rows * rows;
@@ -188,16 +199,48 @@ int stf_split_reduce(stf_pool *pool, const stf_split *split, stf_reduction *out)
   rows_of(split, split->F, true, out->F);
   fast_rows(split, T);
   for (int k = 0; k < out->terms; k++) {
-    sunrealtype *G = out->G + (size_t)k * size;
-    for (size_t j = 0; j < rows; j++) {
-      memcpy(G + j * rows, T + j * (size_t)m, (size_t)m * sizeof *G);
-      for (size_t i = (size_t)m; i < rows; i++)
-        G[j * rows + i] = k ? 0 : split->P[i * rows + j];
-    }
+    sources_of(split, T, k == 0, out->G + (size_t)k * size);
     stf_gemm('N', 'N', m, n, m, -1, split->N, m, T, m, 0, next, m);
     memcpy(T, next, (size_t)m * rows * sizeof *T);
   }
   return STEIF_OK;
+}
+
+/* diag(A_inf, A_f) with A_inf m x m packed; NULL: I. */
+static void diagonal(const stf_split *split, const sunrealtype *head, const sunrealtype *A,
+                     sunrealtype *B)
+{
+  const size_t n = (size_t)split->n, m = (size_t)split->m;
+  memset(B, 0, n * n * sizeof *B);
+  for (size_t j = 0; j < m; j++)
+    for (size_t i = 0; i < m; i++) B[j * n + i] = head ? head[j * m + i] : i == j;
+  for (size_t j = m; j < n; j++) memcpy(B + j * n + m, A + j * n + m, (n - m) * sizeof *B);
+}
+
+static int decouple(stf_pool *pool, const stf_split *split, const stf_decoupling *out)
+{
+  const int n = split->n, m = split->m, f = n - m;
+  const size_t head = (size_t)n * (size_t)m, size = (size_t)n * (size_t)n;
+  sunrealtype *T = stf_claim_square(pool, n);
+  if (!T) return STEIF_NO_MEMORY;
+  diagonal(split, split->N, split->E, out->E);
+  diagonal(split, NULL, split->F, out->F);
+  fast_rows(split, T);
+  sources_of(split, T, true, out->G);
+  memcpy(out->back, split->Q, size * sizeof *T);
+  stf_gemm('N', 'N', n, f, m, 1, split->Q, n, split->R, m, 1, out->back + head, n);
+  for (int j = 0; j < n; j++)
+    for (int i = 0; i < n; i++)
+      out->to[(size_t)j * (size_t)n + (size_t)i] = split->Q[(size_t)i * (size_t)n + (size_t)j];
+  stf_gemm('N', 'T', m, n, f, -1, split->R, m, split->Q + head, n, 1, out->to, n);
+  return STEIF_OK;
+}
+
+int stf_split_give(stf_pool *pool, const stf_split *split, const stf_parts *parts)
+{
+  if (parts->slow) STEIF_TRY(projector(pool, split, parts->slow));
+  if (parts->reduction) STEIF_TRY(reduce(pool, split, parts->reduction));
+  return parts->decoupling ? decouple(pool, split, parts->decoupling) : STEIF_OK;
 }
 
 /* Norms of the rows and columns of Phi = Q_inf T. */

@@ -252,8 +252,7 @@ static int tell(const stairs *s, steif_structure *structure)
 
 static int run(stairs *s, const sunrealtype *E, const sunrealtype *F,
                const steif_analysis *analysis, const stf_sources *sources,
-               steif_structure *structure, steif_impulse *impulse, sunrealtype *slow,
-               stf_reduction *reduction)
+               steif_structure *structure, steif_impulse *impulse, const stf_parts *parts)
 {
   stf_split *p = &s->split;
   const unsigned seed = analysis->seed ? analysis->seed : 1;
@@ -264,16 +263,14 @@ static int run(stairs *s, const sunrealtype *E, const sunrealtype *F,
   if (s->singular)
     return stf_null_offenders(p->ctx, &s->svd, p->n, E, F, seed, s->tau, structure);
   if (s->levels > 1) STEIF_TRY(stf_split_offenders(s->pool, p, s->levels, structure));
-  if (slow) STEIF_TRY(stf_split_projector(s->pool, p, slow));
-  if (reduction) STEIF_TRY(stf_split_reduce(s->pool, p, reduction));
+  if (parts) STEIF_TRY(stf_split_give(s->pool, p, parts));
   return sources ? stf_split_impulse(p, s->levels, sources, impulse) : STEIF_OK;
 }
 
 int stf_staircase(steif_context *ctx, sunindextype n, const sunrealtype *E,
                   const sunrealtype *F, const steif_analysis *analysis, const sunrealtype *x0,
                   const stf_sources *sources, steif_structure *structure,
-                  steif_impulse *impulse, sunrealtype *slow_projector,
-                  stf_reduction *reduction)
+                  steif_impulse *impulse, const stf_parts *parts)
 {
   stairs s;
   stf_pool *pool = stf_pool_new(ctx);
@@ -281,7 +278,7 @@ int stf_staircase(steif_context *ctx, sunindextype n, const sunrealtype *E,
   (void)x0;
   int code = open(ctx, pool, (int)n, E, F, &s);
   if (code == STEIF_OK)
-    code = run(&s, E, F, analysis, sources, structure, impulse, slow_projector, reduction);
+    code = run(&s, E, F, analysis, sources, structure, impulse, parts);
   stf_pool_free(&pool);
   return code;
 }

@@ -294,5 +294,5 @@ int steif_projector_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
     by_dense(&a), ctx, STEIF_UNSUPPORTED,
     "the projector of order %lld is dense: choose the staircase to have it all the same",
     (long long)order(E));
-  return stf_dense_parts(ctx, E, F, &a, P, NULL);
+  return stf_dense_parts(ctx, E, F, &a, &(stf_parts){.slow = P});
 }

@@ -22,12 +22,24 @@ typedef struct stf_reduction {
   sunrealtype *E, *F, *G; /* G: terms of them */
 } stf_reduction;
 
+/* The system in coordinates z in which its infinite and finite part are apart, diag(N, E_f) z' +
+ * diag(I, F_f) z = G f with N strictly upper triangular: z = to x, x = back z. All n x n. */
+typedef struct stf_decoupling {
+  sunrealtype *E, *F, *G, *to, *back;
+} stf_decoupling;
+
+/* What else a staircase leaves; what is NULL is not wanted. */
+typedef struct stf_parts {
+  sunrealtype *slow; /* projector, n x n */
+  stf_reduction *reduction;
+  const stf_decoupling *decoupling;
+} stf_parts;
+
 /* Dense algorithms (staircase.c, qz.c): E and F column-major n x n. Each fills what it knows of
  * *structure (zeroed by the caller), and of *impulse when sources are given (index known). */
 int stf_staircase(steif_context *ctx, sunindextype n, const sunrealtype *E, const sunrealtype *F,
                   const steif_analysis *analysis, const sunrealtype *x0, const stf_sources *sources,
-                  steif_structure *structure, steif_impulse *impulse, sunrealtype *slow_projector,
-                  stf_reduction *reduction);
+                  steif_structure *structure, steif_impulse *impulse, const stf_parts *parts);
 int stf_qz(steif_context *ctx, sunindextype n, const sunrealtype *E, const sunrealtype *F,
            const steif_analysis *analysis, sunindextype infinite, const sunrealtype *x0,
            const stf_sources *sources, steif_structure *structure, steif_impulse *impulse);

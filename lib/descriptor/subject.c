@@ -20,6 +20,7 @@ static int analyse(stf_subject *s)
   STEIF_TRY(steif_impulse_find(s->ctx, l->E, l->F, s->problem.y0, s->problem.t0, l->f, l->user,
                                NULL, &s->structure, &s->impulse));
   s->index = s->impulse.index;
+  STEIF_TRY(stf_apart_open(s->ctx, l, &s->structure, &s->apart));
   return stf_reduced_open(s->ctx, l, &s->structure, false, &s->reduced);
 }
 
@@ -60,7 +61,14 @@ void stf_subject_close(stf_subject *s)
   steif_impulse_clear(s->ctx, &s->impulse);
   steif_structure_clear(s->ctx, &s->structure);
   stf_reduced_close(&s->reduced);
+  stf_apart_close(&s->apart);
   if (s->named && s->linear.E) SUNMatDestroy(s->linear.E), SUNMatDestroy(s->linear.F);
   if (s->named) steif_problem_clear(s->ctx, &s->problem);
   *s = (stf_subject){0};
+}
+
+stf_apart *stf_subject_apart(stf_subject *s, const char *method, const char *start)
+{
+  const bool exact = start ? !strcmp(start, "exact") : !!strstr(method, "start=exact");
+  return s->apart.linear.E && !exact ? &s->apart : NULL;
 }

@@ -4,6 +4,7 @@
 #ifndef STF_SUBJECT_H
 #define STF_SUBJECT_H
 
+#include "apart.h"
 #include "descriptor.h"
 #include "reduce.h"
 
@@ -19,6 +20,7 @@ typedef struct stf_subject {
   steif_structure structure;
   steif_impulse impulse;
   stf_reduced reduced; /* with the same smooth solutions, where there is one */
+  stf_apart apart;     /* the same system in other coordinates, where there are some */
 } stf_subject;
 
 /* linear NULL: the problem called `spec`. The subject stays where it is until it is closed. */
@@ -26,6 +28,8 @@ int stf_subject_open(steif_context *ctx, const char *spec, const steif_linear *l
                      const sunrealtype *x0, stf_subject *subject);
 void stf_subject_close(stf_subject *subject);
 
+/* The coordinates for runs; NULL: those of the problem, also for starts on its closed solution. */
+stf_apart *stf_subject_apart(stf_subject *subject, const char *method, const char *start);
 /* <x_m, g> for all m into value[n]; accuracy (a bound seen, 0 for closed formulas) and how it was
  * found, in words. */
 int stf_subject_pair(stf_subject *subject, sunrealtype *value, sunrealtype *accuracy, char *how,

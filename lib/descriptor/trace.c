@@ -33,11 +33,17 @@ int stf_jordan_open(steif_context *ctx, const char *spec, steif_problem *problem
   return code;
 }
 
+static sunrealtype component(const stf_trace *trace, int m, N_Vector y)
+{
+  const sunrealtype *value = N_VGetArrayPointer(y);
+  return trace->apart ? stf_apart_component(trace->apart, m, value) : value[m];
+}
+
 static void keep(const stf_trace *trace, size_t i, sunrealtype t, N_Vector y)
 {
   trace->t[i] = t;
-  const sunrealtype *value = N_VGetArrayPointer(y) + trace->first;
-  memcpy(trace->x + i * (size_t)trace->count, value, (size_t)trace->count * sizeof *value);
+  for (int m = 0; m < trace->count; m++)
+    trace->x[i * (size_t)trace->count + (size_t)m] = component(trace, trace->first + m, y);
 }
 
 /* h sum_j b_j X_j g(t_n + c_j h) of the step just made from t. */
@@ -53,7 +59,7 @@ static int pair_stages(steif_context *ctx, steif_solver *s, const char *method, 
               method);
   for (int j = 0; j < count; j++) {
     const sunrealtype g = steif_test_function(t + c[j] * h, 0);
-    const long double term = (long double)h * b[j] * g * N_VGetArrayPointer(X[j])[trace->first];
+    const long double term = (long double)h * b[j] * g * component(trace, trace->first, X[j]);
     trace->stage += term;
     trace->stage_size += fabsl(term);
   }
@@ -80,7 +86,12 @@ static int follow(steif_context *ctx, steif_solver *s, const char *method, sunre
 int stf_trace_run(steif_context *ctx, const steif_problem *problem, const char *method,
                   const char *start, sunrealtype h, stf_trace *trace)
 {
+  steif_problem apart;
   steif_options options = steif_defaults();
+  if (trace->apart) {
+    STEIF_TRY(stf_apart_problem(trace->apart, problem, &apart));
+    problem = &apart;
+  }
   options.h = h;
   options.t1 = problem->t0 + h * (sunrealtype)trace->steps;
   options.start = start;

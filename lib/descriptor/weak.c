@@ -68,6 +68,7 @@ static int pair(measure *w, int m, size_t steps, sunrealtype *value, sunrealtype
   stf_trace trace = {
     .first = m, .count = 1, .steps = steps, .stages = w->query->convention == STEIF_STAGE};
   int code = STEIF_NO_MEMORY;
+  trace.apart = stf_subject_apart(&w->subject, w->query->method, w->query->start);
   trace.t = stf_allocate(w->ctx, steps + 1, sizeof *trace.t);
   trace.x = stf_allocate(w->ctx, steps + 1, sizeof *trace.x);
   if (trace.t && trace.x) code = run(w, &trace, value, size);
