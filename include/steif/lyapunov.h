@@ -14,7 +14,9 @@
  *   sunrealtype exponent[3];
  *   steif_lyapunov(ctx, &lorenz, "rk4", &o, exponent, NULL, NULL);
  *
- * The problem is an ode with .f and .jac on serial vectors. Tables (gauss:s=2, dirk:alexander2,
+ * The problem is an ode with .f and .jac on serial vectors, or a DAE of index 1, in the mass form or
+ * as F(t, y, y') = 0 with .idajac and a constant dF/dy': then there are as many exponents as its rank,
+ * which --count must say, and the method forgets algebraic errors, M(inf) = 0. Tables (gauss:s=2, dirk:alexander2,
  * rk4, ...), be, bdf:p=2 .. 6 and glm:TABLE have such a recurrence; others give
  * STEIF_UNSUPPORTED.
  *
@@ -48,7 +50,7 @@ typedef struct steif_lyapunov_facts {
   int linear;          /* was J taken as free of y? */
   sunrealtype h, time; /* step in use, time averaged over */
   sunrealtype sum; /* of the exponents; with all n it equals, to the order of the method, ... */
-  sunrealtype trace; /* ... the mean of trace J */
+  sunrealtype trace; /* ... the mean of trace J; NaN for a DAE */
   sunrealtype mu;    /* largest running average of the first exponent in the second half */
   sunrealtype
     dimension; /* Kaplan and Yorke's j + (sum of the j largest) / |the next|, j the last

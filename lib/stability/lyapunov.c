@@ -80,7 +80,7 @@ static int turn(spectrum *s)
 
 static sunrealtype trace(const stf_variation *v)
 {
-  sunrealtype sum = 0;
+  sunrealtype sum = v->E ? NAN : 0;
   for (int i = 0; i < v->g->r; i++)
     for (int a = 0; a < v->d; a++) sum += v->weight[i] * v->J[(i * v->d + a) * v->d + a];
   return sum;

@@ -20,6 +20,8 @@ static int answer(const stf_variation *v, int returned, const char *what, sunrea
 
 static int slope(stf_variation *v, sunrealtype t, N_Vector y, N_Vector out)
 {
+  if (v->problem->F)
+    return answer(v, v->problem->F(t, y, v->yp, out, v->problem->user), "F", t);
   return answer(v, v->problem->f(t, y, out, v->problem->user), "f", t);
 }
 
@@ -43,14 +45,79 @@ static void spread(SUNMatrix M, int d, sunrealtype *J)
   }
 }
 
+/* dF/dy + c dF/dy' by rows. */
+static int implicit_matrix(stf_variation *v, sunrealtype t, sunrealtype c, N_Vector y,
+                           sunrealtype *out)
+{
+  const steif_problem *p = v->problem;
+  if (SUNMatGetID(v->M) != SUNMATRIX_SPARSE) SUNMatZero(v->M);
+  STEIF_TRY(answer(
+    v, p->idajac(t, c, y, v->yp, v->fy, v->M, p->user, v->slope[0], v->slope[1], v->slope[2]),
+    "idajac", t));
+  spread(v->M, v->d, out);
+  return STEIF_OK;
+}
+
 int stf_variation_matrix(stf_variation *v, int at, sunrealtype t, N_Vector y)
 {
   const steif_problem *p = v->problem;
+  const size_t size = (size_t)v->d * (size_t)v->d;
+  sunrealtype *J = v->J + (size_t)at * size;
   STEIF_TRY(slope(v, t, y, v->fy));
+  if (p->F) {
+    STEIF_TRY(implicit_matrix(v, t, 0, y, J));
+    for (size_t e = 0; e < size; e++) J[e] = -J[e];
+    return STEIF_OK;
+  }
   if (SUNMatGetID(v->M) != SUNMATRIX_SPARSE) SUNMatZero(v->M);
   STEIF_TRY(answer(v, p->jac(t, y, v->fy, v->M, p->user, v->slope[0], v->slope[1], v->slope[2]),
                    "jac", t));
-  spread(v->M, v->d, v->J + (size_t)at * (size_t)v->d * (size_t)v->d);
+  spread(v->M, v->d, J);
+  return STEIF_OK;
+}
+
+/* By elimination with full pivots; A is lost. */
+static int rank_of(int n, sunrealtype *A)
+{
+  sunrealtype first = 0;
+  for (int k = 0; k < n; k++) {
+    int row = k, column = k;
+    for (int i = k; i < n; i++)
+      for (int j = k; j < n; j++)
+        if (fabs(A[i * n + j]) > fabs(A[row * n + column])) row = i, column = j;
+    const sunrealtype pivot = A[row * n + column];
+    if (k == 0) first = fabs(pivot);
+    if (!(fabs(pivot) > 1e-12 * first)) return k;
+    for (int j = 0; j < n; j++) {
+      const sunrealtype kept = A[k * n + j];
+      A[k * n + j] = A[row * n + j], A[row * n + j] = kept;
+    }
+    for (int i = 0; i < n; i++) {
+      const sunrealtype kept = A[i * n + k];
+      A[i * n + k] = A[i * n + column], A[i * n + column] = kept;
+    }
+    for (int i = k + 1; i < n; i++)
+      for (int j = n - 1; j >= k; j--) A[i * n + j] -= A[i * n + k] / pivot * A[k * n + j];
+  }
+  return n;
+}
+
+int stf_variation_leading(stf_variation *v)
+{
+  const steif_problem *p = v->problem;
+  const size_t size = (size_t)v->d * (size_t)v->d;
+  STEIF_TRY(slope(v, v->t, v->y, v->fy));
+  if (p->F) {
+    STEIF_TRY(implicit_matrix(v, v->t, 0, v->y, v->matrix));
+    STEIF_TRY(implicit_matrix(v, v->t, 1, v->y, v->E));
+    for (size_t e = 0; e < size; e++) v->E[e] -= v->matrix[e];
+  } else {
+    if (SUNMatGetID(v->M) != SUNMATRIX_SPARSE) SUNMatZero(v->M);
+    STEIF_TRY(answer(v, p->E(v->t, v->y, v->yp, v->M, p->user), "E", v->t));
+    spread(v->M, v->d, v->E);
+  }
+  memcpy(v->matrix, v->E, size * sizeof *v->E);
+  v->finite = rank_of(v->d, v->matrix);
   return STEIF_OK;
 }
 
@@ -135,15 +202,17 @@ static void stage_slope(stf_variation *v, int i)
                         v->K + i * v->d * v->m);
 }
 
-/* Block (i, l) of I - h J C at (row, column) of the matrix of order n. */
+/* Block (i, l) of E - h J C at (row, column) of the matrix of order n. */
 static void block(stf_variation *v, int i, int l, int n, int row, int column)
 {
   const int d = v->d;
   const sunrealtype c = v->h * v->g->C[i * v->g->r + l];
   const sunrealtype *J = v->J + (size_t)i * (size_t)d * (size_t)d;
   for (int a = 0; a < d; a++)
-    for (int b = 0; b < d; b++)
-      v->matrix[(row + a) * n + column + b] = (i == l && a == b) - c * J[a * d + b];
+    for (int b = 0; b < d; b++) {
+      const sunrealtype e = v->E ? v->E[a * d + b] : a == b;
+      v->matrix[(row + a) * n + column + b] = (i == l ? e : 0) - c * J[a * d + b];
+    }
 }
 
 static bool stage_by_stage(stf_variation *v)

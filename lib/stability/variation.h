@@ -1,7 +1,7 @@
-/* variation.h: one step of a method on W' = J(t, y) W as a general linear method (glm.h).
+/* variation.h: one step of a method on E W' = J(t, y) W as a general linear method (glm.h).
  *
- *   K_i = h J_i (sum_j U_ij X_j + sum_l C_il K_l),  X+ = V X + D K,  J_i at t_n + xi_i h,
- * t_n the time of the newest block of X.
+ *   E K_i = h J_i (sum_j U_ij X_j + sum_l C_il K_l),  X+ = V X + D K,  J_i at t_n + xi_i h,
+ * t_n the time of the newest block of X. E is the identity, or constant of a DAE of index 1.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_VARIATION_H
@@ -29,14 +29,17 @@ typedef struct stf_variation {
   sunrealtype weight[STEIF_STAGES]; /* ell D */
   sunrealtype finish[STF_LEAST];    /* the solution in (X+; K; X) */
   int d, m;
+  int finite; /* rank of E */
   bool linear, filled;
   sunrealtype h, t, t0; /* t = t0 + count h */
   long count;
   sunrealtype *X, *next, *K, *base, *J, *matrix;
+  sunrealtype *E; /* NULL: the identity */
   stf_algebra algebra;
   SUNMatrix M;
   N_Vector y, fy, slope[3]; /* y: state of an explicit trajectory, else the start */
   N_Vector stage, *f;       /* explicit trajectories: f_i */
+  N_Vector yp;              /* 0: an affine F has the same matrices everywhere in y' */
   steif_solver *solver;     /* implicit trajectories */
 } stf_variation;
 
@@ -48,6 +51,8 @@ int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *
 int stf_variation_step(stf_variation *v);
 /* J and h J of linear problems depend on t alone: the matrix at t into block `at` of v->J. */
 int stf_variation_matrix(stf_variation *v, int at, sunrealtype t, N_Vector y);
+/* E at the start, and its rank. */
+int stf_variation_leading(stf_variation *v);
 /* w = sum_j ell_j X_j, d x m. */
 void stf_variation_principal(const stf_variation *v, sunrealtype *w);
 /* The solution at t after a step, d x m. */

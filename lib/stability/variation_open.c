@@ -1,5 +1,6 @@
 /* variation_open.c: preparing the variational equation: checks, room, is the problem linear.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "stability.h"
 #include "variation.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
@@ -27,11 +28,13 @@ static int suits(steif_context *ctx, const steif_problem *p)
 {
   const int form = steif_problem_form(ctx, p);
   if (!form) return steif_status(ctx);
-  STEIF_CHECK(form == STEIF_ODE, ctx, STEIF_UNSUPPORTED,
-              "problem '%s' has the form %s: exponents are computed of y' = f(t, y)", p->name,
-              steif_form_name(form));
-  STEIF_CHECK(p->jac, ctx, STEIF_UNSUPPORTED,
-              "problem '%s' has no Jacobian: the variational equation needs .jac", p->name);
+  STEIF_CHECK(form != STEIF_DESCRIPTOR, ctx, STEIF_UNSUPPORTED,
+              "problem '%s' has the form %s: its exponents are the real parts of the finite "
+              "eigenvalues, which the analysis of pencils finds",
+              p->name, steif_form_name(form));
+  STEIF_CHECK(p->F ? p->idajac != NULL : p->jac != NULL, ctx, STEIF_UNSUPPORTED,
+              "problem '%s' has no Jacobian: the variational equation needs .%s", p->name,
+              p->F ? "idajac" : "jac");
   STEIF_CHECK(p->y0 && p->storage != STEIF_KRYLOV && p->n <= LARGEST, ctx, STEIF_UNSUPPORTED,
               "problem '%s' with n = %lld needs .y0, a storage with a matrix and n <= %d",
               p->name, (long long)p->n, LARGEST);
@@ -57,10 +60,10 @@ static int open_vectors(stf_pool *pool, stf_variation *v)
   STEIF_CHECK(v->y, v->ctx, STEIF_NO_MEMORY, "no memory for a vector of %d", v->d);
   STEIF_TRY(stf_claim_owner(pool, v->y, destroy_vector));
   memcpy(N_VGetArrayPointer(v->y), p->y0, (size_t)p->n * sizeof *p->y0);
-  N_Vector *more = stf_claim_vectors(pool, 5, v->y);
+  N_Vector *more = stf_claim_vectors(pool, 6, v->y);
   v->f = stf_claim_vectors(pool, v->g->r, v->y);
   if (!more || !v->f) return STEIF_NO_MEMORY;
-  v->fy = more[0], v->stage = more[1];
+  v->fy = more[0], v->stage = more[1], v->yp = more[5];
   for (int i = 0; i < 3; i++) v->slope[i] = more[2 + i];
   v->M = p->storage == STEIF_DENSE  ? SUNDenseMatrix(p->n, p->n, sun)
          : p->storage == STEIF_BAND ? SUNBandMatrix(p->n, p->upper, p->lower, sun)
@@ -82,6 +85,52 @@ static int open_blocks(stf_pool *pool, stf_variation *v)
   v->matrix = stf_claim(pool, order * order, sizeof *v->X);
   if (!v->X || !v->next || !v->K || !v->base || !v->J || !v->matrix) return STEIF_NO_MEMORY;
   return stf_algebra_open(pool, (int)order, v->d, v->m, &v->algebra);
+}
+
+/* Algebraic components of X are as consistent as a step of backward Euler leaves them, and stay so
+ * where rho(M(inf)) = 0. */
+static int open_algebraic(stf_pool *pool, stf_variation *v)
+{
+  const size_t size = (size_t)v->d * (size_t)v->d;
+  const sunrealtype far[2] = {INFINITY, 0};
+  sunrealtype left = NAN;
+  v->finite = v->d;
+  if (!v->problem->F && !v->problem->E) return STEIF_OK;
+  v->E = stf_claim(pool, size, sizeof *v->E);
+  if (!v->E) return STEIF_NO_MEMORY;
+  STEIF_TRY(stf_variation_leading(v));
+  bool implicit = true;
+  for (int i = 0; i < v->g->r; i++) implicit = implicit && v->g->C[i * v->g->r + i] != 0;
+  STEIF_TRY(steif_spectral_radius(v->ctx, v->method, far, &left));
+  STEIF_CHECK(implicit || v->finite == v->d, v->ctx, STEIF_UNSUPPORTED,
+              "%s has explicit stages, which a singular E such as that of '%s' does not allow: "
+              "take bdf or a Radau IIA or SDIRK method",
+              v->method, v->problem->name);
+  STEIF_CHECK(
+    left < 1e-9 || v->finite == v->d, v->ctx, STEIF_UNSUPPORTED,
+    "%s keeps |M(inf)| = %g of what is wrong in algebraic components such as those of "
+    "'%s': take bdf or a Radau IIA or SDIRK method",
+    v->method, left, v->problem->name);
+  return STEIF_OK;
+}
+
+static int consistent(stf_variation *v)
+{
+  const int d = v->d, m = v->m;
+  if (v->finite == d) return STEIF_OK;
+  STEIF_TRY(stf_variation_matrix(v, 0, v->t, v->y));
+  for (int e = 0; e < d * d; e++) v->matrix[e] = v->E[e] - v->h * v->J[e];
+  for (int i = 0; i < m; i++) /* directions without an order among them */
+    for (int a = 0; a < d; a++) v->base[a * m + i] = sin(1 + a + sqrt(2) * (i + 1) * (a + 1));
+  stf_variation_product(d, m, 1, v->E, v->base, v->K);
+  STEIF_CHECK(
+    stf_eliminate(d, m, v->matrix, v->K, &v->algebra), v->ctx, STEIF_SINGULAR,
+    "E - h J of '%s' is singular at t = %g: its index is above 1, or 1/h an eigenvalue",
+    v->problem->name, v->t);
+  for (int j = 0; j < v->g->k; j++)
+    for (int e = 0; e < d * m; e++)
+      v->X[j * d * m + e] = v->g->W[j * (v->g->order + 1)] * v->K[e];
+  return STEIF_OK;
 }
 
 /* J at y0 and at y0 + (1 + |y0|) times two irrational directions is the same, entry by entry.
@@ -151,10 +200,15 @@ int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *
               "%d exponents were asked for: '%s' has 1 to %d", m, problem->name, v->d);
   STEIF_TRY(open_vectors(pool, v));
   STEIF_TRY(open_blocks(pool, v));
+  STEIF_TRY(open_algebraic(pool, v));
+  STEIF_CHECK(m <= v->finite, ctx, STEIF_BAD_INPUT,
+              "%d exponents were asked for: '%s' has 1 to %d, the rank of its leading matrix",
+              m, problem->name, v->finite);
   v->linear = linear > 0 || problem->linear;
   if (linear == 0 && !v->linear) STEIF_TRY(probe(v));
   for (int j = 0; j < v->g->k; j++)
     for (int i = 0; i < m; i++)
       v->X[(j * v->d + i) * m + i] = v->g->W[j * (v->g->order + 1)]; /* u */
+  STEIF_TRY(consistent(v));
   return open_trajectory(pool, v, t1);
 }
