@@ -93,6 +93,13 @@ static void gauss_stays_on_the_slow_manifold(void)
     for (int k = 0; k < 4; k++) CHECK(look(&rober, methods[m], rtol[k]));
 }
 
+/* Rounding in the amplifier's algebraic unknowns is of the size of this tolerance. */
+static void the_amplifier_reaches_eleven_digits(void)
+{
+  const row transamp = {"transamp", 0};
+  CHECK(look(&transamp, "auto", 1e-11));
+}
+
 /* No estimate of theirs would tell that the multipliers are wrong. */
 static void methods_that_miss_multipliers_refuse(void)
 {
@@ -161,6 +168,7 @@ static void counts_do_not_grow(void)
 CU_TestInfo tests_of_success[] = {
   {"success means digits", success_means_digits},
   {"Gauss stays on the slow manifold", gauss_stays_on_the_slow_manifold},
+  {"the amplifier reaches eleven digits", the_amplifier_reaches_eleven_digits},
   {"methods that miss multipliers refuse", methods_that_miss_multipliers_refuse},
   {"BDF takes the stable order", bdf_takes_the_stable_order},
   {"counts do not grow", counts_do_not_grow},
