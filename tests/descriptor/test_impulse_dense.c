@@ -62,11 +62,13 @@ static void kernel_of_E_does_not_matter(void)
   steif_context *ctx = steif_context_new(NULL);
   SUNMatrix E = dense5(ctx, ut5_E), F = dense5(ctx, ut5_F);
   const double a = 37.25, moved[5] = {1 - a, 2 - a, 3 + a, 4, 5};
-  for (int i = 0; i < 2; i++) {
+  const steif_analysis by[] = {{.algorithm = STEIF_STAIRCASE},
+                               {.algorithm = STEIF_QZ},
+                               {.algorithm = STEIF_CONTOUR, .radius = 30, .points = 32}};
+  for (int i = 0; i < 3; i++) {
     steif_impulse impulse;
-    CHECK(steif_impulse_find(ctx, E, F, moved, 0, force, NULL,
-                             &(steif_analysis){.algorithm = both[i]}, NULL, &impulse) == 0);
-    exact_to(&impulse, 1e-11);
+    CHECK(!steif_impulse_find(ctx, E, F, moved, 0, force, NULL, by + i, NULL, &impulse));
+    exact_to(&impulse, i < 2 ? 1e-11 : 1e-9);
     steif_impulse_clear(ctx, &impulse);
   }
   SUNMatDestroy(E), SUNMatDestroy(F);
