@@ -14,11 +14,11 @@
  *   sunrealtype exponent[3];
  *   steif_lyapunov(ctx, &lorenz, "rk4", &o, exponent, NULL, NULL);
  *
- * The problem is an ode with .f and .jac on serial vectors, or a DAE of index 1, in the mass form or
- * as F(t, y, y') = 0 with .idajac and a constant dF/dy': then there are as many exponents as its rank,
- * which --count must say, and the method forgets algebraic errors, M(inf) = 0. Tables (gauss:s=2, dirk:alexander2,
- * rk4, ...), be, bdf:p=2 .. 6 and glm:TABLE have such a recurrence; others give
- * STEIF_UNSUPPORTED.
+ * The problem is an ode with .f and .jac on serial vectors, or a DAE of index 1 in the mass form or as
+ * F(t, y, y') = 0 with .idajac and a constant dF/dy'. Then there are as many exponents as its rank,
+ * which options.count must say, and the method has to forget algebraic errors: M(inf) = 0. Tables
+ * (gauss:s=2, dirk:alexander2, rk4, ...), be, bdf:p=2 .. 6 and glm:TABLE have such a recurrence;
+ * others give STEIF_UNSUPPORTED.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_LYAPUNOV_H
