@@ -34,11 +34,11 @@ static int claim(stf_apart *a)
               "no memory for dense matrices of order %d", a->n);
   if (!(a->z0 = stf_allocate(a->ctx, 3 * size + n, sizeof *a->z0))) return STEIF_NO_MEMORY;
   sunrealtype *maps = a->z0 + n;
-  a->maps = (stf_decoupling){
-    SM_DATA_D(a->linear.E), SM_DATA_D(a->linear.F), maps, maps + size, maps + 2 * size};
+  a->maps = (stf_decoupling){SM_DATA_D(a->linear.E), SM_DATA_D(a->linear.F), maps, maps + size,
+                             maps + 2 * size};
   if (a->from->f) a->linear.f = force, a->linear.user = a;
   return stf_dense_parts(a->ctx, a->from->E, a->from->F, &(steif_analysis){0},
-                         &(stf_parts){.decoupling = &a->maps});
+                         &(stf_pieces){.decoupling = &a->maps});
 }
 
 int stf_apart_open(steif_context *ctx, const steif_linear *from,

@@ -79,7 +79,7 @@ int stf_split_impulse(const stf_split *split, int k, const stf_sources *sources,
                       steif_impulse *impulse);
 /* The slow projector Q [0 R; 0 I] Q^T; w = sum_j (-N)^j F_inf^{-1} [I L] P^T f^(j) above E_f v' +
  * F_f v = P_f^T f, in the unknowns x; the same in z = (w, v). */
-int stf_split_give(stf_pool *pool, const stf_split *split, const stf_parts *parts);
+int stf_split_give(stf_pool *pool, const stf_split *split, const stf_pieces *parts);
 /* Equations and unknowns that carry the leading Laurent coefficient Phi_{k-1}. */
 int stf_split_offenders(stf_pool *pool, stf_split *split, int k, steif_structure *structure);
 

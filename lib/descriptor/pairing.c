@@ -324,7 +324,7 @@ static void stretch(int n, const sunrealtype *left, const sunrealtype *right, bo
 }
 
 /* Back to the unknowns and the right-hand sides as they were given. */
-static void restore(const pairing *p, const stf_parts *parts)
+static void restore(const pairing *p, const stf_pieces *parts)
 {
   const stf_reduction *r = parts->reduction;
   const stf_decoupling *d = parts->decoupling;
@@ -340,7 +340,7 @@ static void restore(const pairing *p, const stf_parts *parts)
 }
 
 int stf_dense_parts(steif_context *ctx, SUNMatrix E, SUNMatrix F,
-                    const steif_analysis *analysis, const stf_parts *parts)
+                    const steif_analysis *analysis, const stf_pieces *parts)
 {
   pairing p;
   int code = open(ctx, E, F, analysis, &p);

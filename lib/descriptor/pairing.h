@@ -13,6 +13,6 @@ int stf_dense_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                       const stf_sources *sources, steif_impulse *impulse);
 /* STEIF_NOT_CERTIFIED where the index is undecided. */
 int stf_dense_parts(steif_context *ctx, SUNMatrix E, SUNMatrix F,
-                    const steif_analysis *analysis, const stf_parts *parts);
+                    const steif_analysis *analysis, const stf_pieces *parts);
 
 #endif

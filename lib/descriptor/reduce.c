@@ -65,7 +65,7 @@ static int claim(stf_reduced *r, int index)
   if (!r->maps.G) return STEIF_NO_MEMORY;
   if (l->f) r->linear.f = force, r->linear.user = r;
   STEIF_TRY(stf_dense_parts(r->ctx, l->E, l->F, &(steif_analysis){0},
-                            &(stf_parts){.reduction = &r->maps}));
+                            &(stf_pieces){.reduction = &r->maps}));
   if (r->slope) differentiate(r);
   return STEIF_OK;
 }

@@ -165,7 +165,8 @@ static void fast_rows(const stf_split *split, sunrealtype *T)
 }
 
 /* [I -R] Q^T, with which w is had from x, or zeros above A_f Q_f^T. */
-static void rows_of(const stf_split *split, const sunrealtype *A, bool algebraic, sunrealtype *B)
+static void rows_of(const stf_split *split, const sunrealtype *A, bool algebraic,
+                    sunrealtype *B)
 {
   const int n = split->n, m = split->m, f = n - m;
   const sunrealtype *finite = split->Q + (size_t)n * (size_t)m;
@@ -236,7 +237,7 @@ static int decouple(stf_pool *pool, const stf_split *split, const stf_decoupling
   return STEIF_OK;
 }
 
-int stf_split_give(stf_pool *pool, const stf_split *split, const stf_parts *parts)
+int stf_split_give(stf_pool *pool, const stf_split *split, const stf_pieces *parts)
 {
   if (parts->slow) STEIF_TRY(projector(pool, split, parts->slow));
   if (parts->reduction) STEIF_TRY(reduce(pool, split, parts->reduction));

@@ -252,7 +252,7 @@ static int tell(const stairs *s, steif_structure *structure)
 
 static int run(stairs *s, const sunrealtype *E, const sunrealtype *F,
                const steif_analysis *analysis, const stf_sources *sources,
-               steif_structure *structure, steif_impulse *impulse, const stf_parts *parts)
+               steif_structure *structure, steif_impulse *impulse, const stf_pieces *parts)
 {
   stf_split *p = &s->split;
   const unsigned seed = analysis->seed ? analysis->seed : 1;
@@ -270,15 +270,14 @@ static int run(stairs *s, const sunrealtype *E, const sunrealtype *F,
 int stf_staircase(steif_context *ctx, sunindextype n, const sunrealtype *E,
                   const sunrealtype *F, const steif_analysis *analysis, const sunrealtype *x0,
                   const stf_sources *sources, steif_structure *structure,
-                  steif_impulse *impulse, const stf_parts *parts)
+                  steif_impulse *impulse, const stf_pieces *parts)
 {
   stairs s;
   stf_pool *pool = stf_pool_new(ctx);
   if (!pool) return STEIF_NO_MEMORY;
   (void)x0;
   int code = open(ctx, pool, (int)n, E, F, &s);
-  if (code == STEIF_OK)
-    code = run(&s, E, F, analysis, sources, structure, impulse, parts);
+  if (code == STEIF_OK) code = run(&s, E, F, analysis, sources, structure, impulse, parts);
   stf_pool_free(&pool);
   return code;
 }

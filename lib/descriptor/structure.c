@@ -58,8 +58,7 @@ static int check(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analy
   STEIF_CHECK(order(E) == order(F), ctx, STEIF_BAD_INPUT,
               "E is of order %lld, F of order %lld: they must be equal", (long long)order(E),
               (long long)order(F));
-  STEIF_CHECK((int)analysis->algorithm >= STEIF_AUTOMATIC &&
-                analysis->algorithm <= STEIF_ARRAY,
+  STEIF_CHECK((int)analysis->algorithm >= STEIF_AUTOMATIC && analysis->algorithm <= STEIF_ARRAY,
               ctx, STEIF_BAD_INPUT, "algorithm %d does not exist: choose 0 .. %d",
               (int)analysis->algorithm, STEIF_ARRAY);
   STEIF_CHECK(!(analysis->radius < 0) && isfinite(analysis->radius), ctx, STEIF_BAD_INPUT,
@@ -294,5 +293,5 @@ int steif_projector_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
     by_dense(&a), ctx, STEIF_UNSUPPORTED,
     "the projector of order %lld is dense: choose the staircase to have it all the same",
     (long long)order(E));
-  return stf_dense_parts(ctx, E, F, &a, &(stf_parts){.slow = P});
+  return stf_dense_parts(ctx, E, F, &a, &(stf_pieces){.slow = P});
 }

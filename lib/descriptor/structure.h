@@ -9,9 +9,9 @@
 /* Right-hand sides of the Laurent formulas: columns E x0, f, f', ..., f^(derivatives). */
 typedef struct stf_sources {
   sunindextype n;
-  int derivatives;         /* highest order of f that is there */
-  const sunrealtype *Ex0;  /* n */
-  const sunrealtype *f;    /* (derivatives + 1) x n by rows; NULL: f = 0 */
+  int derivatives;        /* highest order of f that is there */
+  const sunrealtype *Ex0; /* n */
+  const sunrealtype *f;   /* (derivatives + 1) x n by rows; NULL: f = 0 */
 } stf_sources;
 
 /* A system of index 1 with the smooth solutions of a given one, E x' + F x = sum_j G_j f^(j): the
@@ -29,17 +29,18 @@ typedef struct stf_decoupling {
 } stf_decoupling;
 
 /* What else a staircase leaves; what is NULL is not wanted. */
-typedef struct stf_parts {
+typedef struct stf_pieces {
   sunrealtype *slow; /* projector, n x n */
   stf_reduction *reduction;
   const stf_decoupling *decoupling;
-} stf_parts;
+} stf_pieces;
 
 /* Dense algorithms (staircase.c, qz.c): E and F column-major n x n. Each fills what it knows of
  * *structure (zeroed by the caller), and of *impulse when sources are given (index known). */
-int stf_staircase(steif_context *ctx, sunindextype n, const sunrealtype *E, const sunrealtype *F,
-                  const steif_analysis *analysis, const sunrealtype *x0, const stf_sources *sources,
-                  steif_structure *structure, steif_impulse *impulse, const stf_parts *parts);
+int stf_staircase(steif_context *ctx, sunindextype n, const sunrealtype *E,
+                  const sunrealtype *F, const steif_analysis *analysis, const sunrealtype *x0,
+                  const stf_sources *sources, steif_structure *structure,
+                  steif_impulse *impulse, const stf_pieces *parts);
 int stf_qz(steif_context *ctx, sunindextype n, const sunrealtype *E, const sunrealtype *F,
            const steif_analysis *analysis, sunindextype infinite, const sunrealtype *x0,
            const stf_sources *sources, steif_structure *structure, steif_impulse *impulse);
@@ -47,17 +48,20 @@ int stf_qz(steif_context *ctx, sunindextype n, const sunrealtype *E, const sunre
 /* Sparse algorithms (contour.c, drazin.c): E and F sparse CSC. */
 int stf_contour(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
                 steif_structure *structure);
-int stf_contour_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
-                        const sunrealtype *x0, const stf_sources *sources,
-                        steif_structure *structure, steif_impulse *impulse);
-int stf_drazin_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
-                       const sunrealtype *x0, const stf_sources *sources,
-                       steif_structure *structure, steif_impulse *impulse);
+int stf_contour_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                        const steif_analysis *analysis, const sunrealtype *x0,
+                        const stf_sources *sources, steif_structure *structure,
+                        steif_impulse *impulse);
+int stf_drazin_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                       const steif_analysis *analysis, const sunrealtype *x0,
+                       const stf_sources *sources, steif_structure *structure,
+                       steif_impulse *impulse);
 
 /* By sparse QR (array.c); STEIF_UNSUPPORTED where it is not built in. */
-int stf_array_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
-                      const sunrealtype *x0, const stf_sources *sources,
-                      steif_structure *structure, steif_impulse *impulse);
+int stf_array_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                      const steif_analysis *analysis, const sunrealtype *x0,
+                      const stf_sources *sources, steif_structure *structure,
+                      steif_impulse *impulse);
 
 /* Combinatorics of the pattern (matching.c): structural rank, degree (maximum-weight perfect
  * matching, weight 1 on entries of E), and by the Dulmage-Mendelsohn decomposition the equations
@@ -70,8 +74,8 @@ int stf_matching(steif_context *ctx, SUNMatrix E, SUNMatrix F, sunindextype *ran
 int stf_structure_list(steif_context *ctx, sunindextype count, sunindextype **list);
 int stf_impulse_claim(steif_context *ctx, sunindextype n, int index, steif_impulse *impulse);
 /* The three residuals of steif_impulse from its x_plus and c. */
-void stf_impulse_residuals(SUNMatrix E, SUNMatrix F, const sunrealtype *x0, const sunrealtype *f,
-                           steif_impulse *impulse);
+void stf_impulse_residuals(SUNMatrix E, SUNMatrix F, const sunrealtype *x0,
+                           const sunrealtype *f, steif_impulse *impulse);
 
 /* Index of each unknown up to 3 from the Laurent coefficients at infinity (stf_release it); NULL
  * where all are 1. */

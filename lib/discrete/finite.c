@@ -126,7 +126,7 @@ static int reduce(split *x, steif_finite_part *part)
       .terms = (int)terms, .E = work, .F = work + square, .G = work + 4 * square};
     x->X = work + 2 * square, x->GB = x->maps.G + terms * square;
     code = stf_dense_parts(x->ctx, x->E, x->F, &(steif_analysis){0},
-                           &(stf_parts){.reduction = &x->maps});
+                           &(stf_pieces){.reduction = &x->maps});
   }
   if (code == STEIF_OK) code = invert(x);
   for (size_t j = 0; code == STEIF_OK && j < terms; j++)
