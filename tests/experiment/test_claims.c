@@ -2,6 +2,7 @@
  * measured. Numbers are by hand or of closed forms, unless a source is named.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
+#include <complex.h>
 #include <nvector/nvector_serial.h>
 #include <steif/steif.h>
 #include <string.h>
@@ -264,6 +265,41 @@ static void the_period_of_van_der_pol(void)
             40.653833);
 }
 
+/* (-4 - z + e^z (4 - 3 z + z^2)) / z^3 = phi_1 - 3 phi_2 + 4 phi_3, a weight of ETDRK4, as it stands. */
+static double complex weight(double complex z)
+{
+  return (-4 - z + cexp(z) * (4 - 3 * z + z * z)) / (z * z * z);
+}
+
+/* The mean over M points of the circle of radius 1 about z (Kassam and Trefethen, 2005). */
+static double by_circle(double z, int M)
+{
+  double sum = 0;
+  for (int j = 0; j < M; j++) sum += creal(weight(z + cexp(2 * pi * I * (j + 0.5) / M)));
+  return sum / M;
+}
+
+static double by_phi(double z)
+{
+  double value[4], im[4];
+  CHECK(!steif_phi_scalar(3, z, 0, value, im));
+  return value[1] - 3 * value[2] + 4 * value[3];
+}
+
+/* About z = -1e-6 the circle has 16 digits where the quotient has none; about z = -1 it passes through
+ * 0, where the quotient cancels, and more points come closer to it. */
+static void circles_stay_clear_of_zero(void)
+{
+  const double near = -1e-6, small = (1 + near) / 6 + 0.075 * near * near, one = 3 - 8 / exp(1);
+  CLOSE(by_circle(near, 32), small, 1e-15);
+  CHECK(fabs(creal(weight(near)) / small - 1) > 1);
+  CLOSE(by_phi(near), small, 4e-15);
+  const double direct = fabs(creal(weight(-1)) / one - 1);
+  CHECK(direct < 2e-14 && fabs(by_phi(-1) / one - 1) < 2e-14);
+  CHECK(fabs(by_circle(-1, 64) / one - 1) > 5 * fabs(by_circle(-1, 32) / one - 1));
+  CHECK(fabs(by_circle(-1, 64) / one - 1) > 5 * direct);
+}
+
 /* -- energy -------------------------------------------------------------------------------------- */
 
 static steif_drift drift(const char *method, double h, long steps)
@@ -310,6 +346,7 @@ CU_TestInfo tests_of_claims[] = {
   {"the bilinear rule damps slow modes more", bilinear_damps_slow_modes_more},
   {"the weighted integral is phi_1 - phi_2", the_weighted_integral_is_a_difference},
   {"quotients lose digits", quotients_lose_digits},
+  {"circles stay clear of zero", circles_stay_clear_of_zero},
   {"BDF of order seven is not stable", bdf_of_order_seven_is_not_stable},
   {"van der Pol is stiffer than mu", van_der_pol_is_stiffer_than_mu},
   {"Robertson's kinetics become stiff", robertson_becomes_stiff},
