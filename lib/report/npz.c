@@ -89,7 +89,7 @@ static void write_member(FILE *stream, const steif_array *a, const member *m)
   describe(stream, m);
   fputs(m->name, stream);
   fwrite(m->head, 1, m->head_bytes, stream);
-  fwrite(a->value, 1, (size_t)m->data_bytes, stream);
+  if (m->data_bytes > 0) fwrite(a->value, 1, (size_t)m->data_bytes, stream);
 }
 
 static void write_list(FILE *stream, size_t count, const member *m, uint64_t begin)

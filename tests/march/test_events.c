@@ -288,9 +288,9 @@ static void events_without_reaction_cost_no_steps(void)
 
 static void half_a_declaration_is_refused(void)
 {
-  smooth_refused(
-    &(steif_problem){.name = "p", .n = 1, .t1 = 1, .y0 = root, .f = smooth.f, .events = 2},
-    "radau:s=3", NULL, STEIF_BAD_INPUT, "announces 2 event functions");
+  steif_problem p = smooth;
+  p.events = 2;
+  smooth_refused(&p, "radau:s=3", NULL, STEIF_BAD_INPUT, "announces 2 event functions");
 }
 
 CU_TestInfo tests_of_events[] = {
