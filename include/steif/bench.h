@@ -22,6 +22,8 @@ extern "C" {
  *   "small"    step_s: a step (n <= 10) less its measured f, J, factorisations and solves; floor_s: a
  *              whole step of CVODE on the same problem at rtol 1e-6, as the library found at run time
  *              has it; limit 1
+ *   "splitting" a step of verlet with n = 1e6; floor_s: the force once, and y += h f twice for all of y;
+ *              limit 1.2
  *   "lyapunov" (steif_bench_lyapunov) step_s: a step with all n Lyapunov exponents; floor_s: the step
  *              alone, J and its product with n columns for every stage, the systems of the stages
  *              (one of order s n for s collocation stages), Q R and X R^{-1}, by direct calls of

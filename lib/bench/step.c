@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum kind { SPARSE, STAGES, SMALL };
+enum kind { SPARSE, STAGES, SMALL, SPLITTING };
 
 static const struct {
   enum kind kind;
@@ -30,6 +30,7 @@ static const struct {
   {SMALL, "vdpol:mu=10", "radau:s=3", 1e-4},
   {SMALL, "orego", "radau:s=3", 1e-5},
   {SMALL, "hires", "radau:s=3", 1e-3},
+  {SPLITTING, "fpu:n=500000", "verlet", 1e-2},
 };
 
 typedef struct subject {
@@ -53,6 +54,20 @@ static void one_rhs(void *data)
 {
   subject *s = data;
   s->problem.f(0, s->y, s->out, s->problem.user);
+}
+
+static void one_kick(void *data)
+{
+  subject *s = data;
+  s->problem.kick(0, s->y, s->out, s->problem.user);
+}
+
+static void one_update(void *data)
+{
+  subject *s = data;
+  sunrealtype *y = N_VGetArrayPointer(s->y);
+  const sunrealtype *f = N_VGetArrayPointer(s->out);
+  for (sunindextype i = 0; i < s->problem.n; i++) y[i] += 1e-9 * f[i];
 }
 
 static void one_direct_solve(void *data)
@@ -141,6 +156,12 @@ static sunrealtype lanes(subject *s, void (*solve)(void *))
   return sum;
 }
 
+static void against_force(subject *s, steif_bench_row *row)
+{
+  row->step_s = stf_time(one_step, s);
+  row->floor_s = stf_time(one_kick, s) + 2 * stf_time(one_update, s);
+}
+
 static void against_kernels(subject *s, enum kind kind, steif_bench_row *row)
 {
   const work w = count(s);
@@ -180,16 +201,18 @@ static int bookkeeping(subject *s, const char *problem, steif_bench_row *row)
 
 int steif_bench_step(steif_context *ctx, size_t i, steif_bench_row *row)
 {
-  static const char *const names[] = {"sparse", "stages", "small"};
+  static const char *const names[] = {"sparse", "stages", "small", "splitting"};
   if (i >= sizeof plan / sizeof *plan) return STEIF_BAD_INPUT;
   subject s;
-  *row = (steif_bench_row){.limit = plan[i].kind == SMALL ? 1 : 1.3};
+  static const sunrealtype limits[] = {1.3, 1.3, 1, 1.2};
+  *row = (steif_bench_row){.limit = limits[plan[i].kind]};
   snprintf(row->kind, sizeof row->kind, "%s", names[plan[i].kind]);
   snprintf(row->problem, sizeof row->problem, "%s", plan[i].problem);
   snprintf(row->method, sizeof row->method, "%s", plan[i].method);
   int code = open(ctx, i, &s);
   row->n = s.problem.n;
-  if (!code && plan[i].kind != SMALL) against_kernels(&s, plan[i].kind, row);
+  if (!code && plan[i].kind == SPLITTING) against_force(&s, row);
+  if (!code && plan[i].kind < SMALL) against_kernels(&s, plan[i].kind, row);
   if (!code && plan[i].kind == SMALL) code = bookkeeping(&s, plan[i].problem, row);
   row->ratio = row->step_s / row->floor_s;
   close(&s);
