@@ -300,6 +300,36 @@ static void circles_stay_clear_of_zero(void)
   CHECK(fabs(by_circle(-1, 64) / one - 1) > 5 * direct);
 }
 
+/* Least det(I - h J) of a step of backward Euler from q = 2 over where it may end, (q, (q - 2)/h). */
+static double least_determinant(const char *name, double h)
+{
+  steif_problem p;
+  double least = INFINITY;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, name, &p));
+  N_Vector y = N_VNew_Serial(2, steif_sundials(ctx)), fy = N_VClone(y);
+  SUNMatrix J = SUNDenseMatrix(2, 2, steif_sundials(ctx));
+  for (double q = -2; q <= 2; q += 1e-3) {
+    NV_Ith_S(y, 0) = q, NV_Ith_S(y, 1) = (q - 2) / h;
+    SUNMatZero(J);
+    CHECK(!p.f(0, y, fy, p.user) && !p.jac(0, y, fy, J, p.user, NULL, NULL, NULL));
+    least = fmin(least, (1 - h * SM_ELEMENT_D(J, 0, 0)) * (1 - h * SM_ELEMENT_D(J, 1, 1)) -
+                          h * h * SM_ELEMENT_D(J, 0, 1) * SM_ELEMENT_D(J, 1, 0));
+  }
+  N_VDestroy(y), N_VDestroy(fy), SUNMatDestroy(J);
+  steif_problem_clear(ctx, &p);
+  return least;
+}
+
+/* The cubic of a step is monotone for |q| <= 2 only if 7 mu h <= 3 (1 + h^2): h <= 0.042936 and
+ * 0.014289 for mu = 10 and 30. Bounded for every step, backward Euler is not unique for every step. */
+static void backward_euler_is_unique_for_short_steps(void)
+{
+  CHECK(least_determinant("vdpol:mu=10", 0.04290) > 0);
+  CHECK(least_determinant("vdpol:mu=10", 0.04297) < 0);
+  CHECK(least_determinant("vdpol:mu=30", 0.01428) > 0);
+  CHECK(least_determinant("vdpol:mu=30", 0.01430) < 0);
+}
+
 /* -- energy -------------------------------------------------------------------------------------- */
 
 static steif_drift drift(const char *method, double h, long steps)
@@ -351,6 +381,7 @@ CU_TestInfo tests_of_claims[] = {
   {"van der Pol is stiffer than mu", van_der_pol_is_stiffer_than_mu},
   {"Robertson's kinetics become stiff", robertson_becomes_stiff},
   {"the period of van der Pol's oscillator", the_period_of_van_der_pol},
+  {"backward Euler is unique for short steps", backward_euler_is_unique_for_short_steps},
   {"RK4 loses energy up to its limit", rk4_loses_energy_up_to_its_limit},
   {"RK4 is better than Verlet for a hundred periods", rk4_is_better_for_a_hundred_periods},
   {"the context closes", closed},
