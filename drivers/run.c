@@ -3,12 +3,28 @@
 #include "run.h"
 #include <signal.h>
 #include <string.h>
+#include <time.h>
 
 static volatile int stop_flag;
+static struct timespec asked; /* when the first SIGINT came */
 
-static void on_interrupt(int signal)
+static double seconds_since(const struct timespec *then)
 {
-  (void)signal;
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)(now.tv_sec - then->tv_sec) + 1e-9 * (double)(now.tv_nsec - then->tv_nsec);
+}
+
+/* The first SIGINT ends the run after a step, a later one the program. Half a second belongs to
+ * the first: timeout(1) and other parents send it to the child and to its group. */
+static void on_interrupt(int number)
+{
+  if (!stop_flag)
+    clock_gettime(CLOCK_MONOTONIC, &asked);
+  else if (seconds_since(&asked) > 0.5) {
+    signal(number, SIG_DFL);
+    raise(number);
+  }
   stop_flag = 1;
 }
 
@@ -61,8 +77,7 @@ outcome integrate(steif_context *ctx, const steif_problem *problem, const char *
   const double t1 = options->t1 > 0 ? options->t1 : problem->t1;
   steif_forget(ctx);
   steif_solver *s = steif_solver_new(ctx, problem, method, options);
-  /* The first SIGINT ends the run after a step, a second one the program. */
-  const struct sigaction ours = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+  const struct sigaction ours = {.sa_handler = on_interrupt};
   struct sigaction before;
   sigaction(SIGINT, NULL, &before);
   if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &ours, NULL);
