@@ -127,6 +127,25 @@ static int actions(struct call *call, steif_report *r)
   return steif_status(call->ctx) ? fail(call) : EXIT_OK;
 }
 
+static int squares(struct call *call, steif_report *r)
+{
+  steif_bench_square row[STEIF_BENCH_SQUARE];
+  progress(call, "phi functions on squares");
+  for (size_t i = 0; !steif_bench_squares(call->ctx, i, row); i++)
+    for (int k = 0; k < STEIF_BENCH_SQUARE; k++) {
+      steif_report_row(r, "squares");
+      steif_report_whole(r, "squares.n", (long)row[k].n);
+      steif_report_whole(r, "squares.phi", row[k].p);
+      steif_report_real(r, "squares.t", row[k].t);
+      steif_report_real(r, "squares.error", row[k].error);
+      steif_report_whole(r, "squares.factors", row[k].factors);
+      steif_report_whole(r, "squares.solves", row[k].solves);
+      steif_report_real(r, "squares.cpu_s", row[k].cpu_s);
+    }
+  progress(call, NULL);
+  return steif_status(call->ctx) ? fail(call) : EXIT_OK;
+}
+
 int bench_phi(struct call *call)
 {
   static results e;
@@ -135,6 +154,7 @@ int bench_phi(struct call *call)
   int code = r ? exponentials(call, &e) : fail(call);
   if (!code) tell(r, &e);
   if (!code) code = actions(call, r);
+  if (!code) code = squares(call, r);
   if (!code) code = present(call, r);
   steif_report_free(&r);
   return code;

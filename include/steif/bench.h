@@ -145,6 +145,21 @@ typedef struct steif_bench_phi {
 STEIF_EXPORT int steif_bench_functions(steif_context *ctx, size_t i, sunrealtype longest,
                                        steif_bench_phi *row);
 
+/* w = phi_p(tA) b, p = 0 .. 3, at three times within a factor of two, A the five-point Laplacian of
+ * the unit square on grid i of the plan (32 x 32 and 1000 x 1000 inner points), b random in (0, 1), by
+ * one steif_action with its default tolerance 1e-10. Counts are those of one application. */
+enum { STEIF_BENCH_SQUARE = 12 };
+typedef struct steif_bench_square {
+  sunindextype n;
+  int p;
+  sunrealtype t, error; /* ||w - exact|| / ||exact||, 2-norm; exact by sine transforms */
+  long factors, solves;
+  sunrealtype cpu_s;
+} steif_bench_square;
+/* STEIF_BAD_INPUT without a sentence past the end. */
+STEIF_EXPORT int steif_bench_squares(steif_context *ctx, size_t i,
+                                     steif_bench_square row[STEIF_BENCH_SQUARE]);
+
 #ifdef __cplusplus
 }
 #endif

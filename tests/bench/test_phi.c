@@ -40,6 +40,23 @@ static void actions(void)
   steif_context_free(&ctx);
 }
 
+/* Twelve applications, one factorisation at most. */
+static void squares(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_bench_square row[STEIF_BENCH_SQUARE];
+  long factors = 0;
+  CHECK(!steif_bench_squares(ctx, 0, row));
+  for (int k = 0; k < STEIF_BENCH_SQUARE; k++) {
+    CHECK(row[k].n == 1024 && row[k].error > 0 && row[k].error < 1e-10);
+    factors += row[k].factors;
+  }
+  CHECK(factors == 1);
+  CHECK(steif_bench_squares(ctx, 2, row) == STEIF_BAD_INPUT && !steif_status(ctx));
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_phi[] = {{"exponentials of dense matrices", exponentials},
                               {"actions against implicit methods", actions},
+                              {"phi functions of a square Laplacian", squares},
                               CU_TEST_INFO_NULL};
