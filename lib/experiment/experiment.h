@@ -91,6 +91,15 @@ int stf_watch_table(stf_trial *t);
 int stf_blow_up(stf_trial *t, const char *problem, const char *method, sunrealtype step,
                 sunrealtype most, sunrealtype t1, sunrealtype *h);
 
+/* Backward Euler on van der Pol's equation from (2, 0), by the real root nearest the last value. */
+typedef struct stf_cubic_line {
+  const char *label;
+  sunrealtype mu, h;
+  long steps;
+  sunrealtype q, p, late, several; /* references; NaN: not stated */
+} stf_cubic_line;
+int stf_cubic_table(stf_trial *t, const stf_cubic_line *line);
+
 /* Largest |y - y_h| over the grid points of [0, 4] for q'' + q'/2 + k q = sin 2t, y = q, from rest. */
 typedef struct stf_scheme_line {
   const char *scheme;

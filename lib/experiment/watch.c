@@ -90,7 +90,7 @@ static sunrealtype taken(const run *r, enum stf_what what, const char **name)
   case STF_SECOND_END: return *name = "p at the end", r->end[1];
   case STF_LATE: return *name = "largest late |q|", r->late;
   case STF_CROSSING: return *name = "first zero upward", r->crossing;
-  case STF_BLOWN: return *name = "blown up at step", (sunrealtype)r->blown_at;
+  case STF_BLOWN: return *name = "blown up at step (0: never)", (sunrealtype)r->blown_at;
   case STF_REFUSED: return *name = "refused", (sunrealtype)r->refused;
   default: return *name = "", NAN;
   }

@@ -1,8 +1,9 @@
 /* blowup.c: q' = p, p' = mu (1 - q^2) p - q from (2, 0) to t = 50, mu = 10 and 30. RK4 leaves beyond
  * its real limit 2.785/|l|, l = -29.97 and -89.99 at the start. The equations of backward Euler are
  * a cubic with several roots once 7 mu h > 3 (1 + h^2): it is bounded, but its period is wrong, and
- * in the jumps of long steps there is no root near: those are refused. References: recomputed in NumPy,
- * backward Euler by the roots of its cubic.
+ * in the jumps of long steps there is no root near: those are refused. The roots themselves tell what
+ * a run by the nearest one does. References: recomputed in NumPy, backward Euler by the roots of its
+ * cubic.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "experiment.h"
 #include <math.h>
@@ -59,9 +60,16 @@ static const struct {
   double least;
 } limits[] = {{MU10("rk4"), 0.0820}, {MU30("rk4"), 0.0285}};
 
+/* Where Newton's method finds none or another: the root that goes on from the last value. */
+static const stf_cubic_line roots[] = {
+  {"be, mu = 10, nearest root", 10, 0.2, 250, 1.3801511956, -0.1477057916, 1.54075, 226},
+  {"be, mu = 30, nearest root", 30, 0.05, 1000, -1.5041193494, 0.0396460636, NAN, NAN},
+};
+
 static int run(stf_trial *t)
 {
   STEIF_TRY(stf_watch_table(t));
+  for (int i = 0; i < 2; i++) STEIF_TRY(stf_cubic_table(t, roots + i));
   for (int i = 0; i < 2; i++) {
     sunrealtype h;
     STEIF_TRY(stf_blow_up(t, limits[i].problem, limits[i].method, 5e-4, 0.1, 50, &h));
