@@ -9,7 +9,23 @@ typedef struct spectrum {
   steif_lyapunov_facts facts;
   steif_growth_facts growth;
   bool measured; /* growth */
+  steif_lyapunov_check *check;
+  int checks;
 } spectrum;
+
+static void checks(steif_report *r, const spectrum *s)
+{
+  for (int i = 0; i < s->checks; i++) {
+    const steif_lyapunov_check *c = &s->check[i];
+    steif_report_row(r, "checks");
+    steif_report_text(r, "checks.law", steif_lyapunov_law_name(c->law));
+    steif_report_whole(r, "checks.exponent", c->which);
+    steif_report_real(r, "checks.value", c->value);
+    steif_report_real(r, "checks.expected", c->expected);
+    steif_report_real(r, "checks.tolerance", c->tolerance);
+    steif_report_truth(r, "checks.holds", c->holds);
+  }
+}
 
 static void fill(steif_report *r, const struct call *call, const spectrum *s)
 {
@@ -28,6 +44,7 @@ static void fill(steif_report *r, const struct call *call, const spectrum *s)
   steif_report_truth(r, "linear", s->facts.linear);
   steif_report_real(r, "h", s->facts.h);
   steif_report_whole(r, "steps", s->facts.steps);
+  checks(r, s);
 }
 
 static int rows(const struct call *call, const spectrum *s)
@@ -67,6 +84,10 @@ static int measure(struct call *call, const steif_problem *p, spectrum *s)
   progress(call, "%s on %s", method, call->word[0]);
   if (steif_lyapunov(call->ctx, p, method, &o, s->exponent, s->interval, &s->facts) != STEIF_OK)
     return fail(call);
+  if (steif_lyapunov_verify(call->ctx, p, method, &o, real_of(call, "--accuracy", 0),
+                            real_of(call, "--period", 0), s->exponent, &s->facts, s->check,
+                            &s->checks) != STEIF_OK)
+    return fail(call);
   /* One solution of a linear problem can be followed as long as it neither overflows nor is 0. */
   s->measured =
     s->facts.linear && steif_growth_measure(call->ctx, p, method, &o, &s->growth) == STEIF_OK;
@@ -86,15 +107,16 @@ static int run(struct call *call)
   s.exponent = malloc(4 * s.count * sizeof *s.exponent);
   s.interval = s.exponent ? s.exponent + s.count : NULL;
   s.error = s.exponent ? s.exponent + 3 * s.count : NULL;
+  s.check = malloc((s.count + 2) * sizeof *s.check);
   int code = EXIT_FAILED;
   if (count > (long)p.n)
     code = refuse(call, "--count is %ld and '%s' has %ld exponents", count, call->word[0],
                   (long)p.n);
-  else if (!s.exponent)
+  else if (!s.exponent || !s.check)
     say(call, "no memory for %ld exponents; ask for fewer with --count", count);
   else
     code = measure(call, &p, &s);
-  free(s.exponent);
+  free(s.check), free(s.exponent);
   steif_problem_clear(call->ctx, &p);
   return code;
 }
@@ -104,6 +126,9 @@ static const struct option options[] = {
   {"--t1", POSITIVE, "T", "end of the run (default: the problem's)"},
   {"--transient", POSITIVE, "T", "time before the averages begin"},
   {"--window", POSITIVE, "W", "length of the windows (default: a tenth of what is averaged)"},
+  {"--period", POSITIVE, "P", "of A(t) in x' = A(t) x: compare with Floquet's exponents"},
+  {"--accuracy", POSITIVE, "R",
+   "of the sum against the mean trace, in largest exponents (default 0.01)"},
   {"--count", COUNT, "K", "exponents, the largest first (default: all)"},
   {NULL, FLAG, NULL, NULL},
 };
@@ -111,7 +136,7 @@ static const struct option options[] = {
 const struct verb verb_lyapunov = {
   "lyapunov",
   "Find Lyapunov exponents and whether the step is short enough",
-  "PROBLEM METHOD --h H --t1 T [--transient T --window W --count K]",
+  "PROBLEM METHOD --h H --t1 T [--transient T --window W --count K --period P]",
   2,
   2,
   options,

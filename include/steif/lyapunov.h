@@ -52,6 +52,8 @@ typedef struct steif_lyapunov_facts {
   sunrealtype sum; /* of the exponents; with all n it equals, to the order of the method, ... */
   sunrealtype trace; /* ... the mean of trace J; NaN for a DAE */
   sunrealtype mu;    /* largest running average of the first exponent in the second half */
+  sunrealtype flow;  /* ln(|y'| in the last step / in the first) / time: y' of an autonomous
+                        problem solves W' = J W. NaN for others, and where J is free of y */
   sunrealtype
     dimension; /* Kaplan and Yorke's j + (sum of the j largest) / |the next|, j the last
                             with a sum >= 0; n where all sums are; NaN: more exponents decide it */
@@ -66,6 +68,35 @@ STEIF_EXPORT int steif_lyapunov(steif_context *ctx, const steif_problem *problem
                                 const char *method, const steif_lyapunov_options *options,
                                 sunrealtype *exponent, sunrealtype *interval,
                                 steif_lyapunov_facts *facts);
+
+/* What holds for exact exponents, and whether it does for those found. */
+enum steif_lyapunov_law {
+  STEIF_SUM_LAW,    /* the sum of all n is the mean of trace J: needs an ode and count = n */
+  STEIF_FLOW_LAW,   /* one is 0 along a solution of an autonomous problem that does not come to rest,
+                       |y'| staying above 1e-6 of what it was; the nearest to 0 is taken */
+  STEIF_FLOQUET_LAW /* x' = A(t) x of a given period P = m h': each is ln |multiplier| / P of m steps of
+                       the method; multipliers below 1e-9 of the largest drown in rounding */
+};
+typedef struct steif_lyapunov_check {
+  enum steif_lyapunov_law law;
+  int which; /* exponent, from 1; 0: all of them */
+  /* tolerance: accuracy max |exponent| for the sum; else four standard errors, and for the flow
+     |facts.flow| besides, since a run is finite: 1e-9 (1 + |expected|) at least. */
+  sunrealtype value, expected, tolerance;
+  int holds;
+} steif_lyapunov_check;
+
+/* The laws that apply. exponent, facts: of a run with these options, `error` among them. accuracy: 0:
+ * 0.01. period: 0: none is known; STEIF_BAD_INPUT where no whole number of steps makes it. check: room
+ * for n + 2. */
+STEIF_EXPORT int steif_lyapunov_verify(steif_context *ctx, const steif_problem *problem,
+                                       const char *method, const steif_lyapunov_options *options,
+                                       sunrealtype accuracy, sunrealtype period,
+                                       const sunrealtype *exponent,
+                                       const steif_lyapunov_facts *facts,
+                                       steif_lyapunov_check *check, int *count);
+/* "sum", "flow", "floquet". */
+STEIF_EXPORT const char *steif_lyapunov_law_name(enum steif_lyapunov_law law);
 
 /* One solution x_n of the recurrence, from y0, of a linear problem x' = A(t) x (a forcing is
  * left out): how it grows and how far every step is from the exact flow. History of a BDF: from

@@ -19,6 +19,7 @@ typedef struct spectrum {
   int parts;
   long part_begun;
   sunrealtype trace, mu;
+  sunrealtype *y, first, last; /* y before a step, |h y'| of the first and the last step */
 } spectrum;
 
 static int plan(steif_context *ctx, const steif_problem *p, const steif_lyapunov_options *o,
@@ -54,7 +55,9 @@ static int room(stf_pool *pool, spectrum *s)
   s->ring = stf_claim(pool, ((size_t)s->window + 1) * m, sizeof *s->w);
   s->low = stf_claim(pool, 2 * m, sizeof *s->w);
   s->part = stf_claim(pool, 3 * m, sizeof *s->w);
-  if (!s->w || !s->R || !s->sum || !s->ring || !s->low || !s->part) return STEIF_NO_MEMORY;
+  s->y = stf_claim(pool, d, sizeof *s->y);
+  if (!s->w || !s->R || !s->sum || !s->ring || !s->low || !s->part || !s->y)
+    return STEIF_NO_MEMORY;
   s->spread = s->part + m, s->begun = s->part + 2 * m;
   s->rest = s->sum + m, s->high = s->low + m;
   for (size_t i = 0; i < m; i++) s->low[i] = INFINITY, s->high[i] = -INFINITY;
@@ -75,6 +78,18 @@ static int turn(spectrum *s)
     "of %s to t = %.12g: take a smaller h, or fewer exponents",
     v->problem->name, v->method, v->t);
   stf_renormalise(v->g->k * v->d, v->m, s->R, v->X);
+  return STEIF_OK;
+}
+
+/* A step, and how far y moved in it. */
+static int turn_and_move(spectrum *s, sunrealtype *moved)
+{
+  const stf_variation *v = &s->v;
+  memcpy(s->y, N_VGetArrayPointer(stf_variation_state(v)), (size_t)v->d * sizeof *s->y);
+  STEIF_TRY(turn(s));
+  const sunrealtype *y = N_VGetArrayPointer(stf_variation_state(v));
+  *moved = 0;
+  for (int i = 0; i < v->d; i++) *moved = hypot(*moved, y[i] - s->y[i]);
   return STEIF_OK;
 }
 
@@ -152,6 +167,7 @@ static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype
 {
   steif_lyapunov_facts out = {.steps = s->steps, .linear = s->v.linear, .h = s->v.h};
   out.time = (sunrealtype)s->steps * s->v.h, out.trace = s->trace, out.mu = s->mu;
+  out.flow = s->v.problem->autonomous && !s->v.linear ? log(s->last / s->first) / out.time : NAN;
   for (int i = 0; i < s->v.m; i++) {
     exponent[i] = (s->sum[i] + s->rest[i]) / out.time;
     out.sum += exponent[i];
@@ -174,7 +190,8 @@ static int run(stf_pool *pool, steif_context *ctx, const steif_problem *p, const
   STEIF_TRY(room(pool, s));
   for (long n = 0; n < s->transient; n++) STEIF_TRY(turn(s));
   for (long n = 1; n <= s->steps; n++) {
-    STEIF_TRY(turn(s));
+    sunrealtype *moved = n == 1 ? &s->first : n == s->steps ? &s->last : NULL;
+    STEIF_TRY(moved ? turn_and_move(s, moved) : turn(s));
     record(s, n);
   }
   return STEIF_OK;

@@ -96,6 +96,18 @@ static int maps(underlying *u, steif_underlying *out)
   return stf_variation_carry(&u->flow, t, v->h, stf_variation_substeps(v, v->h), out->exact);
 }
 
+int stf_period_map(stf_pool *pool, steif_context *ctx, const steif_problem *p,
+                   const char *method, sunrealtype h, long steps, sunrealtype *Phi)
+{
+  underlying u = {.d = 0};
+  STEIF_TRY(open(pool, ctx, p, method, h, &u));
+  STEIF_TRY(burn(&u, settled(u.v.g)));
+  stf_variation_principal(&u.v, u.W);
+  for (long n = 0; n < steps; n++) STEIF_TRY(stf_variation_step(&u.v));
+  stf_variation_principal(&u.v, u.work);
+  return quotient(&u, u.work, u.W, Phi);
+}
+
 int steif_underlying_find(steif_context *ctx, const steif_problem *problem, const char *method,
                           sunrealtype h, const sunrealtype *start, steif_underlying *out)
 {

@@ -308,6 +308,11 @@ int stf_variation_carry(stf_variation *v, sunrealtype t, sunrealtype h, int coun
   return STEIF_OK;
 }
 
+N_Vector stf_variation_state(const stf_variation *v)
+{
+  return v->solver ? steif_solution(v->solver) : v->y;
+}
+
 sunrealtype stf_variation_size(const stf_variation *v)
 {
   sunrealtype most = 0;

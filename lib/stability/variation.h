@@ -60,6 +60,12 @@ void stf_variation_solution(const stf_variation *v, sunrealtype *x);
 /* x (d x m) at t, carried over h by `count` steps of a Runge-Kutta method. */
 int stf_variation_carry(stf_variation *v, sunrealtype t, sunrealtype h, int count,
                         sunrealtype *x);
+/* y where the trajectory of a nonlinear problem is. */
+N_Vector stf_variation_state(const stf_variation *v);
+/* The map over `steps` steps of a linear problem, d x d by rows in the principal coordinate, behind
+ * as many as take the parasitic modes below rounding. */
+int stf_period_map(stf_pool *pool, steif_context *ctx, const steif_problem *problem,
+                   const char *method, sunrealtype h, long steps, sunrealtype *Phi);
 /* |J| of the last step by row sums, and the steps of Gauss's method of order 12 over h in which
  * h |J| is below 1/2, as long as 64 do: its error is then that of rounding. */
 sunrealtype stf_variation_size(const stf_variation *v);
