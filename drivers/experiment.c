@@ -17,16 +17,29 @@ static int shelf(struct call *call)
   return code;
 }
 
+/* Are there printed figures beside the values? */
+static bool beside(const steif_findings *f)
+{
+  for (size_t i = 0; i < f->count; i++)
+    if (!isnan(f->finding[i].printed)) return true;
+  return false;
+}
+
 static void fill(steif_report *r, const steif_findings *f)
 {
   steif_report_text(r, "experiment", f->name);
   steif_report_text(r, "about", f->about);
+  const bool printed = beside(f);
   for (size_t i = 0; i < f->count; i++) {
     const steif_finding *x = f->finding + i;
     steif_report_row(r, "rows");
     steif_report_text(r, "rows.of", x->of);
     report_maybe(r, "rows.", "h", !isnan(x->h), x->h);
     steif_report_text(r, "rows.quantity", x->quantity);
+    if (printed) {
+      report_maybe(r, "rows.", "printed", !isnan(x->printed), x->printed);
+      report_maybe(r, "rows.", "imitated", !isnan(x->imitated), x->imitated);
+    }
     steif_report_real(r, "rows.value", x->value);
     report_maybe(r, "rows.", "reference", x->agrees >= 0, x->reference);
     report_maybe(r, "rows.", "error", x->agrees >= 0, x->error);

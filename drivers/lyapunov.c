@@ -27,6 +27,34 @@ static void checks(steif_report *r, const spectrum *s)
   }
 }
 
+/* Every measure of one solution of a linear problem. */
+static void diagnostics(steif_report *r, const steif_growth_facts *g)
+{
+  const struct {
+    const char *name;
+    double value;
+  } row[] = {{"mu", g->mu},
+             {"mu_last", g->mu_last},
+             {"mu_window", g->mu_window},
+             {"mu_running", g->mu_running},
+             {"mu_partial", g->mu_partial},
+             {"lte_mean", g->lte_mean},
+             {"lte_max", g->lte_max},
+             {"residual_mean", g->residual_mean},
+             {"residual_max", g->residual_max},
+             {"local_mean", g->local_mean},
+             {"local_max", g->local_max},
+             {"tau_max", g->tau_max},
+             {"tau_all", g->tau_all},
+             {"norm_max", g->norm_max},
+             {"norm_end", g->norm_end}};
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    steif_report_row(r, "diagnostics");
+    steif_report_text(r, "diagnostics.quantity", row[i].name);
+    steif_report_real(r, "diagnostics.found", row[i].value);
+  }
+}
+
 static void fill(steif_report *r, const struct call *call, const spectrum *s)
 {
   steif_report_text(r, "problem", call->word[0]);
@@ -45,6 +73,7 @@ static void fill(steif_report *r, const struct call *call, const spectrum *s)
   steif_report_real(r, "h", s->facts.h);
   steif_report_whole(r, "steps", s->facts.steps);
   checks(r, s);
+  if (s->measured) diagnostics(r, &s->growth);
 }
 
 static int rows(const struct call *call, const spectrum *s)

@@ -28,6 +28,9 @@ typedef struct steif_finding {
   sunrealtype error;     /* |value - reference| / |reference|; absolute for a reference of 0 */
   int agrees;            /* 1: within the digits of the reference; 0: not; -1: no reference */
   sunrealtype order;     /* log2 of this and the last error, for errors by halved steps; or NaN */
+  /* Where the source prints another value: that, and ours when begun as the source seems to have
+     begun; else NaN. */
+  sunrealtype printed, imitated;
 } steif_finding;
 
 typedef struct steif_findings {

@@ -104,9 +104,13 @@ STEIF_EXPORT const char *steif_lyapunov_law_name(enum steif_lyapunov_law law);
  * the oldest time in X_n. */
 typedef struct steif_growth_facts {
   long steps;
-  sunrealtype mu;        /* max over n >= N/2 of ln(|w_n| / |x_0|) / (t_n - t_0) */
-  sunrealtype mu_last;   /* the last of them */
-  sunrealtype mu_window; /* growth of w per time over the second half */
+  /* Growth of w per time; n from m = N/2 on. */
+  sunrealtype mu;         /* max of ln(|w_n| / |x_0|) / (t_n - t_0) */
+  sunrealtype mu_last;    /* the last of them */
+  sunrealtype mu_window;  /* ln(|w_n| / |w_m|) / (t_n - t_m) for the last n */
+  sunrealtype mu_running; /* the largest of them over n > m */
+  sunrealtype mu_partial; /* max of ln(|w_n| / |w_{m-1}|) / (t_n - t_0), the formula (37) as
+                             printed: a part of the growth over all of the time, near 0 */
   sunrealtype lte_mean,
     lte_max; /* |x_{n+1} - X(t_{n+1}, t_n) x_n|, X the exact flow (Gauss, order
                                     12, with substeps) */
@@ -115,6 +119,7 @@ typedef struct steif_growth_facts {
   sunrealtype local_mean, local_max; /* the same on the exact solution through x_n */
   sunrealtype tau_max; /* largest ratio of consecutive lte; the first 50 are left out when there
                             are 100 */
+  sunrealtype tau_all; /* none left out */
   sunrealtype norm_max, norm_end; /* of x_n */
 } steif_growth_facts;
 

@@ -29,7 +29,7 @@ int stf_find(stf_trial *t, const char *of, sunrealtype h, const char *quantity,
     grown(t->pool, t->finding, t->count, &t->room, sizeof *t->finding);
   if (!f) return STEIF_NO_MEMORY;
   f += t->count++;
-  *f = (steif_finding){of, h, quantity, value, reference, NAN, -1, NAN};
+  *f = (steif_finding){of, h, quantity, value, reference, NAN, -1, NAN, NAN, NAN};
   if (!isnan(reference)) {
     const sunrealtype off = fabs(value - reference);
     f->error = reference != 0 ? off / fabs(reference) : off;
@@ -37,6 +37,12 @@ int stf_find(stf_trial *t, const char *of, sunrealtype h, const char *quantity,
   }
   if (t->count > 1 && halved(f - 1, f)) f->order = log2(f[-1].value / value);
   return STEIF_OK;
+}
+
+void stf_beside(stf_trial *t, sunrealtype printed, sunrealtype imitated)
+{
+  steif_finding *f = &t->finding[t->count - 1];
+  f->printed = printed, f->imitated = imitated;
 }
 
 /* -- curves -------------------------------------------------------------------------------------- */

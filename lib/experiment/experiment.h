@@ -31,6 +31,8 @@ typedef struct steif_experiment {
  * the reference may be NaN. */
 int stf_find(stf_trial *t, const char *of, sunrealtype h, const char *quantity,
              sunrealtype value, sunrealtype reference, sunrealtype tolerance);
+/* Beside the last finding: what its source prints, and the value with the start of that source. */
+void stf_beside(stf_trial *t, sunrealtype printed, sunrealtype imitated);
 /* One more curve, and points of the last one. marks as of steif_curve. */
 enum { STF_CURVES = 32 };
 int stf_curve(stf_trial *t, const char *label, int marks);
@@ -113,15 +115,23 @@ typedef struct stf_schemes {
 int stf_scheme_table(stf_trial *t);
 
 /* Local errors and growth of BDF2 on x' = A(t) x, in three ways: begun right, begun by rk4 without its
- * last stage, and as printed. */
-typedef struct stf_growth {
-  sunrealtype lte_mean, lte_max, mu;
-} stf_growth;
+ * last stage, and as printed. NaN: not printed. */
+enum {
+  STF_LTE_MEAN,
+  STF_LTE_MAX,
+  STF_TAU,
+  STF_MU, /* the printed one */
+  STF_MU_LAST,
+  STF_MU_PARTIAL,
+  STF_MU_RUNNING,
+  STF_MU_WINDOW,
+  STF_DIAGNOSTICS
+};
 typedef struct stf_growth_line {
   const char *problem, *label;
   sunrealtype h, abscissa; /* of the picture */
   long steps;
-  stf_growth right, weak, printed;
+  sunrealtype right[STF_DIAGNOSTICS], weak[STF_MU + 1], printed[STF_MU + 1];
 } stf_growth_line;
 typedef struct stf_growths {
   size_t lines;

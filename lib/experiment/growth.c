@@ -5,7 +5,8 @@
 #include <steif/collection.h>
 #include <steif/lyapunov.h>
 
-static int measure(stf_trial *t, const stf_growth_line *l, int weak, stf_growth *out)
+static int measure(stf_trial *t, const stf_growth_line *l, int weak,
+                   sunrealtype out[STF_DIAGNOSTICS])
 {
   const steif_lyapunov_options o = {
     .h = l->h, .t1 = l->h * (sunrealtype)l->steps, .weak_start = weak};
@@ -14,45 +15,48 @@ static int measure(stf_trial *t, const stf_growth_line *l, int weak, stf_growth 
   STEIF_TRY(steif_problem_find(t->ctx, l->problem, &p));
   const int code = steif_growth_measure(t->ctx, &p, "bdf:p=2", &o, &f);
   steif_problem_clear(t->ctx, &p);
-  *out = (stf_growth){f.lte_mean, f.lte_max, f.mu};
-  return code;
-}
-
-/* digits: relative tolerance of the references; 0: they are only shown. */
-static int find(stf_trial *t, const stf_growth_line *l, const char *const name[3],
-                const stf_growth *got, const stf_growth *known, sunrealtype digits)
-{
-  const sunrealtype value[] = {got->lte_mean, got->lte_max, got->mu},
-                    reference[] = {known->lte_mean, known->lte_max, known->mu};
-  for (int i = 0; i < 3; i++)
-    STEIF_TRY(stf_find(t, l->label, l->h, name[i], value[i], digits > 0 ? reference[i] : NAN,
-                       digits * fabs(reference[i])));
+  if (code) return code;
+  out[STF_LTE_MEAN] = f.lte_mean, out[STF_LTE_MAX] = f.lte_max, out[STF_TAU] = f.tau_max;
+  out[STF_MU] = f.mu, out[STF_MU_LAST] = f.mu_last, out[STF_MU_WINDOW] = f.mu_window;
+  out[STF_MU_PARTIAL] = f.mu_partial, out[STF_MU_RUNNING] = f.mu_running;
   return STEIF_OK;
 }
 
-/* One way of all lines: 0 right, 1 weak, 2 printed. */
-static int way(stf_trial *t, int which)
+/* The references have seven digits and three. */
+static int line(stf_trial *t, const stf_growth_line *l, sunrealtype mu[3])
 {
-  static const char *const curve[] = {"begun right", "begun with 5/6 of a step", "printed"};
-  static const char *const name[][3] = {
-    {"lte mean", "lte max", "mu"},
-    {"lte mean, begun with 5/6", "lte max, begun with 5/6", "mu, begun with 5/6"},
-    {"lte mean as printed", "lte max as printed", "mu as printed"}};
-  static const sunrealtype digits[] = {2e-6, 6e-3, 0};
-  const stf_growths *d = t->data;
-  STEIF_TRY(stf_curve(t, curve[which], 1));
-  for (size_t i = 0; i < d->lines; i++) {
-    const stf_growth_line *l = &d->line[i];
-    stf_growth got = l->printed;
-    if (which < 2) STEIF_TRY(measure(t, l, which, &got));
-    STEIF_TRY(find(t, l, name[which], &got, which ? &l->weak : &l->right, digits[which]));
-    STEIF_TRY(stf_point(t, l->abscissa, got.mu));
+  static const char *const name[] = {"lte mean",  "lte max",    "tau",        "mu",
+                                     "mu, last",  "mu, partial", "mu, running", "mu, window"},
+                           *const begun[] = {"lte mean, begun with 5/6", "lte max, begun with 5/6",
+                                             NULL, "mu, begun with 5/6"};
+  const sunrealtype digits = 2e-6, few = 6e-3;
+  sunrealtype right[STF_DIAGNOSTICS], weak[STF_DIAGNOSTICS];
+  STEIF_TRY(measure(t, l, 0, right));
+  STEIF_TRY(measure(t, l, 1, weak));
+  for (int i = 0; i < STF_DIAGNOSTICS; i++) {
+    STEIF_TRY(stf_find(t, l->label, l->h, name[i], right[i], l->right[i],
+                       digits * fabs(l->right[i])));
+    stf_beside(t, i <= STF_MU ? l->printed[i] : NAN, weak[i]);
   }
+  for (int i = 0; i <= STF_MU; i++)
+    if (begun[i])
+      STEIF_TRY(stf_find(t, l->label, l->h, begun[i], weak[i], l->weak[i],
+                         few * fabs(l->weak[i])));
+  mu[0] = right[STF_MU], mu[1] = weak[STF_MU], mu[2] = l->printed[STF_MU];
   return STEIF_OK;
 }
 
 int stf_growth_table(stf_trial *t)
 {
-  for (int which = 0; which < 3; which++) STEIF_TRY(way(t, which));
+  static const char *const label[] = {"begun right", "begun with 5/6 of a step", "printed"};
+  enum { MOST = 8 };
+  const stf_growths *d = t->data;
+  sunrealtype mu[MOST][3];
+  for (size_t i = 0; i < d->lines && i < MOST; i++) STEIF_TRY(line(t, &d->line[i], mu[i]));
+  for (int which = 0; which < 3; which++) {
+    STEIF_TRY(stf_curve(t, label[which], 1));
+    for (size_t i = 0; i < d->lines && i < MOST; i++)
+      STEIF_TRY(stf_point(t, d->line[i].abscissa, mu[i][which]));
+  }
   return STEIF_OK;
 }

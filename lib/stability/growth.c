@@ -15,7 +15,7 @@ typedef struct column {
   sunrealtype size0, lte_old;
   long defects, ratios, residuals;
   bool multistep, weak_start;
-  sunrealtype log_half, t_half; /* ln |w| where the second half begins */
+  sunrealtype log_half, t_half, log_before; /* ln |w| where the second half begins, a step before */
   steif_growth_facts out;
 } column;
 
@@ -42,13 +42,20 @@ static int exact_step(column *c, sunrealtype t, sunrealtype h, sunrealtype *x)
 
 static void growth(column *c, long n)
 {
+  steif_growth_facts *out = &c->out;
+  const long half = out->steps / 2;
   const sunrealtype t = (sunrealtype)n * c->v.h;
-  if (2 * n + 1 < c->out.steps || n < 1) return;
+  if (n + 1 < half) return;
   stf_variation_principal(&c->v, c->y);
   const sunrealtype log_w = log(norm(c->v.d, c->y) / c->size0);
+  if (n < half || n < 1) c->log_before = log_w;
+  if (n < half || n < 1) return;
   if (isnan(c->log_half)) c->log_half = log_w, c->t_half = t;
-  c->out.mu = fmax(c->out.mu, log_w / t), c->out.mu_last = log_w / t;
-  if (t > c->t_half) c->out.mu_window = (log_w - c->log_half) / (t - c->t_half);
+  out->mu = fmax(out->mu, log_w / t), out->mu_last = log_w / t;
+  out->mu_partial = fmax(out->mu_partial, (log_w - c->log_before) / t);
+  if (!(t > c->t_half)) return;
+  out->mu_window = (log_w - c->log_half) / (t - c->t_half);
+  out->mu_running = fmax(out->mu_running, out->mu_window);
 }
 
 static void defect(column *c, sunrealtype lte)
@@ -56,6 +63,7 @@ static void defect(column *c, sunrealtype lte)
   steif_growth_facts *out = &c->out;
   if (c->defects++ > 0) {
     const bool early = out->steps >= 2 * LEFT_OUT && c->ratios < LEFT_OUT;
+    out->tau_all = fmax(out->tau_all, lte / c->lte_old);
     if (!early) out->tau_max = fmax(out->tau_max, lte / c->lte_old);
     c->ratios++;
   }
@@ -160,7 +168,7 @@ static int begin(column *c)
   STEIF_CHECK(c->size0 > 0, c->v.ctx, STEIF_BAD_INPUT,
               "'%s' starts at 0, and so it stays: give another y0", c->v.problem->name);
   STEIF_TRY(stf_variation_matrix(&c->v, 0, c->v.t0, c->v.y));
-  c->out.mu = -INFINITY, c->log_half = NAN;
+  c->out.mu = c->out.mu_running = c->out.mu_partial = -INFINITY, c->log_half = NAN;
   if (c->multistep) return begin_multistep(c);
   c->out.residual_mean = c->out.residual_max = NAN;
   c->out.local_mean = c->out.local_max = NAN;

@@ -4,12 +4,15 @@
 #include "base/failing.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
+#include <steif/collection.h>
 #include <steif/counterexample.h>
+#include <steif/lyapunov.h>
 #include <steif/solver.h>
 #include <string.h>
 
 /* h = 0.1, rate = 1: exponents of the scalar recurrences ln |M(0.1)| / 0.1 and of the product of the
- * steps on 2 cos(2 pi t/h) - 1; means of the products of sines. */
+ * steps on 2 cos(2 pi t/h) - 1, of formulas the principal roots in 30 digits; means of the products of
+ * sines. */
 static const struct row {
   const char *method;
   int nodes;
@@ -19,10 +22,14 @@ static const struct row {
   {"dirk:cranknicolson", 1, 1.000835, 1.000835, 0.5, 1e-6},
   {"bdf:p=2", 1, 1.003123, 1.003123, 0.5, 1e-6},
   {"bdf:p=3", 1, 1.0002, 1.0002, 0.5, 1e-4},
+  {"bdf:p=4", 1, 1.000016957823, 1.000016957823, 0.5, 1e-11},
+  {"bdf:p=5", 1, 1.000001347946, 1.000001347946, 0.5, 1e-11},
   {"bdf:p=6", 1, 1.000000, 1.000000, 0.5, 1e-6},
   {"glm:ab,p=2", 1, 0.996105, 0.996105, 0.5, 1e-6},
+  {"glm:ab,p=3", 1, 0.999663171669, 0.999663171669, 0.5, 1e-11},
   {"glm:ab,p=4", 1, 0.999970, 0.999970, 0.5, 1e-6},
   {"glm:am,p=3", 1, 1.000040, 1.000040, 0.5, 1e-6},
+  {"glm:am,p=4", 1, 1.000002439997, 1.000002439997, 0.5, 1e-11},
   {"glm:dimsim1", 1, 0.998453, 0.998453, 0.5, 1e-6},
   {"glm:dimsim2", 1, 1.000401, 1.000401, 0.5, 1e-6},
   {"gauss:s=1", 1, 1.000835, -3.0228, 0.5, 1e-6},
@@ -50,6 +57,38 @@ static void every_method_has_one(void)
     CLOSE(e.mean, r->mean, 5e-6);
     CLOSE(e.E * e.mean, 2, 1e-14);
     steif_counterexample_clear(ctx, &p);
+  }
+  steif_context_free(&ctx);
+}
+
+/* The example of the introduction of the same paper, C with the factor 2/3 it lacks in print: a = 1.2,
+ * b = -0.14, -0.15, waves of period h = 0.1 instead of 2 pi, so that BDF2 sees one matrix in all steps.
+ * The equation decays; rho(C) is above 1 between beta = 62 and 87 and not for large beta. Time is
+ * stretched to the period 2 pi. rho: eigenvalues of C in 30 digits. */
+static void a_rotation_in_every_step(void)
+{
+  static const struct {
+    double beta, rho, tolerance;
+  } row[] = {{62, 1.04917253972725, 1e-3}, /* a complex pair */
+             {64, 3.44945611965731, 1e-11},  {70, 2.97889811610100, 1e-11},
+             {80, 1.26707803927214, 1e-11},  {85, 1.05778329554754, 1e-11},
+             {86.9, 1.00191724265359, 1e-11}, {87.1, 0.99655226441423, 1e-11},
+             {90, 0.92762310921163, 1e-11},  {100, 0.77048131323400, 1e-11},
+             {1000, 0.19790710383607, 1e-11}};
+  const double pi = 3.14159265358979323846, scale = 0.1 / (2 * pi);
+  steif_context *ctx = steif_context_new(NULL);
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    char name[160];
+    double exponent = NAN;
+    steif_problem p;
+    snprintf(name, sizeof name, "steyer:a=%.17g,b1=%.17g,b2=%.17g,beta=%.17g,omega=1",
+             1.2 * scale, -0.14 * scale, -0.15 * scale, row[i].beta * scale);
+    const steif_lyapunov_options o = {
+      .h = 2 * pi, .t1 = 2 * pi * 4000, .transient = 2 * pi * 400, .count = 1};
+    CU_ASSERT_FATAL(steif_problem_find(ctx, name, &p) == STEIF_OK);
+    CHECK(steif_lyapunov(ctx, &p, "bdf:p=2", &o, &exponent, NULL, NULL) == STEIF_OK);
+    CLOSE(exp(2 * pi * exponent), row[i].rho, row[i].tolerance);
+    steif_problem_clear(ctx, &p);
   }
   steif_context_free(&ctx);
 }
@@ -133,6 +172,7 @@ static void short_memory_is_told(void)
 
 CU_TestInfo tests_of_counterexample[] = {
   {"every method has one", every_method_has_one},
+  {"a rotation in every step: rho(C) of the introduction", a_rotation_in_every_step},
   {"numbers grow where the equation decays", numbers_grow_where_the_equation_decays},
   {"the exact solution is one", the_exact_solution_is_one},
   {"nonsense is refused", nonsense_is_refused},

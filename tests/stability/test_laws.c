@@ -61,6 +61,32 @@ static void floquet_agrees_with_qr(void)
   steif_context_free(&ctx);
 }
 
+/* Equation (3) of Steyer and Van Vleck with 84 steps a period: the largest Floquet exponent of the
+ * recurrences, whose ODE has -0.14; products of step matrices in double. */
+static void leading_exponents_of_many_methods(void)
+{
+  static const struct {
+    const char *method;
+    double exponent;
+  } row[] = {{"be", .6455},          {"dirk:cranknicolson", -.0701}, {"gauss:s=1", -.0701},
+             {"bdf:p=2", .00719513}, {"dirk:alexander2", -.0924},    {"radau:s=2", -.1367},
+             {"gauss:s=2", -.1398},  {"bdf:p=3", -.1427},            {"bdf:p=4", -.1450},
+             {"bdf:p=5", -.1381},    {"bdf:p=6", -.1401},            {"rk4", -.1450},
+             {"glm:ab,p=2", -.1344}, {"glm:ab,p=3", -.1291},         {"glm:am,p=3", -.1446},
+             {"glm:dimsim1", -.1401}, {"glm:dimsim2", -.0933},       {"glm:nord22", -.0253}};
+  const steif_lyapunov_options o = {.h = 2 * pi / 84, .t1 = 20 * pi};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "steyer", &p) == STEIF_OK);
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    const run r = measure(ctx, &p, row[i].method, o, 0, 2 * pi);
+    CHECK(r.code == STEIF_OK && r.count == 3);
+    CLOSE_FLOOR(r.check[1].expected, row[i].exponent, 5.1e-5, 1);
+  }
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
 /* BDF2 with h = 0.02 has the sum -14.519 where the trace is -41/3; rk4 keeps it. */
 static void the_sum_tells_long_steps(void)
 {
@@ -174,6 +200,7 @@ static void short_memory_is_told(void)
 
 CU_TestInfo tests_of_laws[] = {
   {"Floquet's exponents are those of QR", floquet_agrees_with_qr},
+  {"leading exponents of many methods", leading_exponents_of_many_methods},
   {"the sum tells steps that are too long", the_sum_tells_long_steps},
   {"cycles have an exponent 0, rest has none", cycles_have_a_zero_and_rest_has_none},
   {"bad questions are refused", bad_questions_are_refused},
