@@ -177,11 +177,11 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   steif_method_info info = {0};
   STEIF_TRY(step->method->describe(s->ctx, spec, step->table, &info));
   STEIF_CHECK(step->method->forms & (unsigned)form, s->ctx, STEIF_UNSUPPORTED,
-              "'%s' does not accept problems of form %s such as '%s'", spec->name,
+              "'%s' does not accept problems of form %s such as '%s'", s->method,
               steif_form_name(form), p->name);
   step->adaptive = !o->mesh && !(o->h > 0);
   STEIF_CHECK(!step->adaptive || info.adaptive, s->ctx, STEIF_UNSUPPORTED,
-              "'%s' has no error estimate: give steps with h", spec->name);
+              "'%s' has no error estimate: give steps with h", s->method);
   step->absolute = form == STEIF_DESCRIPTOR;
   if (!step->adaptive && !o->mesh) STEIF_TRY(equal_steps(s));
   const stf_space *space = &step->system.space;

@@ -39,8 +39,8 @@ int stf_glm_solution(steif_context *ctx, const steif_glm *glm, sunrealtype *d);
 /* The highest power j of h whose column in W is not 0: X needs so many further values to begin
  * with. */
 int stf_glm_powers(const steif_glm *glm);
-/* X_0 from y(t_0 + i h / count), i = 0 .. count: weights k x (count + 1), count =
- * stf_glm_powers. */
+/* X_0 from y(t_0 + i h / count), i = 0 .. count: weights k x (count + 1), stf_glm_powers <= count
+ * <= order. */
 void stf_glm_first(const steif_glm *glm, int count, sunrealtype *weights);
 
 /* Adams-Bashforth or Adams-Moulton of order p, X = (y_n, h f_n, h f_{n-1}, ..), with W. */

@@ -94,7 +94,8 @@ static void chosen_steps_meet_tolerances(void)
 {
   static const char *const methods[] = {"glm:nord22",   "glm:dimsim2",
                                         "glm:irks,p=2", "glm:irks,p=3",
-                                        "glm:irks,p=4", "glm:nordsieck,of=bdf,p=4"};
+                                        "glm:irks,p=4", "glm:nordsieck,of=bdf,p=4",
+                                        "glm:bdf,p=2",  "glm:bdf,p=4"};
   static const char *const problems[] = {"hires", "rober", "vdpol", "transamp"};
   steif_context *ctx = steif_context_new(NULL);
   for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
@@ -124,12 +125,15 @@ static void chosen_steps_meet_tolerances(void)
   steif_context_free(&ctx);
 }
 
-/* Explicit methods choose steps as well. */
-static void explicit_methods_choose_steps(void)
+/* Methods for smooth problems choose steps as well, those whose estimate is a change of h^p y^(p)
+ * among them. */
+static void other_methods_choose_steps(void)
 {
-  static const char *const methods[] = {"glm:ab,p=3", "glm:ab,p=6", "glm:dimsim1"};
+  static const char *const methods[] = {"glm:ab,p=3", "glm:ab,p=6", "glm:dimsim1", "glm:am,p=2",
+                                        "glm:am,p=3", "glm:am,p=4", "glm:am,p=6",  "glm:bdf,p=3",
+                                        "glm:bdf,p=6"};
   steif_context *ctx = steif_context_new(NULL);
-  for (int i = 0; i < 3; i++) {
+  for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
     steif_options o = steif_defaults();
     o.rtol = o.atol = 1e-7;
     steif_solver *s = steif_solver_new(ctx, &rational, methods[i], &o);
@@ -222,7 +226,7 @@ static void questions_without_sense_are_refused(void)
   steif_problem implicit = rational;
   implicit.f = NULL, implicit.F = residual, implicit.yp0 = y0;
   refuse(&implicit, "glm:ab,p=2", 0.1, STEIF_UNSUPPORTED, "has explicit stages");
-  refuse(&rational, "glm:bdf,p=3", 0, STEIF_UNSUPPORTED, "no error estimate");
+  refuse(&rational, "rk4", 0, STEIF_UNSUPPORTED, "'rk4' has no error estimate");
   refuse(&rational, "glm:bdf,p=7", 0.1, STEIF_BAD_INPUT, "not strictly stable");
   refuse(&rational, "glm:nord22,p=3", 0.1, STEIF_UNKNOWN_NAME, "no parameter 'p'");
   refuse(&rational, "glm:file=missing.glm", 0.1, STEIF_IO, "missing.glm");
@@ -232,7 +236,7 @@ static void questions_without_sense_are_refused(void)
 CU_TestInfo tests_of_glm[] = {
   {"changing steps keep the order", changing_steps_keep_the_order},
   {"chosen steps meet tolerances", chosen_steps_meet_tolerances},
-  {"explicit methods choose steps", explicit_methods_choose_steps},
+  {"other methods choose steps", other_methods_choose_steps},
   {"dense output has the order", dense_output_has_the_order},
   {"descriptor systems are solved", descriptor_systems_are_solved},
   {"questions without sense are refused", questions_without_sense_are_refused},

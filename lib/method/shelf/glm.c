@@ -3,7 +3,8 @@
  * What a step leaves, X_{n+1}, h F and X_n, determines Nordsieck's vector z of order p (as far
  * as W asks for it), and from it the solution, the history for another step length, X <- W
  * diag(q^j) z, and dense output; the combination that gives error h^{p+1} y^{(p+1)} is the
- * estimate. The start is fitted to p further values within the first step.
+ * estimate. Where there is none the change of z_p = h^p y^(p) since the last step gives it, in the first
+ * step the values of the start. The start is fitted to p further values within the first step.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "begin.h"
 #include "chain.h"
@@ -25,7 +26,7 @@ typedef struct state {
   sunrealtype scale;  /* h that belongs to at */
   sunrealtype *first; /* k x (p + 1): X_0 from the values of the start */
   sunrealtype z[POWERS * DATA], finish[DATA], error[DATA]; /* rows of weights */
-  bool known[POWERS], estimates, dense;
+  bool known[POWERS], estimates, dense, begun; /* begun: the trial is a first step */
 } state;
 
 static bool uses(const steif_glm *g, int j)
@@ -85,9 +86,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->chain = (stf_chain){.s = g->r, .k = g->k, .A = g->C, .c = g->xi, .U = g->U};
   STEIF_TRY(check(s, g));
   STEIF_TRY(rows(s, e));
-  STEIF_CHECK(!s->adaptive || e->estimates, s->ctx, STEIF_UNSUPPORTED,
-              "'%s' has no error estimate: give steps with h", g->name);
-  const int count = stf_glm_powers(g);
+  const int powers = stf_glm_powers(g), count = powers || e->estimates ? powers : 1;
   const bool explicit_ = stf_glm_shape(g) == STEIF_EXPLICIT;
   STEIF_TRY(stf_begin_open(s, count, e->p, explicit_, &e->begin));
   e->first = stf_claim(s->pool, (size_t)(e->k * (count + 1)), sizeof *e->first);
@@ -142,8 +141,8 @@ static void rescale(stf_step *s, sunrealtype h)
 static int history(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
-  e->x = e->from;
-  if (s->count == 0 || s->restart) {
+  e->x = e->from, e->begun = s->count == 0 || s->restart;
+  if (e->begun) {
     STEIF_TRY(stf_begin_run(s, &e->begin, h));
     stf_mix(&s->system.space, e->k, e->begin.count + 1, e->first, e->begin.value, e->from);
     return STEIF_OK;
@@ -176,12 +175,32 @@ static int advance(stf_step *s, sunrealtype h)
   return STEIF_OK;
 }
 
+/* error h^{p+1} y^{(p+1)} from h^p y^(p) at both ends. */
+static void difference(stf_step *s, sunrealtype h, N_Vector out)
+{
+  state *e = s->state;
+  const sunrealtype *z = e->z + e->p * e->data;
+  const sunrealtype power = pow(h / e->scale, e->p);
+  sunrealtype now[DATA], before[DATA];
+  for (int i = 0; i < e->data; i++)
+    now[i] = e->g->error * z[i], before[i] = power * now[i];
+  combine(s, now, e->to, e->chain.K, h, e->x, out);
+  combine(s, before, e->at, e->slopes, e->scale, e->past, s->error);
+  stf_axpy(&s->system.space, -1, s->error, out);
+}
+
 static int estimate(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
+  const stf_space *space = &s->system.space;
   const sunrealtype filter = e->chain.gamma > 0 ? 1 / (e->chain.gamma * h) : 1;
-  combine(s, e->error, e->to, e->chain.K, h, e->x, e->chain.base);
-  stf_scale(&s->system.space, filter, e->chain.base, e->chain.base);
+  if (e->estimates)
+    combine(s, e->error, e->to, e->chain.K, h, e->x, e->chain.base);
+  else if (e->begun)
+    stf_sum(space, 1, s->next, -1, e->begin.value[e->begin.count], e->chain.base);
+  else
+    difference(s, h, e->chain.base);
+  stf_scale(space, filter, e->chain.base, e->chain.base);
   return stf_chain_filter(s, &e->chain);
 }
 
@@ -251,8 +270,10 @@ static int describe(steif_context *ctx, const steif_spec *spec, const steif_tabl
   info->family = "glm", info->about = table->about;
   info->order = g->order, info->stages = g->r, info->claims = table->claims;
   if (g->order <= STEIF_PAST) {
-    target[g->order + 1] = g->error;
-    STEIF_TRY(stf_glm_combination(ctx, g, target, true, d, &estimates));
+    target[g->order] = 1;
+    STEIF_TRY(stf_glm_combination(ctx, g, target, false, d, &estimates));
+    target[g->order] = 0, target[g->order + 1] = g->error;
+    if (!estimates) STEIF_TRY(stf_glm_combination(ctx, g, target, true, d, &estimates));
   }
   info->adaptive = estimates && g->error != 0;
   return STEIF_OK;
