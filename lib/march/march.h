@@ -47,6 +47,10 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
 /* One accepted step of a method of ours, not beyond t_stop when steps are chosen. */
 int stf_advance(steif_solver *s, sunrealtype t_stop);
 
+/* steif_solve_step without its processor time, which the system takes longer to tell than a small step
+ * lasts. */
+int stf_step_untimed(steif_solver *s);
+
 /* Is there more to do after a step than to go on? */
 bool stf_attended(const steif_solver *s);
 

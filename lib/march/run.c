@@ -118,17 +118,23 @@ static sunrealtype begin(const steif_solver *s)
   return s->options.max_seconds > 0 ? now(CLOCK_MONOTONIC) : 0;
 }
 
-int steif_solve_step(steif_solver *s)
+int stf_step_untimed(steif_solver *s)
 {
   STEIF_TRY(ready(s));
   if (s->finished) return ended(s);
   STEIF_CHECK(s->end < s->t1, s->ctx, STEIF_BAD_INPUT,
               "the run is at its end t1 = %.12g: no step is left", s->t1);
+  STEIF_TRY(step_once(s, begin(s)));
+  s->shown = last(s), s->t_shown = s->end;
+  steif_forget(s->ctx);
+  return STEIF_OK;
+}
+
+int steif_solve_step(steif_solver *s)
+{
   const sunrealtype before = now(CLOCK_PROCESS_CPUTIME_ID);
-  const int code = step_once(s, begin(s));
+  const int code = stf_step_untimed(s);
   s->cpu_s += now(CLOCK_PROCESS_CPUTIME_ID) - before;
-  if (!code) s->shown = last(s), s->t_shown = s->end;
-  if (!code) steif_forget(s->ctx);
   return code;
 }
 

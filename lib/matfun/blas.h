@@ -18,6 +18,10 @@ void dgetrs_(const char *trans, const int *n, const int *nrhs, const double *a, 
 void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag,
             const int *m, const int *n, const double *alpha, const double *a, const int *lda,
             double *b, const int *ldb, size_t, size_t, size_t, size_t);
+void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k, const double *alpha,
+            const double *a, const int *lda, const double *beta, double *c, const int *ldc, size_t,
+            size_t);
+void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info, size_t);
 void dgelqf_(const int *m, const int *n, double *a, const int *lda, double *tau, double *work,
              const int *lwork, int *info);
 void dgebal_(const char *job, const int *n, double *a, const int *lda, int *ilo, int *ihi,

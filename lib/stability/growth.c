@@ -84,10 +84,10 @@ static sunrealtype formula(column *c, const sunrealtype *x)
 {
   const steif_glm *g = c->v.g;
   const int d = c->v.d, k = g->k;
+  stf_jacobian_times(c->v.J[0], 1, -c->v.h * g->C[0], x + k * d, c->y);
   for (int a = 0; a < d; a++) {
-    c->y[a] = x[k * d + a];
+    c->y[a] += x[k * d + a];
     for (int j = 0; j < k; j++) c->y[a] -= g->U[j] * x[j * d + a];
-    for (int b = 0; b < d; b++) c->y[a] -= c->v.h * g->C[0] * c->v.J[a * d + b] * x[k * d + b];
   }
   return norm(d, c->y);
 }
@@ -167,7 +167,7 @@ static int begin(column *c)
   c->size0 = c->out.norm_max = norm(d, c->x);
   STEIF_CHECK(c->size0 > 0, c->v.ctx, STEIF_BAD_INPUT,
               "'%s' starts at 0, and so it stays: give another y0", c->v.problem->name);
-  STEIF_TRY(stf_variation_matrix(&c->v, 0, c->v.t0, c->v.y));
+  STEIF_TRY(stf_variation_matrix(&c->v, 0, c->v.t0, c->v.y, NULL));
   c->out.mu = c->out.mu_running = c->out.mu_partial = -INFINITY, c->log_half = NAN;
   if (c->multistep) return begin_multistep(c);
   c->out.residual_mean = c->out.residual_max = NAN;

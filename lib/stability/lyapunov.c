@@ -65,20 +65,25 @@ static int room(stf_pool *pool, spectrum *s)
   return STEIF_OK;
 }
 
-/* A step, and X made orthonormal in the principal coordinate; ln R_ii are left on R's diagonal.
- * */
-static int turn(spectrum *s)
+/* X becomes orthonormal in the principal coordinate; R_ii are left on R's diagonal. */
+static int straighten(spectrum *s)
 {
   stf_variation *v = &s->v;
-  STEIF_TRY(stf_variation_step(v));
-  stf_variation_principal(v, s->w);
+  if (v->g->k > 1) stf_variation_principal(v, s->w); /* else ell = 1 */
   STEIF_CHECK(
-    stf_triangle(v->d, v->m, s->w, s->R, &v->algebra), v->ctx, STEIF_NOT_FINITE,
+    stf_triangle(v->d, v->m, v->g->k > 1 ? s->w : v->X, s->w, s->R, &v->algebra), v->ctx,
+    STEIF_NOT_FINITE,
     "a direction of the variational equation of '%s' vanished or overflowed in the step "
     "of %s to t = %.12g: take a smaller h, or fewer exponents",
     v->problem->name, v->method, v->t);
   stf_renormalise(v->g->k * v->d, v->m, s->R, v->X);
   return STEIF_OK;
+}
+
+static int turn(spectrum *s)
+{
+  STEIF_TRY(stf_variation_step(&s->v));
+  return straighten(s);
 }
 
 /* A step, and how far y moved in it. */
@@ -96,8 +101,7 @@ static int turn_and_move(spectrum *s, sunrealtype *moved)
 static sunrealtype trace(const stf_variation *v)
 {
   sunrealtype sum = v->E ? NAN : 0;
-  for (int i = 0; i < v->g->r; i++)
-    for (int a = 0; a < v->d; a++) sum += v->weight[i] * v->J[(i * v->d + a) * v->d + a];
+  for (int i = 0; i < v->g->r && !v->E; i++) sum += v->weight[i] * stf_jacobian_trace(v->J[i]);
   return sum;
 }
 
@@ -188,6 +192,8 @@ static int run(stf_pool *pool, steif_context *ctx, const steif_problem *p, const
   STEIF_TRY(stf_variation_open(pool, ctx, p, method, h, o->t1 != 0 ? o->t1 : p->t1, count,
                                o->linear, &s->v));
   STEIF_TRY(room(pool, s));
+  stf_variation_scatter(&s->v);
+  STEIF_TRY(straighten(s));
   for (long n = 0; n < s->transient; n++) STEIF_TRY(turn(s));
   for (long n = 1; n <= s->steps; n++) {
     sunrealtype *moved = n == 1 ? &s->first : n == s->steps ? &s->last : NULL;

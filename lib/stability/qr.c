@@ -1,40 +1,35 @@
-/* qr.c: dense algebra by rows: products, elimination, Householder's R, right division.
+/* qr.c: dense algebra by rows: LU, the R of Q R, right division.
  *
  * Plain loops beat calls of LAPACK for small orders. Above, an array by rows is the transpose by
- * columns: A X = B becomes factors of A^T solved transposed, W = Q R becomes W^T = R^T Q^T, an LQ
- * decomposition in place, and X R^{-1} a solve with R^T from the left.
+ * columns: A X = B becomes X^T A^T = B^T, W = Q R becomes W^T = R^T Q^T, and X R^{-1} a solve with
+ * R^T from the left.
+ *
+ * Exponents do not ask for the R of an exact Q R: X <- X R^{-1} keeps the product of all steps equal to
+ * X_n R_n ... R_1 whatever the triangles R_i are, and the triangle that X_n itself still hides enters
+ * once, at the end, over the length of the run. So R comes from Cholesky's W^T W = R^T R, twice
+ * as fast as reflections and wrong by eps cond(W)^2, while the diagonal of R shows W to be well
+ * conditioned, and from Householder's reflections otherwise.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "blas.h"
 #include "variation.h"
 #include <math.h>
+#include <string.h>
 
 enum { SMALL = 16, BLOCK = 64 }; /* orders of loops; LAPACK's columns at a time */
+/* Diagonal entries of R further apart than this are left to reflections: eps SPREAD^2 < 1e-12. */
+#define SPREAD 64.0
 
 int stf_algebra_open(stf_pool *pool, int n, int d, int m, stf_algebra *room)
 {
-  const int most = n > d ? n : d, wide = most > BLOCK ? most : BLOCK;
+  const int most = n > d ? n : d, wide = most > BLOCK ? BLOCK : most;
   room->length = m + m * wide;
   room->pivot = stf_claim(pool, (size_t)most, sizeof *room->pivot);
   room->work = stf_claim(pool, (size_t)room->length, sizeof *room->work);
   return room->pivot && room->work ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-void stf_variation_product(int d, int m, sunrealtype h, const sunrealtype *J,
-                           const sunrealtype *B, sunrealtype *K)
-{
-  const sunrealtype zero = 0;
-  if (d > SMALL) {
-    dgemm_("N", "N", &m, &d, &d, &h, B, &m, J, &d, &zero, K, &m, 1, 1);
-    return;
-  }
-  for (int a = 0; a < d; a++)
-    for (int j = 0; j < m; j++) {
-      sunrealtype sum = 0;
-      for (int l = 0; l < d; l++) sum += J[a * d + l] * B[l * m + j];
-      K[a * m + j] = h * sum;
-    }
-}
+/* ---- LU ---- */
 
 static void swap_rows(int n, sunrealtype *a, sunrealtype *b)
 {
@@ -52,43 +47,124 @@ static int pivot_row(int n, const sunrealtype *A, int k)
   return best;
 }
 
-static bool large_eliminate(int n, int m, sunrealtype *A, sunrealtype *B,
-                            const stf_algebra *room)
+/* The transpose by columns: A^T = P L U. */
+static bool large_factor(int n, sunrealtype *A, const stf_algebra *room)
 {
   int info;
   dgetrf_(&n, &n, A, &n, room->pivot, &info);
-  for (int k = 0; k < n; k++)
-    if (!(fabs(A[k * n + k]) > 0)) return false;
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < m; j++) room->work[j * n + i] = B[i * m + j];
-  dgetrs_("T", &n, &m, A, &n, room->pivot, room->work, &n, &info, 1);
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < m; j++) B[i * m + j] = room->work[j * n + i];
+  for (size_t k = 0; k < (size_t)n; k++)
+    if (!(fabs(A[k * (size_t)n + k]) > 0)) return false;
   return true;
 }
 
-bool stf_eliminate(int n, int m, sunrealtype *A, sunrealtype *B, const stf_algebra *room)
+/* X^T = B^T U^{-1} L^{-1} P^T. */
+static void large_substitute(int n, int m, const sunrealtype *A, sunrealtype *B,
+                             const stf_algebra *room)
 {
-  if (n > SMALL) return large_eliminate(n, m, A, B, room);
+  const sunrealtype one = 1;
+  dtrsm_("R", "U", "N", "N", &m, &n, &one, A, &n, B, &m, 1, 1, 1, 1);
+  dtrsm_("R", "L", "N", "U", &m, &n, &one, A, &n, B, &m, 1, 1, 1, 1);
+  for (int k = n; k-- > 0;) {
+    const size_t p = (size_t)room->pivot[k] - 1;
+    if (p != (size_t)k) swap_rows(m, B + (size_t)k * (size_t)m, B + p * (size_t)m);
+  }
+}
+
+/* Multipliers below the diagonal, reciprocals of the pivots on it. */
+bool stf_factor(int n, sunrealtype *A, const stf_algebra *room)
+{
+  if (n > SMALL) return large_factor(n, A, room);
   for (int k = 0; k < n; k++) {
-    const int p = pivot_row(n, A, k);
-    if (p != k) swap_rows(n, A + p * n, A + k * n), swap_rows(m, B + p * m, B + k * m);
+    const int p = room->pivot[k] = pivot_row(n, A, k);
+    if (p != k) swap_rows(n, A + p * n, A + k * n);
     if (!(fabs(A[k * n + k]) > 0)) return false;
+    const sunrealtype r = A[k * n + k] = 1 / A[k * n + k];
     for (int i = k + 1; i < n; i++) {
-      const sunrealtype q = A[i * n + k] / A[k * n + k];
+      const sunrealtype q = A[i * n + k] *= r;
       if (q == 0) continue;
       for (int j = k + 1; j < n; j++) A[i * n + j] -= q * A[k * n + j];
-      for (int j = 0; j < m; j++) B[i * m + j] -= q * B[k * m + j];
     }
   }
-  for (int i = n; i-- > 0;)
-    for (int j = 0; j < m; j++) {
-      sunrealtype sum = B[i * m + j];
-      for (int l = i + 1; l < n; l++) sum -= A[i * n + l] * B[l * m + j];
-      B[i * m + j] = sum / A[i * n + i];
-    }
   return true;
 }
+
+void stf_substitute(int n, int m, const sunrealtype *A, sunrealtype *B, const stf_algebra *room)
+{
+  if (n > SMALL) {
+    large_substitute(n, m, A, B, room);
+    return;
+  }
+  for (int k = 0; k < n; k++) {
+    const int p = room->pivot[k];
+    if (p != k) swap_rows(m, B + p * m, B + k * m);
+  }
+  for (int i = 1; i < n; i++)
+    for (int l = 0; l < i; l++) {
+      const sunrealtype q = A[i * n + l];
+      for (int j = 0; j < m && q != 0; j++) B[i * m + j] -= q * B[l * m + j];
+    }
+  for (int i = n; i-- > 0;) {
+    for (int l = i + 1; l < n; l++) {
+      const sunrealtype q = A[i * n + l];
+      for (int j = 0; j < m && q != 0; j++) B[i * m + j] -= q * B[l * m + j];
+    }
+    for (int j = 0; j < m; j++) B[i * m + j] *= A[i * n + i];
+  }
+}
+
+/* ---- R by W^T W ---- */
+
+/* The upper triangle of W^T W. */
+static void gram(int d, int m, const sunrealtype *W, sunrealtype *G)
+{
+  for (int a = 0; a < m; a++)
+    for (int b = a; b < m; b++) G[a * m + b] = 0;
+  for (int i = 0; i < d; i++, W += m)
+    for (int a = 0; a < m; a++)
+      for (int b = a; b < m; b++) G[a * m + b] += W[a] * W[b];
+}
+
+/* G = R^T R in place. */
+static bool cholesky(int m, sunrealtype *G)
+{
+  for (int j = 0; j < m; j++) {
+    if (!(G[j * m + j] > 0)) return false;
+    const sunrealtype size = sqrt(G[j * m + j]), r = 1 / size;
+    G[j * m + j] = size;
+    for (int k = j + 1; k < m; k++) G[j * m + k] *= r;
+    for (int i = j + 1; i < m; i++)
+      for (int k = i; k < m; k++) G[i * m + k] -= G[j * m + i] * G[j * m + k];
+  }
+  return true;
+}
+
+static bool large_squares(int d, int m, const sunrealtype *W, sunrealtype *R)
+{
+  const sunrealtype one = 1, zero = 0;
+  int info;
+  dsyrk_("L", "N", &m, &d, &one, W, &m, &zero, R, &m, 1, 1);
+  dpotrf_("L", &m, R, &m, &info, 1);
+  return info == 0;
+}
+
+/* False as well where W is too ill-conditioned, or its squares leave the range of numbers. */
+static bool by_squares(int d, int m, const sunrealtype *W, sunrealtype *R)
+{
+  if (d > SMALL && m > 1) {
+    if (!large_squares(d, m, W, R)) return false;
+  } else {
+    gram(d, m, W, R);
+    if (!cholesky(m, R)) return false;
+  }
+  sunrealtype least = INFINITY, most = 0;
+  for (size_t j = 0; j < (size_t)m; j++) {
+    const sunrealtype r = R[j * (size_t)m + j];
+    least = r < least ? r : least, most = r > most ? r : most;
+  }
+  return least * SPREAD >= most && least > 1e-130 && most < 1e130;
+}
+
+/* ---- R by reflections ---- */
 
 /* Length of column j of W below row j, free of overflow. */
 static sunrealtype length(int d, int m, const sunrealtype *W, int j)
@@ -118,8 +194,8 @@ static void reflect(int d, int m, sunrealtype *W, int j, sunrealtype size)
   W[j * m + j] = image;
 }
 
-static bool large_triangle(int d, int m, sunrealtype *W, sunrealtype *R,
-                           const stf_algebra *room)
+static bool large_reflections(int d, int m, sunrealtype *W, sunrealtype *R,
+                              const stf_algebra *room)
 {
   const int length = room->length - m;
   int info;
@@ -127,35 +203,45 @@ static bool large_triangle(int d, int m, sunrealtype *W, sunrealtype *R,
   for (int j = 0; j < m; j++) {
     const sunrealtype size = W[j * m + j], sign = size > 0 ? 1 : -1;
     if (!(fabs(size) > 0) || isinf(size)) return false;
-    for (int k = 0; k < m; k++) R[j * m + k] = k < j ? 0 : sign * W[j * m + k];
+    for (int k = j; k < m; k++) R[j * m + k] = sign * W[j * m + k];
   }
   return true;
 }
 
-bool stf_triangle(int d, int m, sunrealtype *W, sunrealtype *R, const stf_algebra *room)
+static bool by_reflections(int d, int m, sunrealtype *W, sunrealtype *R,
+                           const stf_algebra *room)
 {
-  if (d > SMALL && m > 1) return large_triangle(d, m, W, R, room);
+  if (d > SMALL && m > 1) return large_reflections(d, m, W, R, room);
   for (int j = 0; j < m; j++) {
     const sunrealtype size = length(d, m, W, j);
     if (!(size > 0) || isinf(size)) return false;
     reflect(d, m, W, j, size);
     const sunrealtype sign = W[j * m + j] > 0 ? 1 : -1;
-    for (int k = 0; k < m; k++) R[j * m + k] = k < j ? 0 : sign * W[j * m + k];
+    for (int k = j; k < m; k++) R[j * m + k] = sign * W[j * m + k];
   }
   return true;
+}
+
+bool stf_triangle(int d, int m, const sunrealtype *W, sunrealtype *spare, sunrealtype *R,
+                  const stf_algebra *room)
+{
+  if (by_squares(d, m, W, R)) return true;
+  if (spare != W) memcpy(spare, W, (size_t)d * (size_t)m * sizeof *W);
+  return by_reflections(d, m, spare, R, room);
 }
 
 void stf_renormalise(int rows, int m, const sunrealtype *R, sunrealtype *X)
 {
   const sunrealtype one = 1;
-  if (rows > SMALL && m > 1) {
+  sunrealtype reciprocal[SMALL];
+  if (m > SMALL || (rows > SMALL && m > 1)) {
     dtrsm_("L", "L", "N", "N", &m, &rows, &one, R, &m, X, &m, 1, 1, 1, 1);
     return;
   }
-  for (int i = 0; i < rows; i++)
+  for (int j = 0; j < m; j++) reciprocal[j] = 1 / R[j * m + j];
+  for (int i = 0; i < rows; i++, X += m)
     for (int j = 0; j < m; j++) {
-      sunrealtype sum = X[i * m + j];
-      for (int l = 0; l < j; l++) sum -= X[i * m + l] * R[l * m + j];
-      X[i * m + j] = sum / R[j * m + j];
+      X[j] *= reciprocal[j];
+      for (int k = j + 1; k < m; k++) X[k] -= X[j] * R[j * m + k];
     }
 }

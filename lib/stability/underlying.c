@@ -50,7 +50,7 @@ static int burn(underlying *u, long steps)
     STEIF_TRY(stf_variation_step(v));
     stf_variation_principal(v, u->work);
     STEIF_CHECK(
-      stf_triangle(v->d, v->m, u->work, u->R, &v->algebra), v->ctx, STEIF_NOT_FINITE,
+      stf_triangle(v->d, v->m, u->work, u->work, u->R, &v->algebra), v->ctx, STEIF_NOT_FINITE,
       "a direction vanished or overflowed in the step of %s to t = %.12g: begin with other "
       "columns, or take a smaller h",
       v->method, v->t);
@@ -71,9 +71,10 @@ static int quotient(underlying *u, const sunrealtype *after, sunrealtype *before
     }
   for (int i = 0; i < d; i++)
     for (int j = 0; j < d; j++) u->R[j * d + i] = after[i * d + j];
-  STEIF_CHECK(stf_eliminate(d, d, before, u->R, &u->v.algebra), u->v.ctx, STEIF_SINGULAR,
+  STEIF_CHECK(stf_factor(d, before, &u->v.algebra), u->v.ctx, STEIF_SINGULAR,
               "the %d columns of %s depend on each other at t = %.12g: begin with others", d,
               u->v.method, u->v.t);
+  stf_substitute(d, d, before, u->R, &u->v.algebra);
   for (int i = 0; i < d; i++)
     for (int j = 0; j < d; j++) Phi[i * d + j] = u->R[j * d + i];
   return STEIF_OK;

@@ -1,12 +1,10 @@
 /* variation.c: the variational equation along the solution that a method computes.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "march.h"
+#include "simd.h"
 #include "variation.h"
 #include <math.h>
-#include <nvector/nvector_serial.h>
 #include <string.h>
-#include <sunmatrix/sunmatrix_band.h>
-#include <sunmatrix/sunmatrix_dense.h>
-#include <sunmatrix/sunmatrix_sparse.h>
 
 /* ---- J ---- */
 
@@ -25,55 +23,30 @@ static int slope(stf_variation *v, sunrealtype t, N_Vector y, N_Vector out)
   return answer(v, v->problem->f(t, y, out, v->problem->user), "f", t);
 }
 
-/* By rows, from any storage. */
-static void spread(SUNMatrix M, int d, sunrealtype *J)
-{
-  memset(J, 0, (size_t)d * (size_t)d * sizeof *J);
-  if (SUNMatGetID(M) == SUNMATRIX_DENSE) {
-    for (int j = 0; j < d; j++)
-      for (int i = 0; i < d; i++) J[i * d + j] = SM_ELEMENT_D(M, i, j);
-  } else if (SUNMatGetID(M) == SUNMATRIX_BAND) {
-    for (int j = 0; j < d; j++)
-      for (int i = 0; i < d; i++)
-        if (j - i <= SM_UBAND_B(M) && i - j <= SM_LBAND_B(M))
-          J[i * d + j] = SM_ELEMENT_B(M, i, j);
-  } else {
-    const sunindextype *column = SM_INDEXPTRS_S(M), *row = SM_INDEXVALS_S(M);
-    for (int j = 0; j < d; j++)
-      for (sunindextype e = column[j]; e < column[j + 1]; e++)
-        J[(int)row[e] * d + j] += SM_DATA_S(M)[e];
-  }
-}
-
-/* dF/dy + c dF/dy' by rows. */
+/* dF/dy + c dF/dy'. */
 static int implicit_matrix(stf_variation *v, sunrealtype t, sunrealtype c, N_Vector y,
-                           sunrealtype *out)
+                           N_Vector fy, SUNMatrix out)
 {
   const steif_problem *p = v->problem;
-  if (SUNMatGetID(v->M) != SUNMATRIX_SPARSE) SUNMatZero(v->M);
-  STEIF_TRY(answer(
-    v, p->idajac(t, c, y, v->yp, v->fy, v->M, p->user, v->slope[0], v->slope[1], v->slope[2]),
-    "idajac", t));
-  spread(v->M, v->d, out);
-  return STEIF_OK;
+  stf_jacobian_clear(out);
+  return answer(
+    v, p->idajac(t, c, y, v->yp, fy, out, p->user, v->slope[0], v->slope[1], v->slope[2]),
+    "idajac", t);
 }
 
-int stf_variation_matrix(stf_variation *v, int at, sunrealtype t, N_Vector y)
+int stf_variation_matrix(stf_variation *v, int at, sunrealtype t, N_Vector y, N_Vector fy)
 {
   const steif_problem *p = v->problem;
-  const size_t size = (size_t)v->d * (size_t)v->d;
-  sunrealtype *J = v->J + (size_t)at * size;
-  STEIF_TRY(slope(v, t, y, v->fy));
+  SUNMatrix J = v->J[at];
+  if (!fy) STEIF_TRY(slope(v, t, y, fy = v->fy));
   if (p->F) {
-    STEIF_TRY(implicit_matrix(v, t, 0, y, J));
-    for (size_t e = 0; e < size; e++) J[e] = -J[e];
+    STEIF_TRY(implicit_matrix(v, t, 0, y, fy, J));
+    stf_jacobian_scale(J, -1);
     return STEIF_OK;
   }
-  if (SUNMatGetID(v->M) != SUNMATRIX_SPARSE) SUNMatZero(v->M);
-  STEIF_TRY(answer(v, p->jac(t, y, v->fy, v->M, p->user, v->slope[0], v->slope[1], v->slope[2]),
-                   "jac", t));
-  spread(v->M, v->d, J);
-  return STEIF_OK;
+  stf_jacobian_clear(J);
+  return answer(v, p->jac(t, y, fy, J, p->user, v->slope[0], v->slope[1], v->slope[2]), "jac",
+                t);
 }
 
 /* By elimination with full pivots; A is lost. */
@@ -108,16 +81,19 @@ int stf_variation_leading(stf_variation *v)
   const size_t size = (size_t)v->d * (size_t)v->d;
   STEIF_TRY(slope(v, v->t, v->y, v->fy));
   if (p->F) {
-    STEIF_TRY(implicit_matrix(v, v->t, 0, v->y, v->matrix));
-    STEIF_TRY(implicit_matrix(v, v->t, 1, v->y, v->E));
-    for (size_t e = 0; e < size; e++) v->E[e] -= v->matrix[e];
+    STEIF_TRY(implicit_matrix(v, v->t, 0, v->y, v->fy, v->E));
+    STEIF_TRY(implicit_matrix(v, v->t, 1, v->y, v->fy, v->J[0]));
+    STEIF_CHECK(SUNMatScaleAdd(-1, v->E, v->J[0]) == 0, v->ctx, STEIF_NO_MEMORY,
+                "no memory for the leading matrix of '%s'", p->name);
   } else {
-    if (SUNMatGetID(v->M) != SUNMATRIX_SPARSE) SUNMatZero(v->M);
-    STEIF_TRY(answer(v, p->E(v->t, v->y, v->yp, v->M, p->user), "E", v->t));
-    spread(v->M, v->d, v->E);
+    stf_jacobian_clear(v->E);
+    STEIF_TRY(answer(v, p->E(v->t, v->y, v->yp, v->E, p->user), "E", v->t));
   }
-  memcpy(v->matrix, v->E, size * sizeof *v->E);
-  v->finite = rank_of(v->d, v->matrix);
+  sunrealtype *spread = stf_allocate(v->ctx, size, sizeof *spread);
+  if (!spread) return STEIF_NO_MEMORY;
+  stf_jacobian_spread(v->E, 1, v->d, 0, 0, spread);
+  v->finite = rank_of(v->d, spread);
+  stf_release(v->ctx, spread);
   return STEIF_OK;
 }
 
@@ -127,7 +103,7 @@ static int linear_matrices(stf_variation *v)
 {
   if (v->filled && v->problem->linear) return STEIF_OK;
   for (int i = 0; i < v->g->r; i++)
-    STEIF_TRY(stf_variation_matrix(v, i, v->t + v->g->xi[i] * v->h, v->y));
+    STEIF_TRY(stf_variation_matrix(v, i, v->t + v->g->xi[i] * v->h, v->y, NULL));
   v->filled = true;
   return STEIF_OK;
 }
@@ -143,7 +119,7 @@ static int explicit_matrices(stf_variation *v)
       for (int e = 0; e < v->d; e++)
         Y[e] += v->h * g->C[i * g->r + l] * N_VGetArrayPointer(v->f[l])[e];
     STEIF_TRY(slope(v, t, v->stage, v->f[i]));
-    STEIF_TRY(stf_variation_matrix(v, i, t, v->stage));
+    STEIF_TRY(stf_variation_matrix(v, i, t, v->stage, v->f[i]));
   }
   bool finite = true;
   for (int e = 0; e < v->d; e++) {
@@ -164,95 +140,115 @@ static int implicit_matrices(stf_variation *v)
   const sunrealtype *b, *c;
   N_Vector *Y;
   const steif_glm *g = v->g;
-  STEIF_TRY(steif_solve_step(v->solver));
+  STEIF_TRY(stf_step_untimed(v->solver));
   const sunrealtype made = steif_time(v->solver) - v->t;
   STEIF_CHECK(
     fabs(made - v->h) <= 1e-6 * v->h, v->ctx, STEIF_UNSUPPORTED,
     "%s made a step of %g at t = %g where %g was asked for; exponents need equal steps",
     v->method, made, v->t, v->h);
   STEIF_TRY(steif_stages(v->solver, &count, &c, &b, &Y));
-  if (count == 0) return stf_variation_matrix(v, 0, v->t + v->h, steif_solution(v->solver));
+  if (count == 0)
+    return stf_variation_matrix(v, 0, v->t + v->h, steif_solution(v->solver), NULL);
   for (int i = 0; i < g->r; i++)
-    STEIF_TRY(stf_variation_matrix(v, i, v->t + g->xi[i] * v->h, Y[i]));
+    STEIF_TRY(stf_variation_matrix(v, i, v->t + g->xi[i] * v->h, Y[i], NULL));
   return STEIF_OK;
 }
 
 /* ---- one step ---- */
 
-/* base = sum_j U_ij X_j + sum_{l < last} C_il K_l */
-static void stage_base(stf_variation *v, int i, int last)
+/* Blocks with factors, to be summed. */
+typedef struct terms {
+  int count;
+  sunrealtype c[STF_LEAST];
+  const sunrealtype *x[STF_LEAST];
+} terms;
+
+static void term(terms *q, sunrealtype c, const sunrealtype *x)
 {
-  const steif_glm *g = v->g;
-  const int size = v->d * v->m;
-  memset(v->base, 0, (size_t)size * sizeof *v->base);
-  for (int j = 0; j < g->k; j++)
-    for (int e = 0; e < size; e++) v->base[e] += g->U[i * g->k + j] * v->X[j * size + e];
-  for (int l = 0; l < last; l++) {
-    const sunrealtype c = g->C[i * g->r + l];
-    if (c == 0) continue;
-    for (int e = 0; e < size; e++) v->base[e] += c * v->K[l * size + e];
+  if (c != 0) q->c[q->count] = c, q->x[q->count++] = x;
+}
+
+/* out (= or +=) the sum of `count` terms from number k on. */
+INLINE void pass(const int count, const bool more, size_t size, const terms *q, int k,
+                 sunrealtype *restrict out)
+{
+  const sunrealtype *const *x = q->x + k, *c = q->c + k;
+  const sunrealtype *restrict x0 = x[0], *restrict x1 = x[count > 1 ? 1 : 0],
+                              *restrict x2 = x[count > 2 ? 2 : 0],
+                              *restrict x3 = x[count > 3 ? 3 : 0];
+  const sunrealtype c0 = c[0], c1 = c[count > 1 ? 1 : 0], c2 = c[count > 2 ? 2 : 0],
+                    c3 = c[count > 3 ? 3 : 0];
+  for (size_t e = 0; e < size; e++) {
+    sunrealtype sum = c0 * x0[e];
+    if (count > 1) sum += c1 * x1[e];
+    if (count > 2) sum += c2 * x2[e];
+    if (count > 3) sum += c3 * x3[e];
+    out[e] = more ? out[e] + sum : sum;
   }
 }
 
-/* K_i = h J_i base */
-static void stage_slope(stf_variation *v, int i)
+/* Four terms at a time: the blocks of many columns are far away from the processor. */
+static void sum(size_t size, const terms *q, sunrealtype *out)
 {
-  const size_t d = (size_t)v->d;
-  stf_variation_product(v->d, v->m, v->h, v->J + (size_t)i * d * d, v->base,
-                        v->K + i * v->d * v->m);
+  if (q->count == 0) memset(out, 0, size * sizeof *out);
+  for (int k = 0; k < q->count; k += 4) {
+    const int left = q->count - k;
+    if (k == 0 && left >= 4)
+      pass(4, false, size, q, k, out);
+    else if (k == 0 && left == 3)
+      pass(3, false, size, q, k, out);
+    else if (k == 0 && left == 2)
+      pass(2, false, size, q, k, out);
+    else if (k == 0)
+      pass(1, false, size, q, k, out);
+    else if (left >= 4)
+      pass(4, true, size, q, k, out);
+    else if (left == 3)
+      pass(3, true, size, q, k, out);
+    else if (left == 2)
+      pass(2, true, size, q, k, out);
+    else
+      pass(1, true, size, q, k, out);
+  }
 }
 
-/* Block (i, l) of E - h J C at (row, column) of the matrix of order n. */
-static void block(stf_variation *v, int i, int l, int n, int row, int column)
-{
-  const int d = v->d;
-  const sunrealtype c = v->h * v->g->C[i * v->g->r + l];
-  const sunrealtype *J = v->J + (size_t)i * (size_t)d * (size_t)d;
-  for (int a = 0; a < d; a++)
-    for (int b = 0; b < d; b++) {
-      const sunrealtype e = v->E ? v->E[a * d + b] : a == b;
-      v->matrix[(row + a) * n + column + b] = (i == l ? e : 0) - c * J[a * d + b];
-    }
-}
+static size_t block_size(const stf_variation *v) { return (size_t)v->d * (size_t)v->m; }
 
-static bool stage_by_stage(stf_variation *v)
+/* K_i = h J_i (sum_j U_ij X_j + sum_{l < last} C_il K_l) */
+static void stage_slope(stf_variation *v, int i, int last)
 {
   const steif_glm *g = v->g;
+  const size_t size = block_size(v);
+  terms q;
+  q.count = 0;
+  for (int j = 0; j < g->k; j++) term(&q, g->U[i * g->k + j], v->X + (size_t)j * size);
+  for (int l = 0; l < last; l++) term(&q, g->C[i * g->r + l], v->K + (size_t)l * size);
+  const bool plain = q.count == 1 && q.c[0] == 1;
+  if (!plain) sum(size, &q, v->base);
+  stf_jacobian_times(v->J[i], v->m, v->h, plain ? q.x[0] : v->base, v->K + (size_t)i * size);
+}
+
+static int stages(stf_variation *v)
+{
+  const steif_glm *g = v->g;
+  const bool full = v->shape == STEIF_COLLOCATION;
   for (int i = 0; i < g->r; i++) {
-    stage_base(v, i, i);
-    stage_slope(v, i);
-    if (g->C[i * g->r + i] == 0) continue;
-    block(v, i, i, v->d, 0, 0);
-    if (!stf_eliminate(v->d, v->m, v->matrix, v->K + i * v->d * v->m, &v->algebra))
-      return false;
+    stage_slope(v, i, full ? 0 : i);
+    if (!full && g->C[i * g->r + i] != 0) STEIF_TRY(stf_stage_system_solve(v, i));
   }
-  return true;
-}
-
-static bool all_stages(stf_variation *v)
-{
-  const int d = v->d, r = v->g->r;
-  for (int i = 0; i < r; i++) {
-    stage_base(v, i, 0);
-    stage_slope(v, i);
-    for (int l = 0; l < r; l++) block(v, i, l, r * d, i * d, l * d);
-  }
-  return stf_eliminate(r * d, v->m, v->matrix, v->K, &v->algebra);
+  return full ? stf_stage_system_solve(v, 0) : STEIF_OK;
 }
 
 static void advance(stf_variation *v)
 {
   const steif_glm *g = v->g;
-  const int size = v->d * v->m;
+  const size_t size = block_size(v);
   for (int i = 0; i < g->k; i++) {
-    sunrealtype *out = v->next + i * size;
-    memset(out, 0, (size_t)size * sizeof *out);
-    for (int j = 0; j < g->k; j++)
-      for (int e = 0; e < size && g->V[i * g->k + j] != 0; e++)
-        out[e] += g->V[i * g->k + j] * v->X[j * size + e];
-    for (int l = 0; l < g->r; l++)
-      for (int e = 0; e < size && g->D[i * g->r + l] != 0; e++)
-        out[e] += g->D[i * g->r + l] * v->K[l * size + e];
+    terms q;
+    q.count = 0;
+    for (int j = 0; j < g->k; j++) term(&q, g->V[i * g->k + j], v->X + (size_t)j * size);
+    for (int l = 0; l < g->r; l++) term(&q, g->D[i * g->r + l], v->K + (size_t)l * size);
+    sum(size, &q, v->next + (size_t)i * size);
   }
   sunrealtype *kept = v->X;
   v->X = v->next, v->next = kept;
@@ -263,12 +259,7 @@ int stf_variation_step(stf_variation *v)
   STEIF_TRY(v->linear   ? linear_matrices(v)
             : v->solver ? implicit_matrices(v)
                         : explicit_matrices(v));
-  STEIF_CHECK(
-    stf_glm_shape(v->g) != STEIF_COLLOCATION ? stage_by_stage(v) : all_stages(v), v->ctx,
-    STEIF_SINGULAR,
-    "the stages of %s on the variational equation of '%s' are singular at t = %.12g with "
-    "h = %g: 1/h meets the spectrum of J; change h a little",
-    v->method, v->problem->name, v->t, v->h);
+  STEIF_TRY(stages(v));
   advance(v);
   v->t = v->t0 + (sunrealtype)++v->count * v->h;
   return STEIF_OK;
@@ -276,31 +267,31 @@ int stf_variation_step(stf_variation *v)
 
 void stf_variation_principal(const stf_variation *v, sunrealtype *w)
 {
-  const int size = v->d * v->m;
-  memset(w, 0, (size_t)size * sizeof *w);
-  for (int j = 0; j < v->g->k; j++)
-    for (int e = 0; e < size; e++) w[e] += v->g->ell[j] * v->X[j * size + e];
+  const size_t size = block_size(v);
+  terms q;
+  q.count = 0;
+  for (int j = 0; j < v->g->k; j++) term(&q, v->g->ell[j], v->X + (size_t)j * size);
+  sum(size, &q, w);
 }
 
 void stf_variation_solution(const stf_variation *v, sunrealtype *x)
 {
   const steif_glm *g = v->g;
-  const int size = v->d * v->m;
-  memset(x, 0, (size_t)size * sizeof *x);
-  for (int i = 0; i < 2 * g->k + g->r; i++) {
-    if (v->finish[i] == 0) continue;
-    const int f = i - g->k, b = f - g->r;
-    const sunrealtype *data = f < 0   ? v->X + i * size
-                              : b < 0 ? v->K + f * size
-                                      : v->next + b * size;
-    for (int e = 0; e < size; e++) x[e] += v->finish[i] * data[e];
-  }
+  const size_t size = block_size(v);
+  terms q;
+  q.count = 0;
+  for (int i = 0; i < g->k; i++) term(&q, v->finish[i], v->X + (size_t)i * size);
+  for (int i = 0; i < g->r; i++) term(&q, v->finish[g->k + i], v->K + (size_t)i * size);
+  for (int i = 0; i < g->k; i++)
+    term(&q, v->finish[g->k + g->r + i], v->next + (size_t)i * size);
+  sum(size, &q, x);
 }
 
 int stf_variation_carry(stf_variation *v, sunrealtype t, sunrealtype h, int count,
                         sunrealtype *x)
 {
-  const size_t bytes = (size_t)(v->d * v->m) * sizeof *x;
+  const size_t bytes = block_size(v) * sizeof *x;
+  if (v->h != h / count) v->system.c = NAN;
   v->t = v->t0 = t, v->count = 0, v->h = h / count;
   memcpy(v->X, x, bytes);
   for (int i = 0; i < count; i++) STEIF_TRY(stf_variation_step(v));
@@ -316,11 +307,7 @@ N_Vector stf_variation_state(const stf_variation *v)
 sunrealtype stf_variation_size(const stf_variation *v)
 {
   sunrealtype most = 0;
-  for (int i = 0; i < v->g->r * v->d; i++) {
-    sunrealtype row = 0;
-    for (int j = 0; j < v->d; j++) row += fabs(v->J[i * v->d + j]);
-    most = fmax(most, row);
-  }
+  for (int i = 0; i < v->g->r; i++) most = fmax(most, stf_jacobian_size(v->J[i], v->base));
   return most;
 }
 

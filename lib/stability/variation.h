@@ -9,16 +9,28 @@
 
 #include "base.h"
 #include "general.h"
+#include "jacobian.h"
 #include <steif/lyapunov.h>
 #include <steif/method.h>
 #include <steif/solver.h>
 
-/* Room for systems of order n and blocks of d x m, which LAPACK is given. */
+/* Room for dense systems of order n and blocks of d x m, which LAPACK is given. */
 typedef struct stf_algebra {
   int *pivot, length; /* of work */
   sunrealtype *work;
 } stf_algebra;
 int stf_algebra_open(stf_pool *pool, int n, int d, int m, stf_algebra *room);
+
+/* The systems of stages, E - h c J or all of them at once: a dense matrix by rows, or the pencil of
+ * the sparse diag(E) and of the blocks c_il J_i at the shift 1/h. */
+typedef struct stf_stage_system {
+  int order;
+  sunrealtype c;       /* of the stage whose factors are kept; NaN: none */
+  sunrealtype *matrix; /* NULL: sparse */
+  SUNMatrix E, S;
+  struct steif_pencil *pencil;
+  N_Vector *column; /* STF_AT_ONCE right-hand sides, neighbours in memory */
+} stf_stage_system;
 
 /* Blocks are d x m by rows; X holds k of them. */
 typedef struct stf_variation {
@@ -26,6 +38,7 @@ typedef struct stf_variation {
   const steif_problem *problem;
   const char *method;
   steif_glm *g;
+  enum steif_table_kind shape;
   sunrealtype weight[STEIF_STAGES]; /* ell D */
   sunrealtype finish[STF_LEAST];    /* the solution in (X+; K; X) */
   int d, m;
@@ -33,10 +46,11 @@ typedef struct stf_variation {
   bool linear, filled;
   sunrealtype h, t, t0; /* t = t0 + count h */
   long count;
-  sunrealtype *X, *next, *K, *base, *J, *matrix;
-  sunrealtype *E; /* NULL: the identity */
+  sunrealtype *X, *next, *K, *base;
+  SUNMatrix *J; /* of the stages, two at least */
+  SUNMatrix E;  /* NULL: the identity */
+  stf_stage_system system;
   stf_algebra algebra;
-  SUNMatrix M;
   N_Vector y, fy, slope[3]; /* y: state of an explicit trajectory, else the start */
   N_Vector stage, *f;       /* explicit trajectories: f_i */
   N_Vector yp;              /* 0: an affine F has the same matrices everywhere in y' */
@@ -47,12 +61,17 @@ typedef struct stf_variation {
 int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem,
                        const char *method, sunrealtype h, sunrealtype t1, int m, int linear,
                        stf_variation *v);
+/* X becomes u times n x m random numbers, whose columns do not depend on m. */
+void stf_variation_scatter(stf_variation *v);
 /* X and t after one step. */
 int stf_variation_step(stf_variation *v);
-/* J and h J of linear problems depend on t alone: the matrix at t into block `at` of v->J. */
-int stf_variation_matrix(stf_variation *v, int at, sunrealtype t, N_Vector y);
+/* J at (t, y) into v->J[at]; fy = f(t, y) where it is known already, else NULL. */
+int stf_variation_matrix(stf_variation *v, int at, sunrealtype t, N_Vector y, N_Vector fy);
 /* E at the start, and its rank. */
 int stf_variation_leading(stf_variation *v);
+/* stage_system.c: K := (E - h c J)^{-1} K of stage i, or of all at once where C is full. */
+int stf_stage_system_open(stf_pool *pool, stf_variation *v);
+int stf_stage_system_solve(stf_variation *v, int i);
 /* w = sum_j ell_j X_j, d x m. */
 void stf_variation_principal(const stf_variation *v, sunrealtype *w);
 /* The solution at t after a step, d x m. */
@@ -74,15 +93,15 @@ int stf_variation_substeps(const stf_variation *v, sunrealtype h);
 /* Number of equal steps of at most h in [t0, t1]; refuses nonsense. */
 int stf_equal_steps(steif_context *ctx, sunrealtype h, sunrealtype span, long *steps);
 
-/* K := h J B by rows, J (d x d), K and B (d x m). */
-void stf_variation_product(int d, int m, sunrealtype h, const sunrealtype *J,
-                           const sunrealtype *B, sunrealtype *K);
-/* B := A^{-1} B by rows, A (n x n) and B (n x m) overwritten; false when a pivot is 0 or NaN.
- * */
-bool stf_eliminate(int n, int m, sunrealtype *A, sunrealtype *B, const stf_algebra *room);
-/* W = Q R, R (m x m) with positive diagonal into R, W (d x m) destroyed; false when a diagonal
- * entry is 0 or not finite. */
-bool stf_triangle(int d, int m, sunrealtype *W, sunrealtype *R, const stf_algebra *room);
+/* LU of A (n x n by rows) in place, rows exchanged; false when a pivot is 0 or NaN. B := A^{-1} B by
+ * rows, n x m. */
+bool stf_factor(int n, sunrealtype *A, const stf_algebra *room);
+void stf_substitute(int n, int m, const sunrealtype *A, sunrealtype *B,
+                    const stf_algebra *room);
+/* W = Q R: the upper triangle of R (m x m) with positive diagonal, W d x m; `spare` has its size and
+ * may be W, which is lost then. False when a diagonal entry is 0 or not finite. */
+bool stf_triangle(int d, int m, const sunrealtype *W, sunrealtype *spare, sunrealtype *R,
+                  const stf_algebra *room);
 /* X := X R^{-1}, X (rows x m). */
 void stf_renormalise(int rows, int m, const sunrealtype *R, sunrealtype *X);
 

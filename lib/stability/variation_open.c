@@ -2,14 +2,12 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stability.h"
 #include "variation.h"
+#include <limits.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <string.h>
-#include <sunmatrix/sunmatrix_band.h>
-#include <sunmatrix/sunmatrix_dense.h>
-#include <sunmatrix/sunmatrix_sparse.h>
 
-enum { LARGEST = 1000 };
+enum { LARGEST = 1000 }; /* order of a dense J or of E, columns */
 
 int stf_equal_steps(steif_context *ctx, sunrealtype h, sunrealtype span, long *steps)
 {
@@ -35,13 +33,19 @@ static int suits(steif_context *ctx, const steif_problem *p)
   STEIF_CHECK(p->F ? p->idajac != NULL : p->jac != NULL, ctx, STEIF_UNSUPPORTED,
               "problem '%s' has no Jacobian: the variational equation needs .%s", p->name,
               p->F ? "idajac" : "jac");
-  STEIF_CHECK(p->y0 && p->storage != STEIF_KRYLOV && p->n <= LARGEST, ctx, STEIF_UNSUPPORTED,
-              "problem '%s' with n = %lld needs .y0, a storage with a matrix and n <= %d",
-              p->name, (long long)p->n, LARGEST);
+  STEIF_CHECK(p->y0 && p->storage != STEIF_KRYLOV, ctx, STEIF_UNSUPPORTED,
+              "problem '%s' needs .y0 and a storage with a matrix", p->name);
+  const bool ode = form == STEIF_ODE;
+  STEIF_CHECK(
+    (p->storage != STEIF_DENSE && ode) || p->n <= LARGEST, ctx, STEIF_UNSUPPORTED,
+    "problem '%s' with n = %lld has a dense Jacobian or a leading matrix: exponents are "
+    "found up to n = %d, beyond of odes with a band or sparse Jacobian",
+    p->name, (long long)p->n, LARGEST);
+  STEIF_CHECK(p->n <= INT_MAX / STEIF_STAGES, ctx, STEIF_UNSUPPORTED,
+              "problem '%s' with n = %lld is too large", p->name, (long long)p->n);
   return STEIF_OK;
 }
 
-static void destroy_matrix(void *M) { SUNMatDestroy(M); }
 static void destroy_vector(void *y) { N_VDestroy(y); }
 
 static void destroy_solver(void *s)
@@ -54,8 +58,6 @@ static int open_vectors(stf_pool *pool, stf_variation *v)
 {
   const steif_problem *p = v->problem;
   SUNContext sun = steif_sundials(v->ctx);
-  const sunindextype stated = p->pattern ? p->pattern->column[p->n] : 1;
-  const sunindextype entries = p->nnz > stated ? p->nnz : stated;
   v->y = N_VNew_Serial(p->n, sun);
   STEIF_CHECK(v->y, v->ctx, STEIF_NO_MEMORY, "no memory for a vector of %d", v->d);
   STEIF_TRY(stf_claim_owner(pool, v->y, destroy_vector));
@@ -65,38 +67,41 @@ static int open_vectors(stf_pool *pool, stf_variation *v)
   if (!more || !v->f) return STEIF_NO_MEMORY;
   v->fy = more[0], v->stage = more[1], v->yp = more[5];
   for (int i = 0; i < 3; i++) v->slope[i] = more[2 + i];
-  v->M = p->storage == STEIF_DENSE  ? SUNDenseMatrix(p->n, p->n, sun)
-         : p->storage == STEIF_BAND ? SUNBandMatrix(p->n, p->upper, p->lower, sun)
-                                    : SUNSparseMatrix(p->n, p->n, entries, CSC_MAT, sun);
-  STEIF_CHECK(v->M, v->ctx, STEIF_NO_MEMORY, "no memory for a matrix of order %d", v->d);
-  return stf_claim_owner(pool, v->M, destroy_matrix);
+  return STEIF_OK;
+}
+
+static SUNMatrix matrix(stf_pool *pool, const stf_variation *v, sunindextype entries)
+{
+  const steif_problem *p = v->problem;
+  const sunindextype stated = p->pattern ? p->pattern->column[p->n] : 1;
+  return stf_jacobian_new(pool, v->ctx, p->storage, p->n, p->lower, p->upper,
+                          entries > stated ? entries : stated);
 }
 
 static int open_blocks(stf_pool *pool, stf_variation *v)
 {
   const steif_glm *g = v->g;
   const size_t d = (size_t)v->d, m = (size_t)v->m, k = (size_t)g->k, r = (size_t)g->r;
-  const size_t order = stf_glm_shape(g) != STEIF_COLLOCATION ? d : r * d;
   v->X = stf_claim(pool, k * d * m, sizeof *v->X);
   v->next = stf_claim(pool, k * d * m, sizeof *v->X);
   v->K = stf_claim(pool, r * d * m, sizeof *v->X);
   v->base = stf_claim(pool, d * m, sizeof *v->X);
-  v->J = stf_claim(pool, (r > 2 ? r : 2) * d * d, sizeof *v->X);
-  v->matrix = stf_claim(pool, order * order, sizeof *v->X);
-  if (!v->X || !v->next || !v->K || !v->base || !v->J || !v->matrix) return STEIF_NO_MEMORY;
-  return stf_algebra_open(pool, (int)order, v->d, v->m, &v->algebra);
+  v->J = stf_claim(pool, r > 2 ? r : 2, sizeof *v->J);
+  if (!v->X || !v->next || !v->K || !v->base || !v->J) return STEIF_NO_MEMORY;
+  for (size_t i = 0; i < (r > 2 ? r : 2); i++)
+    if (!(v->J[i] = matrix(pool, v, v->problem->nnz))) return STEIF_NO_MEMORY;
+  return STEIF_OK;
 }
 
-/* Algebraic components of X are as consistent as a step of backward Euler leaves them, and stay so
- * where rho(M(inf)) = 0. */
+/* Algebraic components of X are as consistent as a step leaves them, since rho(M(inf)) = 0. */
 static int open_algebraic(stf_pool *pool, stf_variation *v)
 {
-  const size_t size = (size_t)v->d * (size_t)v->d;
+  const steif_problem *p = v->problem;
   const sunrealtype far[2] = {INFINITY, 0};
   sunrealtype left = NAN;
   v->finite = v->d;
-  if (!v->problem->F && !v->problem->E) return STEIF_OK;
-  v->E = stf_claim(pool, size, sizeof *v->E);
+  if (!p->F && !p->E) return STEIF_OK;
+  v->E = matrix(pool, v, p->F ? p->nnz : p->nnz_E);
   if (!v->E) return STEIF_NO_MEMORY;
   STEIF_TRY(stf_variation_leading(v));
   bool implicit = true;
@@ -105,41 +110,36 @@ static int open_algebraic(stf_pool *pool, stf_variation *v)
   STEIF_CHECK(implicit || v->finite == v->d, v->ctx, STEIF_UNSUPPORTED,
               "%s has explicit stages, which a singular E such as that of '%s' does not allow: "
               "take bdf or a Radau IIA or SDIRK method",
-              v->method, v->problem->name);
+              v->method, p->name);
   STEIF_CHECK(
     left < 1e-9 || v->finite == v->d, v->ctx, STEIF_UNSUPPORTED,
     "%s keeps |M(inf)| = %g of what is wrong in algebraic components such as those of "
     "'%s': take bdf or a Radau IIA or SDIRK method",
-    v->method, left, v->problem->name);
+    v->method, left, p->name);
   return STEIF_OK;
 }
 
-static int consistent(stf_variation *v)
+void stf_variation_scatter(stf_variation *v)
 {
-  const int d = v->d, m = v->m;
-  if (v->finite == d) return STEIF_OK;
-  STEIF_TRY(stf_variation_matrix(v, 0, v->t, v->y));
-  for (int e = 0; e < d * d; e++) v->matrix[e] = v->E[e] - v->h * v->J[e];
-  for (int i = 0; i < m; i++) /* directions without an order among them */
-    for (int a = 0; a < d; a++) v->base[a * m + i] = sin(1 + a + sqrt(2) * (i + 1) * (a + 1));
-  stf_variation_product(d, m, 1, v->E, v->base, v->K);
-  STEIF_CHECK(
-    stf_eliminate(d, m, v->matrix, v->K, &v->algebra), v->ctx, STEIF_SINGULAR,
-    "E - h J of '%s' is singular at t = %g: its index is above 1, or 1/h an eigenvalue",
-    v->problem->name, v->t);
-  for (int j = 0; j < v->g->k; j++)
-    for (int e = 0; e < d * m; e++)
-      v->X[j * d * m + e] = v->g->W[j * (v->g->order + 1)] * v->K[e];
-  return STEIF_OK;
+  const steif_glm *g = v->g;
+  const size_t size = (size_t)v->d * (size_t)v->m;
+  unsigned long long seed = 4711; /* S. K. Park and K. W. Miller, Comm. ACM 31 (1988) */
+  for (int j = 0; j < v->m; j++)
+    for (int a = 0; a < v->d; a++) {
+      seed = seed * 48271 % 2147483647;
+      const sunrealtype x = 2 * (sunrealtype)seed / 2147483647 - 1;
+      for (int i = 0; i < g->k; i++)
+        v->X[(size_t)i * size + (size_t)a * (size_t)v->m + (size_t)j] =
+          g->W[i * (g->order + 1)] * x;
+    }
 }
 
 /* J at y0 and at y0 + (1 + |y0|) times two irrational directions is the same, entry by entry.
  * */
 static int probe(stf_variation *v)
 {
-  const size_t size = (size_t)v->d * (size_t)v->d;
   const sunrealtype t = v->t;
-  STEIF_TRY(stf_variation_matrix(v, 0, t, v->y));
+  STEIF_TRY(stf_variation_matrix(v, 0, t, v->y, NULL));
   v->linear = true;
   for (int k = 1; k <= 2 && v->linear; k++) {
     sunrealtype *y = N_VGetArrayPointer(v->stage);
@@ -147,15 +147,15 @@ static int probe(stf_variation *v)
       const sunrealtype y0 = v->problem->y0[i];
       y[i] = y0 + (1 + fabs(y0)) * 0.1 * sin(k + sqrt(2 + (sunrealtype)i));
     }
-    STEIF_TRY(stf_variation_matrix(v, 1, t, v->stage));
-    for (size_t e = 0; e < size; e++) v->linear = v->linear && v->J[e] == v->J[size + e];
+    STEIF_TRY(stf_variation_matrix(v, 1, t, v->stage, NULL));
+    v->linear = stf_jacobian_same(v->J[0], v->J[1]);
   }
   return STEIF_OK;
 }
 
 static int open_trajectory(stf_pool *pool, stf_variation *v, sunrealtype t1)
 {
-  if (v->linear || (stf_glm_shape(v->g) == STEIF_EXPLICIT && v->g->k == 1)) return STEIF_OK;
+  if (v->linear || (v->shape == STEIF_EXPLICIT && v->g->k == 1)) return STEIF_OK;
   steif_options o = steif_defaults();
   o.h = v->h, o.t1 = t1, o.max_steps = 1L << 50;
   v->solver = steif_solver_new(v->ctx, v->problem, v->method, &o);
@@ -182,6 +182,7 @@ static int open_method(stf_pool *pool, stf_variation *v)
   if (!v->g) return steif_status(v->ctx);
   STEIF_TRY(stf_claim_owner(pool, o, destroy_method));
   const steif_glm *g = v->g;
+  v->shape = stf_glm_shape(g);
   for (int l = 0; l < g->r; l++)
     for (int j = 0; j < g->k; j++) v->weight[l] += g->ell[j] * g->D[j * g->r + l];
   return stf_glm_solution(v->ctx, g, v->finish);
@@ -198,17 +199,22 @@ int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *
   v->d = (int)problem->n, v->t = v->t0 = problem->t0;
   STEIF_CHECK(m >= 1 && m <= v->d, ctx, STEIF_BAD_INPUT,
               "%d exponents were asked for: '%s' has 1 to %d", m, problem->name, v->d);
+  STEIF_CHECK(m <= LARGEST, ctx, STEIF_UNSUPPORTED,
+              "%d exponents of '%s' are too many at once: ask for up to %d", m, problem->name,
+              LARGEST);
   STEIF_TRY(open_vectors(pool, v));
   STEIF_TRY(open_blocks(pool, v));
   STEIF_TRY(open_algebraic(pool, v));
   STEIF_CHECK(m <= v->finite, ctx, STEIF_BAD_INPUT,
               "%d exponents were asked for: '%s' has 1 to %d, the rank of its leading matrix",
               m, problem->name, v->finite);
+  STEIF_TRY(stf_stage_system_open(pool, v));
+  STEIF_TRY(stf_algebra_open(pool, v->system.order, v->d, m, &v->algebra));
   v->linear = linear > 0 || problem->linear;
   if (linear == 0 && !v->linear) STEIF_TRY(probe(v));
   for (int j = 0; j < v->g->k; j++)
     for (int i = 0; i < m; i++)
-      v->X[(j * v->d + i) * m + i] = v->g->W[j * (v->g->order + 1)]; /* u */
-  STEIF_TRY(consistent(v));
+      v->X[((size_t)j * (size_t)v->d + (size_t)i) * (size_t)m + (size_t)i] =
+        v->g->W[j * (v->g->order + 1)]; /* u */
   return open_trajectory(pool, v, t1);
 }
