@@ -91,7 +91,7 @@ static int repeat(subject *q, steif_bench_impulse *row)
 
 /* s E + F by columns, and what KLU makes of it. */
 typedef struct kernel {
-  sunindextype n, *at, *row;
+  SuiteSparse_long n, *at, *row;
   sunrealtype *e, *f, *value, *b;
   klu_l_common common;
   klu_l_symbolic *symbolic;
@@ -99,8 +99,8 @@ typedef struct kernel {
 } kernel;
 
 /* Entries of column j of M; place: where row i of this column stands, if at or behind `first`. */
-static void put(kernel *k, SUNMatrix M, sunindextype j, sunrealtype *to, sunindextype *place,
-                sunindextype *next)
+static void put(kernel *k, SUNMatrix M, sunindextype j, sunrealtype *to,
+                SuiteSparse_long *place, SuiteSparse_long *next)
 {
   for (sunindextype p = SM_INDEXPTRS_S(M)[j]; p < SM_INDEXPTRS_S(M)[j + 1]; p++) {
     const sunindextype i = SM_INDEXVALS_S(M)[p];
@@ -112,13 +112,14 @@ static void put(kernel *k, SUNMatrix M, sunindextype j, sunrealtype *to, suninde
 static int unite(stf_pool *pool, const subject *q, kernel *k)
 {
   SUNMatrix E = q->linear.E, F = q->linear.F;
-  const sunindextype n = k->n = SM_COLUMNS_S(E);
+  const sunindextype n = SM_COLUMNS_S(E);
   const size_t most = (size_t)(SM_INDEXPTRS_S(E)[n] + SM_INDEXPTRS_S(F)[n]);
-  sunindextype *place = stf_claim(pool, (size_t)n, sizeof *place), next = 0;
+  SuiteSparse_long *place = stf_claim(pool, (size_t)n, sizeof *place), next = 0;
   k->at = stf_claim(pool, (size_t)n + 1, sizeof *k->at);
   k->row = stf_claim(pool, most, sizeof *k->row);
   k->e = stf_claim(pool, 4 * most, sizeof *k->e), k->f = k->e + most, k->value = k->f + most;
   k->b = stf_claim(pool, 2 * (size_t)n, sizeof *k->b);
+  k->n = n;
   if (!place || !k->at || !k->row || !k->e || !k->b) return STEIF_NO_MEMORY;
   for (sunindextype i = 0; i < n; i++) place[i] = -1;
   for (sunindextype j = 0; j < n; j++) {
@@ -134,11 +135,11 @@ static int unite(stf_pool *pool, const subject *q, kernel *k)
 static void assemble(kernel *k, sunrealtype R, sunrealtype angle)
 {
   const sunrealtype re = R * cos(angle), im = R * sin(angle);
-  for (sunindextype p = 0; p < k->at[k->n]; p++) {
+  for (SuiteSparse_long p = 0; p < k->at[k->n]; p++) {
     k->value[2 * p] = re * k->e[p] + k->f[p];
     k->value[2 * p + 1] = im * k->e[p];
   }
-  for (sunindextype i = 0; i < k->n; i++) k->b[2 * i] = 1, k->b[2 * i + 1] = 0;
+  for (SuiteSparse_long i = 0; i < k->n; i++) k->b[2 * i] = 1, k->b[2 * i + 1] = 0;
 }
 
 static bool call(kernel *k, bool pivots, long solves)
@@ -184,8 +185,8 @@ static int direct(stf_pool *pool, subject *q, steif_bench_impulse *row)
   for (int left = repeats(row->cpu_s); good && left > 0; left--) good = replay(&k, q, row);
   if (k.numeric) klu_zl_free_numeric(&k.numeric, &k.common);
   if (k.symbolic) klu_l_free_symbolic(&k.symbolic, &k.common);
-  STEIF_CHECK(good, q->ctx, STEIF_SINGULAR, "KLU could not factor '%s' directly, status %ld",
-              row->problem, k.common.status);
+  STEIF_CHECK(good, q->ctx, STEIF_SINGULAR, "KLU could not factor '%s' directly, status %d",
+              row->problem, (int)k.common.status);
   row->ratio = row->cpu_s / row->floor_s;
   return STEIF_OK;
 }

@@ -266,12 +266,12 @@ static sunindextype aim(draft *d, stf_fronts *f, int s, int *where, sunindextype
     for (SuiteSparse_long e = d->u->ptr[node]; e < d->u->ptr[node + 1]; e++) {
       const int i = f->place[d->u->row[e]];
       if (i < g->first) continue;
-      f->entry[used] = e, f->target[used++] = where[i] + (sunindextype)height * k;
+      f->entry[used] = (sunindextype)e, f->target[used++] = where[i] + (sunindextype)height * k;
     }
     for (SuiteSparse_long m = d->tptr[node]; m < d->tptr[node + 1]; m++) {
       const int i = f->place[d->column[d->t[m]]];
       if (i < stop) continue;
-      f->entry[used] = d->t[m];
+      f->entry[used] = (sunindextype)d->t[m];
       f->target[used++] =
         (sunindextype)height * g->width + k + (sunindextype)g->width * (where[i] - g->width);
     }

@@ -103,7 +103,7 @@ static bool same(const stf_pattern *u, SUNMatrix M, const sunindextype *ptr,
 {
   const sunindextype *row = SM_INDEXVALS_S(M);
   if (memcmp(SM_INDEXPTRS_S(M), ptr, (size_t)(u->n + 1) * sizeof *ptr)) return false;
-  sunindextype differ = 0;
+  SuiteSparse_long differ = 0;
   for (sunindextype k = 0; k < ptr[u->n]; k++) differ |= row[k] ^ u->row[place[k]];
   return !differ;
 }

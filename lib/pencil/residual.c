@@ -9,7 +9,7 @@ static void subtract_real(const stf_pattern *u, const double *restrict m,
                           const double *restrict x, double *restrict r, double *restrict size)
 {
   for (sunindextype j = 0; j < u->n; j++)
-    for (sunindextype k = u->ptr[j]; k < u->ptr[j + 1]; k++) {
+    for (SuiteSparse_long k = u->ptr[j]; k < u->ptr[j + 1]; k++) {
       const double term = m[k] * x[j];
       r[u->row[k]] -= term;
       size[u->row[k]] += fabs(term);
@@ -22,8 +22,8 @@ static void subtract_complex(const stf_pattern *u, const double *restrict m,
 {
   for (sunindextype j = 0; j < u->n; j++) {
     const double re = x[2 * j], im = x[2 * j + 1], most = modulus(x + 2 * j);
-    for (sunindextype k = u->ptr[j]; k < u->ptr[j + 1]; k++) {
-      const sunindextype i = u->row[k];
+    for (SuiteSparse_long k = u->ptr[j]; k < u->ptr[j + 1]; k++) {
+      const SuiteSparse_long i = u->row[k];
       r[2 * i] -= m[2 * k] * re - m[2 * k + 1] * im;
       r[2 * i + 1] -= m[2 * k] * im + m[2 * k + 1] * re;
       size[i] += modulus(m + 2 * k) * most;
@@ -55,7 +55,7 @@ double stf_sparse_balance(const steif_pencil *p, double radius, const double *x,
   double sum = 0;
   for (sunindextype i = 0; i < u->n; i++) size[i] = fabs(r[i]);
   for (sunindextype j = 0; j < u->n; j++)
-    for (sunindextype k = u->ptr[j]; k < u->ptr[j + 1]; k++) {
+    for (SuiteSparse_long k = u->ptr[j]; k < u->ptr[j + 1]; k++) {
       const double scaled = radius * e[k];
       r[u->row[k]] -= scaled * x[j] - a[k] * y[j];
       size[u->row[k]] += (fabs(scaled) + fabs(a[k])) * z[j];

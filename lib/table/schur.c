@@ -23,7 +23,7 @@ static void mirror(int n, const long double *v, long double *x, int stride)
 static long double reflect(int s, int k, const long double *x, long double *other,
                            long double *M, long double *T)
 {
-  long double v[STEIF_STAGES], sum = 0;
+  long double v[STEIF_STAGES] = {0}, sum = 0;
   const int n = s - k;
   for (int i = 0; i < n; i++) v[i] = x[i], sum += x[i] * x[i];
   const long double length = x[0] > 0 ? -sqrtl(sum) : sqrtl(sum);

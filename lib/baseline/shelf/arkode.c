@@ -7,6 +7,13 @@
 #include <math.h>
 #include <steif/table.h>
 
+/* Functions common to all of ARKODE's steppers have one name since 7.1. */
+#if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 1)
+#define ARK(name) ARKode##name
+#else
+#define ARK(name) ARKStep##name
+#endif
+
 typedef struct arkode {
   stf_baseline base;
   void *memory;
@@ -64,7 +71,7 @@ static const stf_flag flags[] = {
 static int verdict(arkode *s, int flag)
 {
   sunrealtype h = 0;
-  if (flag < 0 && s->memory) ARKStepGetCurrentStep(s->memory, &h);
+  if (flag < 0 && s->memory) ARK(GetCurrentStep)(s->memory, &h);
   stf_baseline_leave(&s->base);
   return stf_baseline_verdict(&s->base, flag, h, s->order);
 }
@@ -128,7 +135,7 @@ static int choose_table(arkode *s, const steif_spec *spec)
   steif_context *ctx = s->base.run->ctx;
   const char *name = stf_spec_word(spec, "table");
   if (!name) {
-    const int flag = ARKStepSetOrder(s->memory, s->order);
+    const int flag = ARK(SetOrder)(s->memory, s->order);
     STEIF_CHECK(flag >= 0, ctx, STEIF_BASELINE, "ARKODE refused order %d", s->order);
     return STEIF_OK;
   }
@@ -147,13 +154,13 @@ static int attach(arkode *s)
 {
   stf_baseline *b = &s->base;
   void *m = s->memory;
-  int flag = ARKStepSetLinearSolver(m, b->solver, b->J);
-  if (b->J && stf_baseline_has_jac(b)) STF_CALL(flag, ARKStepSetJacFn(m, stf_baseline_jac));
+  int flag = ARK(SetLinearSolver)(m, b->solver, b->J);
+  if (b->J && stf_baseline_has_jac(b)) STF_CALL(flag, ARK(SetJacFn)(m, stf_baseline_jac));
   if (!b->J && b->run->problem->Av)
-    STF_CALL(flag, ARKStepSetJacTimes(m, NULL, stf_baseline_jv));
+    STF_CALL(flag, ARK(SetJacTimes)(m, NULL, stf_baseline_jv));
   if (s->M) {
-    STF_CALL(flag, ARKStepSetMassLinearSolver(m, s->mass_solver, s->M, 0));
-    STF_CALL(flag, ARKStepSetMassFn(m, mass));
+    STF_CALL(flag, ARK(SetMassLinearSolver)(m, s->mass_solver, s->M, 0));
+    STF_CALL(flag, ARK(SetMassFn)(m, mass));
   }
   return flag;
 }
@@ -167,10 +174,10 @@ static int equal_steps(arkode *s)
   const sunrealtype span = o->t1 - run->t, count = ceil(span / o->h * (1 - 1e-12));
   const sunrealtype tight = 1e-10;
   void *m = s->memory;
-  int flag = ARKStepSetFixedStep(m, span / fmax(count, 1));
-  STF_CALL(flag, ARKStepSStolerances(m, tight, tight));
-  STF_CALL(flag, ARKStepSetNonlinConvCoef(m, 1e-2));
-  STF_CALL(flag, ARKStepSetMaxNonlinIters(m, 20));
+  int flag = ARK(SetFixedStep)(m, span / fmax(count, 1));
+  STF_CALL(flag, ARK(SStolerances)(m, tight, tight));
+  STF_CALL(flag, ARK(SetNonlinConvCoef)(m, 1e-2));
+  STF_CALL(flag, ARK(SetMaxNonlinIters)(m, 20));
   return flag;
 }
 
@@ -180,19 +187,19 @@ static int configure(arkode *s)
   const steif_options *o = run->options;
   void *m = s->memory;
   int flag = STF_SILENCE(ARKStepSetErrHandlerFn, m, &s->base);
-  STF_CALL(flag, ARKStepSetUserData(m, s));
-  STF_CALL(flag, o->ewt         ? ARKStepWFtolerances(m, stf_baseline_weights)
-                 : s->base.atol ? ARKStepSVtolerances(m, o->rtol, s->base.atol)
-                                : ARKStepSStolerances(m, o->rtol, o->atol));
-  STF_CALL(flag, ARKStepSetMaxHnilWarns(m, -1));
-  if (s->base.constraint) STF_CALL(flag, ARKStepSetConstraints(m, s->base.constraint));
-  if (o->h0 > 0) STF_CALL(flag, ARKStepSetInitStep(m, o->h0));
-  if (o->h_max > 0) STF_CALL(flag, ARKStepSetMaxStep(m, o->h_max));
+  STF_CALL(flag, ARK(SetUserData)(m, s));
+  STF_CALL(flag, o->ewt         ? ARK(WFtolerances)(m, stf_baseline_weights)
+                 : s->base.atol ? ARK(SVtolerances)(m, o->rtol, s->base.atol)
+                                : ARK(SStolerances)(m, o->rtol, o->atol));
+  STF_CALL(flag, ARK(SetMaxHnilWarns)(m, -1));
+  if (s->base.constraint) STF_CALL(flag, ARK(SetConstraints)(m, s->base.constraint));
+  if (o->h0 > 0) STF_CALL(flag, ARK(SetInitStep)(m, o->h0));
+  if (o->h_max > 0) STF_CALL(flag, ARK(SetMaxStep)(m, o->h_max));
   STF_CALL(flag, attach(s));
   if (o->h > 0) STF_CALL(flag, equal_steps(s));
-  if (s->newton > 0) STF_CALL(flag, ARKStepSetNonlinConvCoef(m, s->newton));
+  if (s->newton > 0) STF_CALL(flag, ARK(SetNonlinConvCoef)(m, s->newton));
   if (run->problem->linear && s->base.J && stf_baseline_has_jac(&s->base))
-    STF_CALL(flag, ARKStepSetLinear(m, 0)); /* one Newton iteration is exact */
+    STF_CALL(flag, ARK(SetLinear)(m, 0)); /* one Newton iteration is exact */
   return flag;
 }
 
@@ -230,16 +237,16 @@ static void collect(arkode *s)
   steif_stats n = {0};
   void *m = s->memory;
   long more = 0, explicit_part = 0;
-  ARKStepGetNumSteps(m, &n.steps);
-  ARKStepGetNumErrTestFails(m, &n.rejected);
+  ARK(GetNumSteps)(m, &n.steps);
+  ARK(GetNumErrTestFails)(m, &n.rejected);
   ARKStepGetNumRhsEvals(m, &explicit_part, &n.nfe);
-  ARKStepGetNumLinRhsEvals(m, &more);
+  ARK(GetNumLinRhsEvals)(m, &more);
   n.nfe += more;
-  ARKStepGetNumJacEvals(m, &n.nje);
-  ARKStepGetNumLinSolvSetups(m, &n.nlu);
-  ARKStepGetNumNonlinSolvIters(m, &n.newton);
-  ARKStepGetNumStepSolveFails(m, &n.newton_fails);
-  ARKStepGetLastStep(m, &n.h_last);
+  ARK(GetNumJacEvals)(m, &n.nje);
+  ARK(GetNumLinSolvSetups)(m, &n.nlu);
+  ARK(GetNumNonlinSolvIters)(m, &n.newton);
+  ARK(GetNumStepSolveFails)(m, &n.newton_fails);
+  ARK(GetLastStep)(m, &n.h_last);
   stf_baseline_count(&s->base, &n);
 }
 
@@ -251,8 +258,8 @@ static int step(stf_run *run, void *state, sunrealtype t_stop)
   if (s->base.restart)
     flag =
       ARKStepReInit(s->memory, NULL, stf_baseline_rhs, stf_baseline_renew(&s->base), run->y);
-  STF_CALL(flag, ARKStepSetStopTime(s->memory, t_stop));
-  STF_CALL(flag, ARKStepEvolve(s->memory, t_stop, run->y, &run->t, ARK_ONE_STEP));
+  STF_CALL(flag, ARK(SetStopTime)(s->memory, t_stop));
+  STF_CALL(flag, ARK(Evolve)(s->memory, t_stop, run->y, &run->t, ARK_ONE_STEP));
   collect(s);
   return verdict(s, flag);
 }
@@ -262,7 +269,7 @@ static int dense(stf_run *run, void *state, sunrealtype t, N_Vector y)
   arkode *s = state;
   STEIF_TRY(stf_baseline_inside(&s->base, &t));
   stf_baseline_enter(&s->base, run);
-  const int flag = ARKStepGetDky(s->memory, t, 0, y);
+  const int flag = ARK(GetDky)(s->memory, t, 0, y);
   return stf_baseline_dense(&s->base, flag, t);
 }
 
@@ -270,7 +277,7 @@ static void close(stf_run *run, void *state)
 {
   (void)run;
   arkode *s = state;
-  if (s->memory) ARKStepFree(&s->memory);
+  if (s->memory) ARK(Free)(&s->memory);
 }
 
 const steif_engine steif_engine_arkode = {

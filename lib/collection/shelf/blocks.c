@@ -179,7 +179,7 @@ static int append(steif_context *ctx, const steif_spec *spec, pencil *p, long si
               "%ld blocks of size %ld do not fit into '%s': sizes from 1 to %d, at most %d "
               "unknowns in all",
               count, size, spec->name, TALLEST, MOST);
-  for (; count > 0; count--) p->last[(p->n += size) - 1] = true;
+  for (; count > 0; count--) p->last[(p->n += (sunindextype)size) - 1] = true;
   if (size > p->tallest) p->tallest = (int)size;
   return STEIF_OK;
 }
