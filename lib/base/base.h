@@ -37,6 +37,8 @@ bool stf_hush(steif_context *ctx, bool hushed);
 /* Single blocks, zeroed; NULL with the message set when memory is short. */
 void *stf_allocate(steif_context *ctx, size_t count, size_t size);
 void stf_release(steif_context *ctx, void *block);
+/* Do blocks come from the caller of the library? */
+bool stf_foreign_memory(const steif_context *ctx);
 int stf_threads(const steif_context *ctx);
 
 /* A pool owns blocks and vectors that live and die together. Claims return NULL with the message
@@ -45,6 +47,8 @@ typedef struct stf_pool stf_pool;
 stf_pool *stf_pool_new(steif_context *ctx);
 void *stf_claim(stf_pool *pool, size_t count, size_t size);
 N_Vector stf_claim_vector(stf_pool *pool, N_Vector like);
+/* A serial vector like `like` (serial) on an array that lives as long as the pool. */
+N_Vector stf_claim_view(stf_pool *pool, N_Vector like, sunrealtype *data);
 /* `count` clones of `like`, zeroed, as one array. */
 N_Vector *stf_claim_vectors(stf_pool *pool, int count, N_Vector like);
 /* Call destroy(object) when the pool goes; on failure destroys at once and returns NO_MEMORY. */

@@ -120,6 +120,9 @@ int stf_recover(steif_context *ctx, int cause, const char *where, const char *fo
   va_end(arguments);
   return STEIF_RETRY;
 }
+
+bool stf_foreign_memory(const steif_context *ctx) { return ctx->setup.allocate != allocate; }
+
 void *stf_allocate(steif_context *ctx, size_t count, size_t size)
 {
   if (count == 0) count = 1;
@@ -131,7 +134,7 @@ void *stf_allocate(steif_context *ctx, size_t count, size_t size)
                "no memory for %zu items of %zu bytes; make the problem "
                "smaller",
                count, size);
-  else if (ctx->setup.allocate != allocate)
+  else if (stf_foreign_memory(ctx))
     memset(block, 0, count * size);
   return block;
 }

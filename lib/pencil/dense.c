@@ -181,7 +181,7 @@ static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
 static void finish(steif_pencil *p)
 {
   dense *d = p->state;
-  for (int k = 0; k < STEIF_PENCIL_SLOTS; k++) {
+  for (int k = 0; k < p->slots; k++) {
     stf_release(p->ctx, d->slot[k].a);
     stf_release(p->ctx, d->slot[k].pivot);
     stf_release(p->ctx, d->slot[k].thin);

@@ -45,6 +45,47 @@ static void vectors_are_zeroed_clones(void)
   steif_context_free(&ctx);
 }
 
+/* Their operations are the pool's own: the vector cloned from may go first. */
+static void views_lie_on_their_array(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  N_Vector like = N_VNew_Serial(3, steif_sundials(ctx));
+  stf_pool *pool = stf_pool_new(ctx);
+  sunrealtype data[] = {1.25, -7.5, 3.75};
+  N_Vector view = stf_claim_view(pool, like, data), copy = stf_claim_vector(pool, view);
+  N_VDestroy(like);
+  CHECK(view && copy && N_VGetLength(view) == 3 && N_VGetArrayPointer(view) == data);
+  N_VScale(2, view, copy);
+  CHECK(data[1] == -7.5 && N_VGetArrayPointer(copy)[1] == -15 && N_VMaxNorm(copy) == 15);
+  N_Vector clone = N_VClone(view);
+  CHECK(clone && N_VGetArrayPointer(clone) != data && N_VGetLength(clone) == 3);
+  N_VDestroy(clone);
+  stf_pool_free(&pool);
+  steif_context_free(&ctx);
+}
+
+/* Small blocks share chunks: none reaches into the next one, and each begins on a line. */
+static void blocks_do_not_overlap(void)
+{
+  enum { COUNT = 300 };
+  steif_context *ctx = steif_context_new(NULL);
+  stf_pool *pool = stf_pool_new(ctx);
+  unsigned char *block[COUNT];
+  long touched = 0;
+  for (size_t i = 0; i < COUNT; i++) {
+    block[i] = stf_claim(pool, i * 37 % 5003, 1);
+    CHECK(block[i] && (uintptr_t)block[i] % 64 == 0);
+    for (size_t k = 0; k < i * 37 % 5003; k++)
+      touched += block[i][k] != 0, block[i][k] = (unsigned char)(1 + i % 251);
+  }
+  CHECK(touched == 0);
+  for (size_t i = 0; i < COUNT; i++)
+    for (size_t k = 0; k < i * 37 % 5003; k++) touched += block[i][k] != 1 + i % 251;
+  CHECK(touched == 0);
+  stf_pool_free(&pool);
+  steif_context_free(&ctx);
+}
+
 static void count_down(void *object) { --*(int *)object; }
 
 static void owned_objects_are_destroyed_once(void)
@@ -108,8 +149,8 @@ static void any_allocation_may_fail(void)
     CHECK(whole || steif_status(ctx) == STEIF_NO_MEMORY);
     CHECK(f.alive == at_rest && owned == 0);
   }
-  /* pool, block, array, three vectors, owner, block */
-  CHECK(refused == 8);
+  /* pool, block, array, operations, two blocks for each of three vectors, owner, block */
+  CHECK(refused == 12);
   N_VDestroy(like);
   steif_context_free(&ctx);
   CHECK(f.alive == 0);
@@ -118,6 +159,8 @@ static void any_allocation_may_fail(void)
 CU_TestInfo tests_of_pool[] = {
   {"blocks start on a cache line and are zero", blocks_start_on_a_cache_line_and_are_zero},
   {"vectors are zeroed clones", vectors_are_zeroed_clones},
+  {"views lie on their array", views_lie_on_their_array},
+  {"blocks do not overlap", blocks_do_not_overlap},
   {"owned objects are destroyed once", owned_objects_are_destroyed_once},
   {"impossible sizes are refused", impossible_sizes_are_refused},
   {"any allocation may fail", any_allocation_may_fail},

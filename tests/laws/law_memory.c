@@ -199,7 +199,7 @@ static void the_c_library_may_fail_anywhere(void)
       steif_context_free(&ctx);
       if (!reached) {
         if (code) printf("\n  %s %s: %d after %ld", lives[i][0], lives[i][1], code, k);
-        CHECK(code == STEIF_OK && k > 20);
+        CHECK(code == STEIF_OK && k > 8);
         break;
       }
       if (code != STEIF_NO_MEMORY && code != STEIF_OK)

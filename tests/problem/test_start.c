@@ -139,8 +139,8 @@ static int elsewhere(sunrealtype t, N_Vector y, N_Vector out, void *user)
 {
   static double own[2];
   (void)t, (void)y, (void)user;
+  if (NV_OWN_DATA_S(out)) free(NV_DATA_S(out));
   NV_OWN_DATA_S(out) = 0;
-  free(NV_DATA_S(out));
   NV_DATA_S(out) = own;
   return 0;
 }

@@ -26,18 +26,13 @@ bool stf_small_serves(const stf_step *s)
          (s->system.form == STEIF_ODE || s->system.form == STEIF_MASS);
 }
 
-static void destroy(void *v) { N_VDestroy(v); }
-
 /* Vectors whose data are the rows of an array. */
 static N_Vector *views(stf_step *s, double *data)
 {
   const state *e = s->state;
   N_Vector *v = stf_claim(s->pool, (size_t)e->s, sizeof *v);
-  for (int j = 0; v && j < e->s; j++) {
-    v[j] = N_VMake_Serial(e->n, data + j * e->n, steif_sundials(s->ctx));
-    if (!v[j]) STEIF_FAIL(s->ctx, STEIF_NO_MEMORY, "no memory for the view of a stage");
-    if (!v[j] || stf_claim_owner(s->pool, v[j], destroy)) return NULL;
-  }
+  for (int j = 0; v && j < e->s; j++)
+    if (!(v[j] = stf_claim_view(s->pool, s->y, data + j * e->n))) return NULL;
   return v;
 }
 
