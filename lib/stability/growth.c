@@ -204,6 +204,9 @@ static int open(stf_pool *pool, steif_context *ctx, const steif_problem *p, cons
                 const steif_lyapunov_options *o, column *c)
 {
   const sunrealtype t1 = o->t1 != 0 ? o->t1 : p->t1, span = t1 - p->t0;
+  STEIF_CHECK(p->n <= STF_DENSE_MOST, ctx, STEIF_UNSUPPORTED,
+              "'%s' with n = %lld: exact flows cost too much above n = %d", p->name,
+              (long long)p->n, STF_DENSE_MOST);
   STEIF_TRY(stf_equal_steps(ctx, o->h, span, &c->out.steps));
   const sunrealtype h = span / (sunrealtype)c->out.steps;
   STEIF_TRY(stf_variation_open(pool, ctx, p, method, h, t1, 1, o->linear, &c->v));

@@ -27,7 +27,10 @@ static int open(stf_pool *pool, steif_context *ctx, const steif_problem *p, cons
   STEIF_CHECK(p && method, ctx, STEIF_BAD_INPUT, "a problem and a method are needed");
   STEIF_CHECK(h > 0 && isfinite(h), ctx, STEIF_BAD_INPUT, "the step h = %g must be positive",
               h);
-  const int n = p->n > 0 && p->n < 1000 ? (int)p->n : 1;
+  STEIF_CHECK(p->n <= STF_DENSE_MOST, ctx, STEIF_UNSUPPORTED,
+              "'%s' with n = %lld: maps of a step are dense and are found up to n = %d", p->name,
+              (long long)p->n, STF_DENSE_MOST);
+  const int n = p->n > 0 ? (int)p->n : 1;
   const size_t d = (size_t)n;
   STEIF_TRY(stf_variation_open(pool, ctx, p, method, h, p->t0 + h, n, 0, &u->v));
   STEIF_TRY(stf_variation_open(pool, ctx, p, "gauss:s=6", h, p->t0 + h, n, 1, &u->flow));

@@ -32,6 +32,9 @@ typedef struct stf_stage_system {
   N_Vector *column; /* STF_AT_ONCE right-hand sides, neighbours in memory */
 } stf_stage_system;
 
+/* Largest order of a dense J and of E, most columns. */
+enum { STF_DENSE_MOST = 1000 };
+
 /* Blocks are d x m by rows; X holds k of them. */
 typedef struct stf_variation {
   steif_context *ctx;

@@ -7,8 +7,6 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
-enum { LARGEST = 1000 }; /* order of a dense J or of E, columns */
-
 int stf_equal_steps(steif_context *ctx, sunrealtype h, sunrealtype span, long *steps)
 {
   STEIF_CHECK(span > 0 && isfinite(span), ctx, STEIF_BAD_INPUT,
@@ -37,10 +35,10 @@ static int suits(steif_context *ctx, const steif_problem *p)
               "problem '%s' needs .y0 and a storage with a matrix", p->name);
   const bool ode = form == STEIF_ODE;
   STEIF_CHECK(
-    (p->storage != STEIF_DENSE && ode) || p->n <= LARGEST, ctx, STEIF_UNSUPPORTED,
+    (p->storage != STEIF_DENSE && ode) || p->n <= STF_DENSE_MOST, ctx, STEIF_UNSUPPORTED,
     "problem '%s' with n = %lld has a dense Jacobian or a leading matrix: exponents are "
     "found up to n = %d, beyond of odes with a band or sparse Jacobian",
-    p->name, (long long)p->n, LARGEST);
+    p->name, (long long)p->n, STF_DENSE_MOST);
   STEIF_CHECK(p->n <= INT_MAX / STEIF_STAGES, ctx, STEIF_UNSUPPORTED,
               "problem '%s' with n = %lld is too large", p->name, (long long)p->n);
   return STEIF_OK;
@@ -199,9 +197,9 @@ int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *
   v->d = (int)problem->n, v->t = v->t0 = problem->t0;
   STEIF_CHECK(m >= 1 && m <= v->d, ctx, STEIF_BAD_INPUT,
               "%d exponents were asked for: '%s' has 1 to %d", m, problem->name, v->d);
-  STEIF_CHECK(m <= LARGEST, ctx, STEIF_UNSUPPORTED,
+  STEIF_CHECK(m <= STF_DENSE_MOST, ctx, STEIF_UNSUPPORTED,
               "%d exponents of '%s' are too many at once: ask for up to %d", m, problem->name,
-              LARGEST);
+              STF_DENSE_MOST);
   STEIF_TRY(open_vectors(pool, v));
   STEIF_TRY(open_blocks(pool, v));
   STEIF_TRY(open_algebraic(pool, v));

@@ -63,6 +63,8 @@ static void jacobians_agree_with_differences(void)
                                       "lorenz",
                                       "lorenz96",
                                       "lorenz96:n=4,F=5",
+                                      "lorenz96:n=4,storage=sparse",
+                                      "lorenz96:n=7,storage=sparse",
                                       "roessler",
                                       "heat:n=6",
                                       "heat:n=6,storage=dense",

@@ -7,7 +7,8 @@ extern CU_TestInfo tests_of_region[], tests_of_boundary[], tests_of_order[],
   tests_of_stepmap[], tests_of_hamiltonian[], tests_of_supervisor[], tests_of_counterexample[],
   tests_of_attractors[];
 
-extern CU_TestInfo tests_of_underlying[], tests_of_general_regions[], tests_of_laws[];
+extern CU_TestInfo tests_of_underlying[], tests_of_general_regions[], tests_of_laws[],
+  tests_of_leading[];
 
 SUITE_MAIN({.pName = "underlying", .pTests = tests_of_underlying},
            {.pName = "general regions", .pTests = tests_of_general_regions},
@@ -15,6 +16,7 @@ SUITE_MAIN({.pName = "underlying", .pTests = tests_of_underlying},
            {.pName = "boundary", .pTests = tests_of_boundary},
            {.pName = "order", .pTests = tests_of_order},
            {.pName = "lyapunov", .pTests = tests_of_lyapunov},
+           {.pName = "leading exponents", .pTests = tests_of_leading},
            {.pName = "laws of exponents", .pTests = tests_of_laws},
            {.pName = "growth", .pTests = tests_of_growth},
            {.pName = "energy", .pTests = tests_of_energy},
