@@ -14,6 +14,8 @@
  * complex KLU with one symbolic analysis, equilibrated and refined; certified when the number of
  * finite eigenvalues counted inside the circle (Jensen's formula) equals the structural degree.
  * What double precision does not decide is reported as undecided with a lower bound, never guessed.
+ * Units of equations and unknowns decide nothing, whatever their sizes: rows and columns are scaled
+ * by powers of two so that all entries come near to one size, where that is possible.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_IMPULSE_H
@@ -59,7 +61,8 @@ typedef struct steif_structure {
   sunrealtype gap;          /* ratio of the singular values or moments that decide the index */
   sunrealtype rcond;        /* best reciprocal condition of equilibrated s E + F tried */
   sunrealtype radius;       /* estimate of the largest finite |eigenvalue|, or the radius used */
-  int certified;
+  int certified;            /* of a regular pencil: for all within rounding of the entries given; of a
+                               singular one: det(s E + F) = 0 exactly as given */
   const char *method;       /* "staircase", "qz", "contour", "drazin" */
   sunindextype equations_count, unknowns_count; /* offenders, 0-based, when singular or index > 1 */
   sunindextype *equations, *unknowns;

@@ -255,6 +255,12 @@ static void say(const search *w, const sample *chosen)
              "whole number up to %lld; %s",
              index, s->index_least, s->count, s->radius, degree,
              w->analysis.radius > 0 ? "take another radius" : "use a dense algorithm");
+  else if (finite == degree && s->gap >= GAP)
+    snprintf(text, room,
+             "%s %d: the moments end like those of another index than the count %.6f, the "
+             "structural degree, leaves room for; rounding makes infinite eigenvalues finite: "
+             "use a dense algorithm",
+             index, s->index_least, s->count);
   else if (finite == degree)
     snprintf(
       text, room,
@@ -270,6 +276,12 @@ static void say(const search *w, const sample *chosen)
       index, s->index_least, finite, s->radius, degree, 1 / s->radius, degree - finite);
 }
 
+/* A chain as long as the index is made of infinite eigenvalues. */
+static bool possible(int index, sunindextype infinite)
+{
+  return index > 0 ? index <= infinite : infinite == 0;
+}
+
 /* What one circle decides: with all eigenvalues inside, the last gap ends the moments; else a mode
  * outside lets them fall evenly, and only gaps that agree count. */
 static void decide(search *w, const sample *chosen)
@@ -279,9 +291,12 @@ static void decide(search *w, const sample *chosen)
   const int least = chosen->index < chosen->last ? chosen->index : chosen->last;
   const bool agreed = all || (counted && chosen->index == chosen->last);
   s->index_least = chosen->last < 0 ? 0 : all ? chosen->last : least;
-  if (agreed && chosen->last >= 0) s->index = s->index_least;
   if (counted) s->finite = (sunindextype)llround(chosen->count);
   if (counted) s->infinite = s->n - s->finite;
+  if (agreed && chosen->last >= 0) s->index = s->index_least;
+  if (s->index >= 0 && counted && !possible(s->index, s->infinite)) {
+    s->index = -1, s->index_least = s->infinite > 0;
+  }
   s->certified = all && s->index >= 0;
   s->radius = settle(w, chosen);
   if (s->index == 0 || s->index == 1) s->equations_count = s->unknowns_count = 0;

@@ -6,6 +6,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "pairing.h"
 #include "dense.h"
+#include "field.h"
+#include "scales.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,23 +24,14 @@ typedef struct pairing {
   stf_sources sources;
   steif_structure stairs, schur;
   steif_impulse one, two;
+  int torn;             /* the smaller index of two in different units; -1: the same */
+  sunindextype carried; /* finite eigenvalues in entries that are rounding */
+  SUNMatrix given[2];
 } pairing;
 
 static const sunrealtype agreement = 1e-3; /* relative, of x(0+) and of impulses */
 static const sunrealtype negligible =
   1e-6; /* impulses so small beside E (x(0+) - x(0-)) are 0 */
-
-static void spread(SUNMatrix M, int n, sunrealtype *A)
-{
-  for (int j = 0; j < n; j++) {
-    sunrealtype *a = A + (size_t)j * (size_t)n;
-    if (SUNMatGetID(M) == SUNMATRIX_DENSE)
-      memcpy(a, SM_COLUMN_D(M, j), (size_t)n * sizeof *a);
-    else
-      for (sunindextype p = SM_INDEXPTRS_S(M)[j]; p < SM_INDEXPTRS_S(M)[j + 1]; p++)
-        a[SM_INDEXVALS_S(M)[p]] += SM_DATA_S(M)[p];
-  }
-}
 
 static int open(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
                 pairing *p)
@@ -46,7 +39,9 @@ static int open(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analys
   const bool dense = SUNMatGetID(E) == SUNMATRIX_DENSE;
   const int n = (int)(dense ? SM_COLUMNS_D(E) : SM_COLUMNS_S(E));
   const size_t size = sizeof(sunrealtype);
-  *p = (pairing){.ctx = ctx, .analysis = analysis, .n = n, .pool = stf_pool_new(ctx)};
+  *p =
+    (pairing){.ctx = ctx, .analysis = analysis, .n = n, .pool = stf_pool_new(ctx), .torn = -1};
+  p->given[0] = E, p->given[1] = F;
   if (!p->pool) return STEIF_NO_MEMORY;
   p->E = stf_claim_square(p->pool, n);
   p->F = stf_claim_square(p->pool, n);
@@ -56,14 +51,8 @@ static int open(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analys
   p->difference = stf_claim(p->pool, (size_t)n, size);
   if (!p->E || !p->F || !p->row || !p->column || !p->x0 || !p->difference)
     return STEIF_NO_MEMORY;
-  spread(E, n, p->E), spread(F, n, p->F);
-  stf_balance(n, p->E, p->F, p->row, p->column, p->x0);
-  for (int j = 0; j < n; j++)
-    for (int i = 0; i < n; i++) {
-      const size_t at = (size_t)j * (size_t)n + (size_t)i;
-      p->E[at] *= p->row[i] * p->column[j], p->F[at] *= p->row[i] * p->column[j];
-    }
-  return STEIF_OK;
+  return stf_scales_choose(ctx, p->pool, analysis, E, F, n, p->E, p->F, p->row, p->column,
+                           &p->torn);
 }
 
 static void close(pairing *p)
@@ -115,6 +104,12 @@ static int schur(pairing *p)
                 &p->two);
 }
 
+static int second(pairing *p)
+{
+  STEIF_TRY(schur(p));
+  return stf_scales_carried(p->ctx, p->n, p->E, p->F, &p->carried);
+}
+
 static sunrealtype distance(pairing *p, const sunrealtype *a, const sunrealtype *b)
 {
   for (int i = 0; i < p->n; i++) p->difference[i] = a[i] - b[i];
@@ -152,7 +147,18 @@ static bool agree(pairing *p)
 static const char *verdict(pairing *p, char *room, size_t length)
 {
   const steif_structure *a = &p->stairs, *b = &p->schur;
+  if (p->torn >= 0)
+    return "small entries decide, in other units of equations and unknowns the index is "
+           "another one: set those to 0 that are rounding";
   if (b->index < 0) return b->message;
+  if (p->carried > 0) {
+    snprintf(
+      room, length,
+      "entries that are rounding beside the largest carry %lld more finite eigenvalue%s: "
+      "set those to 0 that are rounding",
+      (long long)p->carried, p->carried == 1 ? "" : "s");
+    return room;
+  }
   if (a->index < 0) return "the singular values of the staircase leave the index open";
   if (a->index != b->index)
     snprintf(room, length, "the staircase finds index %d, the generalised Schur form %d",
@@ -200,8 +206,10 @@ static void announce(steif_structure *s, const char *reason, const char *by)
   const size_t length = sizeof s->message;
   if (!s->regular)
     snprintf(text, length,
-             "singular: det(s E + F) = 0 for all s (reciprocal condition %.1e at best), %lld "
-             "equation%s and %lld unknown%s depend on each other",
+             "singular%s: det(s E + F) = 0 for all s %s (reciprocal condition %.1e at best), "
+             "%lld equation%s and %lld unknown%s depend on each other",
+             s->certified ? "" : " to rounding",
+             s->certified ? "exactly" : "after relative changes of entries by rounding",
              s->rcond, (long long)s->equations_count, s->equations_count == 1 ? "" : "s",
              (long long)s->unknowns_count, s->unknowns_count == 1 ? "" : "s");
   else if (s->index < 0)
@@ -213,11 +221,13 @@ static void announce(steif_structure *s, const char *reason, const char *by)
     describe(s, reason, by, text, length);
 }
 
-/* What two algorithms see differently is not decided. */
-static void doubt(steif_structure *s, const steif_structure *other)
+/* What two algorithms, or two units, see differently is not decided. */
+static void doubt(steif_structure *s, int other, int torn)
 {
-  if (s->index < 0 || other->index < 0 || s->index == other->index) return;
-  s->index_least = s->index < other->index ? s->index : other->index;
+  int least = other >= 0 && other < s->index ? other : s->index;
+  if (torn >= 0 && torn < least) least = torn;
+  if (s->index < 0 || (torn < 0 && (other < 0 || other == s->index))) return;
+  s->index_least = least;
   s->index = -1, s->finite = s->infinite = -1;
 }
 
@@ -225,7 +235,7 @@ static int judge(pairing *p)
 {
   char room[200];
   steif_structure *s = &p->stairs;
-  STEIF_TRY(schur(p));
+  STEIF_TRY(second(p));
   const char *reason = verdict(p, room, sizeof room);
   s->certified = !reason;
   s->radius = p->schur.radius;
@@ -233,7 +243,7 @@ static int judge(pairing *p)
     s->method = "qz";
     if (p->schur.index >= 0) s->gap = p->schur.gap;
   }
-  doubt(s, &p->schur);
+  doubt(s, p->schur.index, p->torn);
   announce(s, reason,
            p->analysis->algorithm == STEIF_QZ ? "staircase" : "generalised Schur form");
   return STEIF_OK;
@@ -243,8 +253,10 @@ static int structure_of(pairing *p, bool both)
 {
   if (both) STEIF_TRY(probe(p));
   STEIF_TRY(staircase(p, both));
-  if (p->stairs.regular) return both ? judge(p) : STEIF_OK;
-  p->stairs.certified = p->stairs.rcond < p->n * STF_EPS;
+  if (p->stairs.regular || !both) return both ? judge(p) : STEIF_OK;
+  bool exactly;
+  STEIF_TRY(stf_field_singular(p->ctx, p->given[0], p->given[1], &exactly));
+  p->stairs.certified = exactly;
   announce(&p->stairs, NULL, NULL);
   return STEIF_OK;
 }
@@ -282,7 +294,7 @@ static int impulse_of(pairing *p, steif_impulse *impulse)
     "the pencil is singular (reciprocal condition %.1e at best): x(0+) does not exist "
     "or is not unique; see the structure for the equations",
     p->stairs.rcond);
-  STEIF_TRY(schur(p));
+  STEIF_TRY(second(p));
   const char *reason = verdict(p, room, sizeof room);
   const bool both = p->schur.index >= 0, qz = both && p->analysis->algorithm == STEIF_QZ;
   steif_impulse *from = qz ? &p->two : &p->one;

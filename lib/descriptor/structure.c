@@ -6,6 +6,7 @@
 #include "structure.h"
 #include "pairing.h"
 #include "pencil.h"
+#include "units.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdio.h>
@@ -84,19 +85,6 @@ static bool by_dense(const steif_analysis *a)
   return a->algorithm == STEIF_STAIRCASE || a->algorithm == STEIF_QZ;
 }
 
-static void destroy_matrix(void *M) { SUNMatDestroy(M); }
-
-/* M itself when sparse, else a sparse copy in the pool. */
-static int sparse(steif_context *ctx, stf_pool *pool, SUNMatrix M, SUNMatrix *S)
-{
-  *S = M;
-  if (!is_dense(M)) return STEIF_OK;
-  *S = SUNSparseFromDenseMatrix(M, 0, CSC_MAT);
-  STEIF_CHECK(*S, ctx, STEIF_NO_MEMORY, "no memory for a sparse copy of order %lld",
-              (long long)order(M));
-  return stf_claim_owner(pool, *S, destroy_matrix);
-}
-
 /* What the pattern alone says: the structural degree. */
 static int pattern(steif_context *ctx, SUNMatrix E, SUNMatrix F, steif_structure *structure)
 {
@@ -111,16 +99,15 @@ static int pattern(steif_context *ctx, SUNMatrix E, SUNMatrix F, steif_structure
 static int find(steif_context *ctx, stf_pool *pool, SUNMatrix E, SUNMatrix F,
                 const steif_analysis *analysis, bool whole, steif_structure *structure)
 {
-  SUNMatrix e, f;
+  stf_units u;
   if (by_dense(analysis)) {
     STEIF_TRY(stf_dense_structure(ctx, E, F, analysis, whole, structure));
     structure->count = NAN, structure->degree = -1;
     if (!whole) return STEIF_OK;
   }
-  STEIF_TRY(sparse(ctx, pool, E, &e));
-  STEIF_TRY(sparse(ctx, pool, F, &f));
-  return by_dense(analysis) ? pattern(ctx, e, f, structure)
-                            : stf_contour(ctx, e, f, analysis, structure);
+  STEIF_TRY(stf_units_open(ctx, pool, E, F, &u));
+  return by_dense(analysis) ? pattern(ctx, u.E, u.F, structure)
+                            : stf_contour(ctx, u.E, u.F, analysis, structure);
 }
 
 int steif_structure_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
@@ -244,20 +231,24 @@ static int know(question *q, const steif_structure *structure, int *index)
 static int solve(question *q, const steif_structure *structure, steif_impulse *impulse)
 {
   int index = 0;
-  SUNMatrix e, f;
+  stf_units u;
   STEIF_CHECK(stf_all_finite(q->x0, (size_t)order(q->E)), q->ctx, STEIF_NOT_FINITE,
               "x(0-) is not finite: all %lld values must be", (long long)order(q->E));
   STEIF_TRY(know(q, structure, &index));
   STEIF_TRY(collect(q, index));
   if (by_dense(&q->analysis))
     return stf_dense_impulse(q->ctx, q->E, q->F, &q->analysis, q->x0, &q->sources, impulse);
-  STEIF_TRY(sparse(q->ctx, q->pool, q->E, &e));
-  STEIF_TRY(sparse(q->ctx, q->pool, q->F, &f));
+  const sunrealtype *x0 = q->x0;
+  stf_sources sources = q->sources;
+  STEIF_TRY(stf_units_open(q->ctx, q->pool, q->E, q->F, &u));
+  STEIF_TRY(stf_units_enter(q->pool, &u, &x0, &sources));
   const enum steif_algorithm by = q->analysis.algorithm;
-  return (by == STEIF_DRAZIN  ? stf_drazin_impulse
-          : by == STEIF_ARRAY ? stf_array_impulse
-                              : stf_contour_impulse)(q->ctx, e, f, &q->analysis, q->x0,
-                                                     &q->sources, &q->found, impulse);
+  const int code = (by == STEIF_DRAZIN  ? stf_drazin_impulse
+                    : by == STEIF_ARRAY ? stf_array_impulse
+                                        : stf_contour_impulse)(
+    q->ctx, u.E, u.F, &q->analysis, x0, &sources, &q->found, impulse);
+  if (!code) stf_units_leave(&u, impulse);
+  return code;
 }
 
 int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F, const sunrealtype *x0,
