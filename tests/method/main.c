@@ -3,7 +3,8 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_sympl[], tests_of_separable[], tests_of_stiffpair[],
-  tests_of_nonlinear[], tests_of_start[], tests_of_expo[], tests_of_lanes[];
+  tests_of_nonlinear[], tests_of_start[], tests_of_expo[], tests_of_lanes[],
+  tests_of_rodas[];
 
 extern CU_TestInfo tests_of_glm[];
 
@@ -14,4 +15,5 @@ SUITE_MAIN({.pName = "glm", .pTests = tests_of_glm},
            {.pName = "nonlinear", .pTests = tests_of_nonlinear},
            {.pName = "starts", .pTests = tests_of_start},
            {.pName = "exponential", .pTests = tests_of_expo},
-           {.pName = "lanes", .pTests = tests_of_lanes})
+           {.pName = "lanes", .pTests = tests_of_lanes},
+           {.pName = "rodas", .pTests = tests_of_rodas})

@@ -1,11 +1,12 @@
 /* rosenbrock.c: linearly implicit methods with one real shift and no iteration (rodas.h): few digits,
  * smooth problems.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "rodas.h"
 #include "method.h"
+#include "rodas_small.h"
 #include <complex.h>
 #include <math.h>
 #include <string.h>
+#include <sunmatrix/sunmatrix_dense.h>
 
 typedef struct state {
   const stf_rodas *r;
@@ -13,6 +14,9 @@ typedef struct state {
   N_Vector u[STF_RODAS_STAGES], old[STF_RODAS_STAGES]; /* of the trial, of the last step */
   N_Vector Y, sum, ft, f0, before;
   bool have_f0; /* f0 = f(t_n, y_n), ft = df/dt there */
+  bool small;   /* the stages run through `kernel` */
+  stf_rodas_small kernel;
+  sunrealtype h_factored;
 } state;
 
 static const stf_rodas *find(const char *name)
@@ -20,6 +24,13 @@ static const stf_rodas *find(const char *name)
   for (size_t i = 0; i < stf_rodas_count; i++)
     if (!strcmp(stf_rodas_tables[i].name, name)) return stf_rodas_tables + i;
   return NULL;
+}
+
+/* Serial vectors and dense matrices of few unknowns. */
+static bool serves(const stf_step *s)
+{
+  return s->system.space.serial && s->system.storage == STEIF_DENSE &&
+         s->problem->n <= STF_RODAS_SMALL;
 }
 
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
@@ -38,6 +49,10 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
     if (!(e->u[i] = stf_claim_vector(s->pool, s->y)) ||
         !(e->old[i] = stf_claim_vector(s->pool, s->y)))
       return STEIF_NO_MEMORY;
+  e->small = serves(s);
+  if (e->small)
+    stf_rodas_small_open(&e->kernel, (int)s->problem->n,
+                         s->system.E ? SM_DATA_D(s->system.E) : NULL);
   s->newton.fresh = false;
   s->error_order = e->r->order - 1;
   s->error_tolerance = 0.1;
@@ -91,17 +106,74 @@ static int stage(stf_step *s, int i, sunrealtype h)
   return steif_pencil_solve(s->system.pencil, 0, 1, &e->u[i], NULL);
 }
 
+static bool stale(const stf_step *s)
+{
+  return !s->newton.fresh && (s->count > 0 || s->restart);
+}
+
+static int stages(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const int last = e->r->s - 1;
+  STEIF_TRY(stf_newton_prepare(&s->newton, s->t, h, s->y, s->yp, stale(s)));
+  s->newton.fresh = true;
+  for (int i = 0; i <= last; i++) STEIF_TRY(stage(s, i, h));
+  stf_sum(&s->system.space, 1, e->Y, 1, e->u[last], s->next);
+  return STEIF_OK;
+}
+
+static int prepare_small(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  if (stale(s) && !s->system.linear) {
+    e->h_factored = 0;
+    STEIF_TRY(stf_system_matrices(&s->system, s->t, s->y, s->yp));
+  }
+  s->newton.fresh = true;
+  if (e->h_factored == h) return STEIF_OK;
+  e->h_factored = 0;
+  const int column =
+    stf_rodas_small_factor(&e->kernel, SM_DATA_D(s->system.A), 1 / (e->r->g * h));
+  s->factors++;
+  if (column)
+    return STEIF_RECOVER(
+      s->ctx, STEIF_SINGULAR,
+      "the matrix of problem '%s' is singular in column %d (from 0) at t = %.12g with h = %.6g: "
+      "check that det(s E - A) is not identically zero",
+      s->problem->name, column - 1, s->t, h);
+  e->h_factored = h;
+  return STEIF_OK;
+}
+
+static int stages_small(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  STEIF_TRY(prepare_small(s, h));
+  const stf_rodas *r = e->r;
+  stf_rodas_stage g = {.h = h, .y = STF_ARRAY(s->y), .Y = STF_ARRAY(e->Y)};
+  for (int i = 0; i < r->s; i++) g.u[i] = STF_ARRAY(e->u[i]);
+  stf_copy(&s->system.space, s->y, e->Y);
+  g.ft = STF_ARRAY(e->ft);
+  for (int i = 0; i < r->s; i++) {
+    N_Vector f = i == 0 ? e->f0 : e->sum;
+    if (i > 0) STEIF_TRY(stf_system_rhs(&s->system, s->t + r->alpha[i] * h, e->Y, f));
+    g.i = i, g.f = STF_ARRAY(f), g.c = r->c + i * (i - 1) / 2;
+    g.a = i + 1 < r->rows ? r->a + i * (i + 1) / 2 : NULL;
+    g.slope = s->problem->autonomous ? 0 : r->gamma[i] * h;
+    stf_rodas_small_stage(&e->kernel, &g);
+  }
+  s->solves += r->s;
+  stf_copy(&s->system.space, e->Y, s->next);
+  return STEIF_OK;
+}
+
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
   const int last = e->r->s - 1;
   if (!e->have_f0) STEIF_TRY(start(s, h));
-  const bool renew = !s->newton.fresh && (s->count > 0 || s->restart);
-  STEIF_TRY(stf_newton_prepare(&s->newton, s->t, h, s->y, s->yp, renew));
-  s->newton.fresh = true;
-  for (int i = 0; i <= last; i++) STEIF_TRY(stage(s, i, h));
-  stf_sum(space, 1, e->Y, 1, e->u[last], s->next);
+  STEIF_TRY(e->small ? stages_small(s, h) : stages(s, h));
   stf_copy(space, e->u[last], s->error);
   if (!stf_finite(space, s->next))
     return STEIF_RECOVER(s->ctx, STEIF_NOT_FINITE,
