@@ -1,4 +1,4 @@
-/* small.h: the state of the family `small`, and the polynomial it predicts with.
+/* small.h: the state of the family `small`, the polynomial it predicts with and its iteration.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_SMALL_H
 #define STF_SMALL_H
@@ -23,11 +23,17 @@ typedef struct stf_small {
   bool accurate;                               /* the end is a stage */
   bool rough;                                  /* rounding ended Newton's iteration */
   bool history, have_f0, renew, new_J, predicted;
+  bool sharpened; /* J is from inside this attempt */
 } stf_small;
 
 /* K, d and end for stage j. */
 void stf_small_basis(stf_small *e, int j);
 /* Z_j = u(q c_j) from the last polynomial, q = h / h_old, cut where its terms begin to grow. */
 void stf_small_predict(const stf_step *s, stf_small *e, double h);
+
+/* A Jacobian and factors for a step h, where those at hand do not serve. */
+int stf_small_prepare(stf_step *s, double h);
+/* The stages, from the prediction. */
+int stf_small_iterate(stf_step *s, double h);
 
 #endif

@@ -8,13 +8,15 @@ typedef struct row {
   double less; /* digits that no local error control keeps: lost to the problem's own growth */
 } row;
 
-/* The beam's oscillations of up to 6400 outlive the steps that do not resolve them, e5 ends at
- * 1e-22 after thirteen decades, solutions of steyer grow by exp(2 a) on the way. */
+/* The beam's oscillations of up to 6400 outlive the steps that do not resolve them. e5 ends at 1e-22
+ * after thirteen decades: with tolerances from 1e-5 to 1e-9 radau:s=7 reaches 3.9 to 4.6 digits, CVODE
+ * 4.1 to 5.3. Errors of steyer grow by exp(2 a) = 11 on the way, and from one component to the other by
+ * up to beta / (e |b1|) = 26. */
 static const row rows[] = {
-  {"andrews", 0},       {"beam", 1.3},    {"caraxis", 0},   {"chemakzo", 0},  {"e5", 1.1},
+  {"andrews", 0},       {"beam", 1.3},    {"caraxis", 0},   {"chemakzo", 0},  {"e5", 2.1},
   {"hires", 0},         {"impact", 0},    {"jordan", 0},    {"kepler", 0},    {"orego", 0},
   {"medakzo:n=100", 0}, {"pendulum", 0},  {"pendulum3", 0}, {"plei", 0},      {"pollu", 0},
-  {"prothero", 0},      {"rober", 0},     {"steyer", 0.9},  {"stiffpair", 0}, {"transamp", 0},
+  {"prothero", 0},      {"rober", 0},     {"steyer", 1.5},  {"stiffpair", 0}, {"transamp", 0},
   {"vdpol", 0},         {"heat:n=100", 0}};
 
 /* Tolerances of error beyond which a component is wrong. */
@@ -137,12 +139,12 @@ static void counts_do_not_grow(void)
     const char *problem, *method;
     double rtol;
     long most[4];
-  } runs[] = {{"vdpol", "radau:s=7", 1e-6, {118, 6306, 102, 616}},
-              {"rober", "radau:s=7", 1e-6, {67, 2763, 63, 276}},
-              {"hires", "radau:s=7", 1e-6, {34, 2114, 29, 168}},
-              {"pollu", "radau:s=7", 1e-6, {13, 500, 11, 68}},
-              {"chemakzo", "radau:s=5", 1e-4, {15, 333, 15, 54}},
-              {"transamp", "radau:s=7", 1e-6, {285, 22077, 307, 1876}},
+  } runs[] = {{"vdpol", "radau:s=7", 1e-6, {110, 4803, 119, 620}},
+              {"rober", "radau:s=7", 1e-6, {67, 2780, 65, 284}},
+              {"hires", "radau:s=7", 1e-6, {32, 1678, 43, 208}},
+              {"pollu", "radau:s=7", 1e-6, {12, 423, 12, 64}},
+              {"chemakzo", "radau:s=5", 1e-4, {14, 299, 17, 57}},
+              {"transamp", "radau:s=7", 1e-6, {258, 18493, 476, 2136}},
               {"hires", "bdf:p=5", 1e-6, {508, 1425, 30, 31}}};
   for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
     steif_context *ctx = steif_context_new(NULL);

@@ -5,6 +5,7 @@
  *   Jacobian: at (t_n + h/4, predicted) while the prediction is good, else at (t_n, y_n); renewed with
  *   the factors when the rate of convergence was above 1e-3.
  *   Newton: theta_m = ||d^m|| / ||d^(m-1)||, eta = theta/(1 - theta), stop at eta ||d|| <= kappa.
+ *   Where many iterations are left, one new Jacobian and LU at a stage as it is then.
  *   Error: (lambda_0/h M - J)^{-1} [f(t_n, y_n) + M/h sum d_j Z_j], filtered twice at the start and
  *   after a refusal; where the end is not a stage, the same of f and the slope at the end.
  * Hairer and Wanner, Solving ODEs II, IV.8.
@@ -79,140 +80,6 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   if (s->problem->dae_index >= 3 && !(s->options->newton > 0)) e->kappa = 1e-5;
   e->eta = 1, e->new_J = true;
   stf_trust_open(&e->trust, table, &split, s->options->rtol);
-  return STEIF_OK;
-}
-
-/* -- Jacobian and factors ----------------------------------------------------------------------------- */
-
-/* A quarter step ahead on the last polynomial, while it predicts well. */
-static int jacobian(stf_step *s, double h)
-{
-  state *e = s->state;
-  const double ahead = 0.25, x = ahead * h / s->h;
-  e->new_J = true, e->eta = 1;
-  e->predicted = e->history && !s->restart && e->fails < 2 && e->first < 0.3 &&
-                 h < 1.5 * s->h && s->problem->dae_index < 2;
-  if (!e->predicted) return stf_system_matrices(&s->system, s->t, s->y, s->yp);
-  double *y = STF_ARRAY(s->next);
-  for (int i = 0; i < e->n; i++) {
-    const double *a = e->a + i * e->L.wide;
-    double sum = 0;
-    for (int k = e->s; k-- > 0;) sum = (sum + a[k]) * x;
-    y[i] = STF_ARRAY(s->y)[i] + sum;
-  }
-  return stf_system_matrices(&s->system, s->t + ahead * h, s->next, s->yp);
-}
-
-static int prepare(stf_step *s, double h)
-{
-  state *e = s->state;
-  const bool at_point = e->new_J && !e->predicted && e->fails > 0;
-  if (e->renew && !at_point) STEIF_TRY(jacobian(s, h));
-  if (!e->renew && e->h_factored == h) return STEIF_OK;
-  e->renew = false, e->h_factored = 0;
-  const int column = stf_lanes_factor(&e->L, SM_DATA_D(s->system.A), h);
-  s->factors += (e->s + 1) / 2;
-  if (column)
-    return STEIF_RECOVER(
-      s->ctx, STEIF_SINGULAR,
-      "the stage matrix of problem '%s' is singular in column %d (from 0) at "
-      "t = %.12g with h = %.6g: check that det(s E - A) is not identically zero",
-      s->problem->name, column - 1, s->t, h);
-  e->h_factored = h;
-  return STEIF_OK;
-}
-
-/* -- Newton ---------------------------------------------------------------------------------------------- */
-
-static int refuse(stf_step *s, double h, double norm, double theta, double shrink)
-{
-  state *e = s->state;
-  e->fails++, e->eta = 1, e->renew = true;
-  s->newton.fails++;
-  s->shrink = shrink;
-  if (!(norm <= 1e100))
-    return STEIF_RECOVER(
-      s->ctx, STEIF_NOT_FINITE,
-      "a stage of problem '%s' is not finite in the step from t = %.12g with "
-      "h = %.6g: the callbacks returned NaN or infinity, or the step is too large",
-      s->problem->name, s->t, h);
-  return STEIF_RECOVER(
-    s->ctx, STEIF_NO_CONVERGENCE,
-    "Newton's iteration was refused for problem '%s' in the step from t = %.12g "
-    "with h = %.6g: after %d iterations the correction is %.3g of its tolerance, "
-    "rate %.2g; check the Jacobian",
-    s->problem->name, s->t, h, e->iterations, norm / e->kappa, theta);
-}
-
-/* Rounding in the stages makes corrections below this meaningless. */
-static double floor_of(const stf_step *s, const state *e)
-{
-  const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
-  double most = 0;
-  for (int i = 0; i < e->n; i++) most = fmax(most, fabs(y[i]) * w[i]);
-  return fmax(e->kappa, 10 * STF_EPS * most);
-}
-
-static double power(double x, int n)
-{
-  double p = 1;
-  for (; n > 0; n--) p *= x;
-  return p;
-}
-
-static int evaluate(stf_step *s, double h)
-{
-  state *e = s->state;
-  for (int j = 0; j < e->s; j++) {
-    const int code = stf_system_rhs(&s->system, s->t + e->table->c[j] * h, e->Y[j], e->F[j]);
-    if (code) return e->fails++, e->renew = true, s->shrink = 0.25, code;
-  }
-  return STEIF_OK;
-}
-
-/* Corrections that no longer shrink, or grow once they are small, are rounding: so is then what the
- * differences of highest order show. Multipliers of higher index are not to be left at that. */
-static bool stalled(stf_step *s, double norm, double last, double tolerance)
-{
-  state *e = s->state;
-  const bool high = s->problem->dae_index > 1;
-  e->rough = (norm >= 0.5 * last && norm <= fmax(tolerance, high ? 0.01 : 0.1)) ||
-             (norm >= last && norm <= 1 && !high);
-  return e->rough;
-}
-
-static int iterate(stf_step *s, double h)
-{
-  state *e = s->state;
-  const double tolerance = floor_of(s, e), mean = 1 / (double)(e->s * e->n);
-  const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
-  double last = 0, quotient = 0, theta = 0;
-  e->eta = pow(fmax(e->eta, STF_EPS), 0.8), e->rough = false;
-  stf_lanes_begin(&e->L, y);
-  for (int m = 1;; m++) {
-    STEIF_TRY(evaluate(s, h));
-    const double norm = sqrt(stf_lanes_sweep(&e->L, y, w, h) * mean);
-    s->newton.sweeps++, s->solves += (e->s + 1) / 2, e->iterations = m;
-    if (!(norm <= 1e100)) return refuse(s, h, norm, theta, 0.25);
-    if (m == 1) e->first = norm;
-    if (m > 1) {
-      const double now = norm / last;
-      theta = m == 2 ? now : sqrt(now * quotient);
-      quotient = now;
-      if (stalled(s, norm, last, tolerance)) break;
-      if (!(theta < 0.99)) return refuse(s, h, norm, theta, 0.5);
-      e->eta = theta / (1 - theta);
-      const int left = e->itmax - 1 - m;
-      const double excess = e->eta * norm * power(theta, left) / tolerance;
-      if (left < 0 || excess >= 1) {
-        const double q = fmax(1e-4, fmin(20, excess));
-        return refuse(s, h, norm, theta, 0.8 * pow(q, -1.0 / (4 + (left > 0 ? left : 0))));
-      }
-    }
-    if (e->eta * norm <= tolerance) break;
-    last = fmax(norm, STF_EPS);
-  }
-  e->theta = theta;
   return STEIF_OK;
 }
 
@@ -299,8 +166,8 @@ static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   stf_small_predict(s, e, h);
-  STEIF_TRY(prepare(s, h));
-  STEIF_TRY(iterate(s, h));
+  STEIF_TRY(stf_small_prepare(s, h));
+  STEIF_TRY(stf_small_iterate(s, h));
   stf_lanes_end(&e->L);
   trust(s, e);
   double *next = STF_ARRAY(s->next);

@@ -1,0 +1,178 @@
+/* small_newton.c: Jacobians, factors and Newton's iteration of the family `small`.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "small.h"
+#include <math.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+/* -- Jacobian and factors ----------------------------------------------------------------------------- */
+
+/* A quarter step ahead on the last polynomial, while it predicts well. */
+static int jacobian(stf_step *s, double h)
+{
+  stf_small *e = s->state;
+  const double ahead = 0.25, x = ahead * h / s->h;
+  e->new_J = true, e->eta = 1;
+  e->predicted = e->history && !s->restart && e->fails < 2 && e->first < 0.3 &&
+                 h < 1.5 * s->h && s->problem->dae_index < 2;
+  if (!e->predicted) return stf_system_matrices(&s->system, s->t, s->y, s->yp);
+  double *y = STF_ARRAY(s->next);
+  for (int i = 0; i < e->n; i++) {
+    const double *a = e->a + i * e->L.wide;
+    double sum = 0;
+    for (int k = e->s; k-- > 0;) sum = (sum + a[k]) * x;
+    y[i] = STF_ARRAY(s->y)[i] + sum;
+  }
+  return stf_system_matrices(&s->system, s->t + ahead * h, s->next, s->yp);
+}
+
+static int factor(stf_step *s, double h)
+{
+  stf_small *e = s->state;
+  e->h_factored = 0;
+  const int column = stf_lanes_factor(&e->L, SM_DATA_D(s->system.A), h);
+  s->factors += (e->s + 1) / 2;
+  if (column)
+    return STEIF_RECOVER(
+      s->ctx, STEIF_SINGULAR,
+      "the stage matrix of problem '%s' is singular in column %d (from 0) at "
+      "t = %.12g with h = %.6g: check that det(s E - A) is not identically zero",
+      s->problem->name, column - 1, s->t, h);
+  e->h_factored = h;
+  return STEIF_OK;
+}
+
+int stf_small_prepare(stf_step *s, double h)
+{
+  stf_small *e = s->state;
+  const bool at_point = e->new_J && !e->predicted && e->fails > 0;
+  if (e->renew && !at_point) STEIF_TRY(jacobian(s, h));
+  if (!e->renew && e->h_factored == h) return STEIF_OK;
+  e->renew = false;
+  return factor(s, h);
+}
+
+/* -- Newton ---------------------------------------------------------------------------------------------- */
+
+static int refuse(stf_step *s, double h, double norm, double theta, double shrink)
+{
+  stf_small *e = s->state;
+  e->fails++, e->eta = 1, e->renew = true;
+  s->newton.fails++;
+  s->shrink = shrink;
+  if (!(norm <= 1e100))
+    return STEIF_RECOVER(
+      s->ctx, STEIF_NOT_FINITE,
+      "a stage of problem '%s' is not finite in the step from t = %.12g with "
+      "h = %.6g: the callbacks returned NaN or infinity, or the step is too large",
+      s->problem->name, s->t, h);
+  return STEIF_RECOVER(
+    s->ctx, STEIF_NO_CONVERGENCE,
+    "Newton's iteration was refused for problem '%s' in the step from t = %.12g "
+    "with h = %.6g: after %d iterations the correction is %.3g of its tolerance, "
+    "rate %.2g; check the Jacobian",
+    s->problem->name, s->t, h, e->iterations, norm / e->kappa, theta);
+}
+
+/* Rounding in the stages makes corrections below this meaningless. */
+static double floor_of(const stf_step *s, const stf_small *e)
+{
+  const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
+  double most = 0;
+  for (int i = 0; i < e->n; i++) most = fmax(most, fabs(y[i]) * w[i]);
+  return fmax(e->kappa, 10 * STF_EPS * most);
+}
+
+static double power(double x, int n)
+{
+  double p = 1;
+  for (; n > 0; n /= 2, x *= x)
+    if (n % 2) p *= x;
+  return p;
+}
+
+static int evaluate(stf_step *s, double h)
+{
+  stf_small *e = s->state;
+  for (int j = 0; j < e->s; j++) {
+    const int code = stf_system_rhs(&s->system, s->t + e->table->c[j] * h, e->Y[j], e->F[j]);
+    if (code) return e->fails++, e->renew = true, s->shrink = 0.25, code;
+  }
+  return STEIF_OK;
+}
+
+/* Corrections that no longer shrink, or grow once they are small, are rounding: so is then what the
+ * differences of highest order show. Multipliers of higher index are not to be left at that. */
+static bool stalled(stf_step *s, double norm, double last, double tolerance)
+{
+  stf_small *e = s->state;
+  const bool high = s->problem->dae_index > 1;
+  e->rough = (norm >= 0.5 * last && norm <= fmax(tolerance, high ? 0.01 : 0.1)) ||
+             (norm >= last && norm <= 1 && !high);
+  return e->rough;
+}
+
+/* A matrix from inside the step about halves the iterations that are left, and an LU costs as much as
+ * n / 4 of them: is it worth its price? */
+static bool worth(const stf_step *s, const stf_small *e, double norm, double theta,
+                  double tolerance)
+{
+  const double slow = 0.1;
+  const int price = 2 + e->n / 2;
+  if (e->sharpened || s->system.linear || s->problem->dae_index > 1) return false;
+  return theta > slow && theta < 1 && power(theta, price) * e->eta * norm > tolerance;
+}
+
+/* J at a stage in the second half of the step as it is now, and factors of it: errors of the stages are
+ * smaller there than those of any prediction, and J differs less from that of all stages than the one at
+ * t_n does. */
+static int sharpen(stf_step *s, double h)
+{
+  stf_small *e = s->state;
+  const double inside = 0.6;
+  int j = 0;
+  while (j < e->s - 1 && e->table->c[j] < inside) j++;
+  e->sharpened = e->predicted = true;
+  STEIF_TRY(stf_system_matrices(&s->system, s->t + e->table->c[j] * h, e->Y[j], s->yp));
+  return factor(s, h);
+}
+
+int stf_small_iterate(stf_step *s, double h)
+{
+  stf_small *e = s->state;
+  const double tolerance = floor_of(s, e), mean = 1 / (double)(e->s * e->n);
+  const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
+  double last = 0, quotient = 0, theta = 0;
+  e->eta = pow(fmax(e->eta, STF_EPS), 0.8), e->rough = e->sharpened = false;
+  stf_lanes_begin(&e->L, y);
+  for (int m = 1, since = 1;; m++, since++) {
+    STEIF_TRY(evaluate(s, h));
+    const double norm = sqrt(stf_lanes_sweep(&e->L, y, w, h) * mean);
+    s->newton.sweeps++, s->solves += (e->s + 1) / 2, e->iterations = m;
+    if (!(norm <= 1e100)) return refuse(s, h, norm, theta, 0.25);
+    if (m == 1) e->first = norm;
+    if (since > 1) {
+      const double now = norm / last;
+      theta = since == 2 ? now : sqrt(now * quotient);
+      quotient = now;
+      if (stalled(s, norm, last, tolerance)) break;
+      e->eta = theta / (1 - theta);
+      if (theta < 1 && e->eta * norm <= tolerance) break;
+      if (worth(s, e, norm, theta, tolerance)) {
+        STEIF_TRY(sharpen(s, h));
+        since = 0, e->eta = 1, last = fmax(norm, STF_EPS);
+        continue;
+      }
+      if (!(theta < 0.99)) return refuse(s, h, norm, theta, 0.5);
+      const int left = e->itmax - 1 - m;
+      const double excess = e->eta * norm * power(theta, left) / tolerance;
+      if (left < 0 || excess >= 1) {
+        const double q = fmax(1e-4, fmin(20, excess));
+        return refuse(s, h, norm, theta, 0.8 * pow(q, -1.0 / (4 + (left > 0 ? left : 0))));
+      }
+    } else if (e->eta * norm <= tolerance)
+      break;
+    last = fmax(norm, STF_EPS);
+  }
+  e->theta = theta;
+  return STEIF_OK;
+}
