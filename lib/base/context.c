@@ -50,6 +50,7 @@ steif_context *steif_context_new(const steif_setup *setup)
   ctx->setup = s;
   steif_forget(ctx);
   if (SUNContext_Create(STF_NO_COMM, &ctx->sundials)) steif_context_free(&ctx);
+  if (ctx) STF_HUSH(ctx->sundials);
   return ctx;
 }
 

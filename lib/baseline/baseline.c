@@ -29,11 +29,9 @@ static void hear(int line, const char *function, const char *file, const char *t
 
 void stf_baseline_enter(stf_baseline *base, stf_run *run)
 {
-  SUNContext sun = steif_sundials(run->ctx);
   base->run = run;
   base->said[0] = base->detail[0] = 0, base->fault.now = false;
-  SUNContext_ClearErrHandlers(sun); /* the one there is prints */
-  SUNContext_PushErrHandler(sun, hear, base);
+  SUNContext_PushErrHandler(steif_sundials(run->ctx), hear, base);
 }
 
 void stf_baseline_leave(stf_baseline *base)

@@ -59,10 +59,10 @@ static void symbolic_invariants(void)
   for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
     SUNMatrix A = square(cases[c].m, cases[c].of, cases[c].one_sided, steif_sundials(ctx));
     const sunindextype n = SM_COLUMNS_S(A);
-    stf_pattern u = {.n = n,
-                     .nnz = SM_INDEXPTRS_S(A)[n],
-                     .ptr = (SuiteSparse_long *)SM_INDEXPTRS_S(A),
-                     .row = (SuiteSparse_long *)SM_INDEXVALS_S(A)};
+    stf_pattern u = {.n = n, .nnz = SM_INDEXPTRS_S(A)[n]};
+    u.ptr = calloc((size_t)(n + 1 + u.nnz), sizeof *u.ptr), u.row = u.ptr + n + 1;
+    for (sunindextype k = 0; k <= n; k++) u.ptr[k] = SM_INDEXPTRS_S(A)[k];
+    for (sunindextype k = 0; k < u.nnz; k++) u.row[k] = SM_INDEXVALS_S(A)[k];
     stf_fronts f;
     CU_ASSERT_FATAL(!stf_fronts_open(ctx, &u, &f));
     int *seen = calloc((size_t)u.nnz + (size_t)n, sizeof *seen), columns = 0;
@@ -87,7 +87,7 @@ static void symbolic_invariants(void)
       }
     }
     CHECK(columns == n && entries == u.nnz);
-    free(seen);
+    free(seen), free(u.ptr);
     stf_fronts_free(ctx, &f);
     SUNMatDestroy(A);
   }
