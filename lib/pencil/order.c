@@ -45,13 +45,17 @@ int stf_order(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row,
   return amd_l_order(n, ptr, row, order, NULL, NULL) >= AMD_OK ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
+#ifdef SUNDIALS_INT32_T
+#define AMD_ORDER amd_order
+#else
+#define AMD_ORDER amd_l_order
+#endif
+
 double stf_order_work(sunindextype n, const sunindextype *column, const sunindextype *row)
 {
   double info[AMD_INFO];
-  SuiteSparse_long *order = SuiteSparse_malloc((size_t)n, sizeof *order);
-  const bool good =
-    order && amd_l_order(n, (const SuiteSparse_long *)column, (const SuiteSparse_long *)row,
-                         order, NULL, info) >= AMD_OK;
+  sunindextype *order = SuiteSparse_malloc((size_t)n, sizeof *order);
+  const bool good = order && AMD_ORDER(n, column, row, order, NULL, info) >= AMD_OK;
   SuiteSparse_free(order);
   if (!good) return -1;
   return (info[AMD_NDIV] + 2 * info[AMD_NMULTSUBS_LU]) / (2 * info[AMD_LNZ] + (double)n);

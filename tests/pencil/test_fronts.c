@@ -4,7 +4,6 @@
 #include "gear.h"
 #include "suite.h"
 #include <stdlib.h>
-#include <string.h>
 
 /* A square of m x m points, each with `of` unknowns coupled in full at the point and one by one to
  * its neighbours below and on the right only (the pattern is not symmetric), or to all four. */
@@ -68,7 +67,7 @@ static void symbolic_invariants(void)
     int *seen = calloc((size_t)u.nnz + (size_t)n, sizeof *seen), columns = 0;
     sunindextype entries = 0;
     for (int k = 0; k < n; k++) CHECK(f.place[f.order[k]] == k && !seen[f.order[k]]++);
-    memset(seen, 0, sizeof *seen * (size_t)n);
+    for (int k = 0; k < n; k++) seen[k] = 0;
     for (int s = 0; s < f.count; s++) {
       const stf_front *g = &f.front[s];
       CHECK(g->first == columns && g->width > 0 && (g->parent > s || g->parent == -1));
