@@ -108,7 +108,7 @@ static int analyse(struct call *call, struct linear *l)
 {
   steif_structure s = {0};
   const steif_analysis a = linear_analysis(call);
-  progress(call, "%ld equations", l->n);
+  progress(call, "%ld equations", (long)l->n);
   if (steif_structure_find(call->ctx, l->system.E, l->system.F, &a, &s))
     return linear_fail(call);
   const int code = !s.regular                ? linear_singular(call, &s)

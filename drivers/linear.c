@@ -61,7 +61,7 @@ int linear_singular(const struct call *call, const steif_structure *s)
 
 static bool is_sparse(SUNMatrix M) { return SUNMatGetID(M) == SUNMATRIX_SPARSE; }
 
-static long rows(SUNMatrix M)
+static sunindextype rows(SUNMatrix M)
 {
   return (long)(is_sparse(M) ? SUNSparseMatrix_Rows(M) : SUNDenseMatrix_Rows(M));
 }
@@ -109,7 +109,7 @@ static int from_collection(struct call *call, struct linear *l, int from)
     return refuse(call, "--state-space is for files; leave it out with the problem %s", name);
   if (steif_problem_find(call->ctx, name, &l->problem)) return fail(call);
   if (steif_linear_of(call->ctx, &l->problem, &l->system)) return fail(call);
-  l->n = (long)l->problem.n, l->t0 = l->problem.t0;
+  l->n = l->problem.n, l->t0 = l->problem.t0;
   l->x0 = malloc((size_t)l->n * sizeof *l->x0);
   if (!l->x0) return linear_no_memory(call, "start values");
   memcpy(l->x0, l->problem.y0, (size_t)l->n * sizeof *l->x0);
@@ -131,7 +131,7 @@ static int read_x0(struct call *call, struct linear *l)
   if (!path) return EXIT_OK;
   SUNMatrix X = steif_matrix_read(call->ctx, path);
   if (!X) return bad_file(call);
-  const long height = rows(X);
+  const long height = (long)rows(X);
   const long width =
     (long)(is_sparse(X) ? SUNSparseMatrix_Columns(X) : SUNDenseMatrix_Columns(X));
   free(l->x0);
@@ -142,7 +142,7 @@ static int read_x0(struct call *call, struct linear *l)
   if (!l->x0) return linear_no_memory(call, "start values");
   if (good) return EXIT_OK;
   say(call, "'%s': x(0-) is %ld x %ld and should be %ld x 1, the rows of E; correct it", path,
-      height, width, l->n);
+      height, width, (long)l->n);
   return EXIT_FILE;
 }
 

@@ -12,7 +12,7 @@ struct linear {
   steif_function *function;
   double *x0; /* --x0, or the start of the problem; NULL: none */
   double t0;
-  long n;
+  sunindextype n;
 };
 
 /* Rows of an option table: of every analysis, and of those that start somewhere. */

@@ -138,7 +138,7 @@ void work_summary(const workprec *w, steif_report *r)
 {
   static const struct {
     const char *name;
-    long least, most;
+    sunindextype least, most;
   } classes[] = {{"n <= 20", 0, 20},
                  {"n <= 1000", 20, 1000},
                  {"larger", 1000, 2000000000},
