@@ -63,7 +63,7 @@ static bool is_sparse(SUNMatrix M) { return SUNMatGetID(M) == SUNMATRIX_SPARSE; 
 
 static sunindextype rows(SUNMatrix M)
 {
-  return (long)(is_sparse(M) ? SUNSparseMatrix_Rows(M) : SUNDenseMatrix_Rows(M));
+  return is_sparse(M) ? SUNSparseMatrix_Rows(M) : SUNDenseMatrix_Rows(M);
 }
 
 static void negate(SUNMatrix M)

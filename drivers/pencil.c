@@ -59,7 +59,7 @@ static int find(struct call *call, const struct linear *l)
 {
   steif_structure s = {0};
   const steif_analysis a = linear_analysis(call);
-  progress(call, "%ld equations", l->n);
+  progress(call, "%ld equations", (long)l->n);
   if (steif_structure_find(call->ctx, l->system.E, l->system.F, &a, &s))
     return linear_fail(call);
   const int code = tell(call, &s);
