@@ -24,10 +24,11 @@ extern "C" {
  *              has it; limit 1
  *   "splitting" a step of verlet with n = 1e6; floor_s: the force once, and y += h f twice for all of y;
  *              limit 1.2
- *   "lyapunov" (steif_bench_lyapunov) step_s: a step with all n Lyapunov exponents; floor_s: the step
- *              alone, J and its product with n columns for every stage, the systems of the stages
- *              (one of order s n for s collocation stages), Q R and X R^{-1}, by direct calls of
- *              LAPACK and BLAS; limit 1.3 */
+ *   "lyapunov" (steif_bench_lyapunov) step_s: a step with all n Lyapunov exponents, 10 where n is
+ *              10000; floor_s: the step alone, J and its product with as many columns for every
+ *              stage, the systems of the stages (one of order s n for s collocation stages), Q R by
+ *              reflections and X R^{-1}, by direct calls of LAPACK and BLAS; of a sparse J the loop over
+ *              its entries, and KLU's refactorisation and solves; limit 1.3 */
 typedef struct steif_bench_row {
   char kind[16], problem[STEIF_SPEC_WORD], method[STEIF_SPEC_WORD];
   sunindextype n;

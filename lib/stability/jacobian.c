@@ -8,7 +8,7 @@
 
 enum { SMALL = 16 }; /* order up to which loops beat BLAS */
 
-static sunindextype order_of(SUNMatrix M)
+static inline sunindextype order_of(SUNMatrix M)
 {
   switch (SUNMatGetID(M)) {
   case SUNMATRIX_DENSE: return SM_COLUMNS_D(M);
@@ -28,9 +28,7 @@ stf_entries stf_jacobian_column(SUNMatrix M, sunindextype j)
                        last = j + below < n ? j + below : n - 1;
     return (stf_entries){first, last + 1 - first, NULL, &SM_ELEMENT_B(M, first, j)};
   }
-  const sunindextype from = SM_INDEXPTRS_S(M)[j];
-  return (stf_entries){0, SM_INDEXPTRS_S(M)[j + 1] - from, SM_INDEXVALS_S(M) + from,
-                       SM_DATA_S(M) + from};
+  return stf_sparse_column(M, j);
 }
 
 static void destroy(void *M) { SUNMatDestroy(M); }
@@ -61,9 +59,10 @@ static void by_entries(SUNMatrix M, sunindextype n, int m, sunrealtype h, const 
                        sunrealtype *K)
 {
   const size_t width = (size_t)m;
+  const bool sparse = SUNMatGetID(M) == SUNMATRIX_SPARSE;
   memset(K, 0, (size_t)n * width * sizeof *K);
   for (sunindextype j = 0; j < n; j++) {
-    const stf_entries c = stf_jacobian_column(M, j);
+    const stf_entries c = sparse ? stf_sparse_column(M, j) : stf_jacobian_column(M, j);
     const sunrealtype *restrict b = B + (size_t)j * width;
     for (sunindextype e = 0; e < c.count; e++) {
       sunrealtype *restrict k = K + (size_t)stf_row_of(&c, e) * width, x = h * c.value[e];
@@ -112,13 +111,14 @@ sunrealtype stf_jacobian_trace(SUNMatrix M)
     for (sunindextype j = 0; j < SM_COLUMNS_D(M); j++) sum += SM_ELEMENT_D(M, j, j);
     return sum;
   }
-  for (sunindextype j = 0; j < order_of(M); j++) {
-    const stf_entries c = stf_jacobian_column(M, j);
-    if (!c.row)
-      sum += c.value[j - c.first];
-    else
+  const sunindextype n = order_of(M);
+  for (sunindextype j = 0; j < n; j++)
+    if (SUNMatGetID(M) == SUNMATRIX_BAND) {
+      sum += SM_ELEMENT_B(M, j, j);
+    } else {
+      const stf_entries c = stf_sparse_column(M, j);
       for (sunindextype e = 0; e < c.count; e++) sum += c.row[e] == j ? c.value[e] : 0;
-  }
+    }
   return sum;
 }
 

@@ -21,6 +21,13 @@ static inline sunindextype stf_row_of(const stf_entries *c, sunindextype e)
   return c->row ? c->row[e] : c->first + e;
 }
 
+static inline stf_entries stf_sparse_column(SUNMatrix M, sunindextype j)
+{
+  const sunindextype from = SM_INDEXPTRS_S(M)[j];
+  return (stf_entries){0, SM_INDEXPTRS_S(M)[j + 1] - from, SM_INDEXVALS_S(M) + from,
+                       SM_DATA_S(M) + from};
+}
+
 stf_entries stf_jacobian_column(SUNMatrix M, sunindextype j);
 /* A square matrix of order n for at most `entries` nonzeros where it is sparse, owned by the pool. */
 SUNMatrix stf_jacobian_new(stf_pool *pool, steif_context *ctx, int storage, sunindextype n,

@@ -25,26 +25,29 @@ static sunindextype entries_of(SUNMatrix M, sunindextype n)
   return sum;
 }
 
-/* Column `at` of S begins where the last ended; c M is added below it, from row `first`. */
-static sunindextype append(SUNMatrix M, sunindextype j, sunrealtype c, sunindextype first,
-                           sunindextype used, SUNMatrix S)
+/* Entry `used` of S and the next become column j of c M, moved down by `first` rows. */
+static sunindextype append(SUNMatrix M, bool sparse, sunindextype j, sunrealtype c,
+                           sunindextype first, sunindextype used, SUNMatrix S)
 {
-  const stf_entries from = stf_jacobian_column(M, j);
-  for (sunindextype e = 0; e < from.count; e++, used++) {
-    SM_INDEXVALS_S(S)[used] = first + stf_row_of(&from, e);
-    SM_DATA_S(S)[used] = c * from.value[e];
+  const stf_entries from = sparse ? stf_sparse_column(M, j) : stf_jacobian_column(M, j);
+  sunindextype *row = SM_INDEXVALS_S(S) + used;
+  sunrealtype *value = SM_DATA_S(S) + used;
+  for (sunindextype e = 0; e < from.count; e++) {
+    row[e] = first + stf_row_of(&from, e);
+    value[e] = c * from.value[e];
   }
-  return used;
+  return used + from.count;
 }
 
 /* diag(E), of as many blocks as are solved together. */
 static void repeat(const stf_variation *v, SUNMatrix S)
 {
   const sunindextype d = v->d, blocks = v->system.order / d;
+  const bool sparse = SUNMatGetID(v->E) == SUNMATRIX_SPARSE;
   sunindextype used = 0;
   for (sunindextype at = 0; at < blocks * d; at++) {
     SM_INDEXPTRS_S(S)[at] = used;
-    used = append(v->E, at % d, 1, at - at % d, used, S);
+    used = append(v->E, sparse, at % d, 1, at - at % d, used, S);
   }
   SM_INDEXPTRS_S(S)[blocks * d] = used;
 }
@@ -54,6 +57,7 @@ static void assemble(stf_variation *v, int first)
 {
   const steif_glm *g = v->g;
   const int blocks = v->system.order / v->d;
+  const bool sparse = SUNMatGetID(v->J[0]) == SUNMATRIX_SPARSE;
   SUNMatrix S = v->system.S;
   sunindextype used = 0;
   for (int l = 0; l < blocks; l++)
@@ -61,7 +65,8 @@ static void assemble(stf_variation *v, int first)
       SM_INDEXPTRS_S(S)[l * v->d + j] = used;
       for (int i = 0; i < blocks; i++) {
         const sunrealtype c = g->C[(first + i) * g->r + first + l];
-        if (c != 0) used = append(v->J[first + i], j, c, (sunindextype)i * v->d, used, S);
+        if (c != 0)
+          used = append(v->J[first + i], sparse, j, c, (sunindextype)i * v->d, used, S);
       }
     }
   SM_INDEXPTRS_S(S)[v->system.order] = used;
@@ -111,22 +116,20 @@ static int factor_sparse(stf_variation *v, int first)
   return steif_pencil_factor(s->pencil, 1, &(steif_shift){1 / v->h, 0});
 }
 
-/* (1/h diag(E) - c J) K = K / h. */
+/* (1/h diag(E) - c J) K = K / h, some columns of K at a time, which are rows by rows there. */
 static int solve_sparse(stf_variation *v, sunrealtype *K)
 {
   const stf_stage_system *s = &v->system;
   const size_t m = (size_t)v->m, n = (size_t)s->order;
+  const sunrealtype rate = 1 / v->h;
+  sunrealtype *x = NV_DATA_S(s->column[0]);
   for (size_t from = 0; from < m; from += AT_ONCE) {
     const size_t now = m - from < AT_ONCE ? m - from : AT_ONCE;
-    for (size_t k = 0; k < now; k++) {
-      sunrealtype *column = NV_DATA_S(s->column[k]);
-      for (size_t i = 0; i < n; i++) column[i] = K[i * m + from + k] / v->h;
-    }
+    for (size_t i = 0; i < n; i++)
+      for (size_t k = 0; k < now; k++) x[k * n + i] = rate * K[i * m + from + k];
     STEIF_TRY(steif_pencil_solve(s->pencil, 0, (int)now, s->column, NULL));
-    for (size_t k = 0; k < now; k++) {
-      const sunrealtype *column = NV_DATA_S(s->column[k]);
-      for (size_t i = 0; i < n; i++) K[i * m + from + k] = column[i];
-    }
+    for (size_t i = 0; i < n; i++)
+      for (size_t k = 0; k < now; k++) K[i * m + from + k] = x[k * n + i];
   }
   return STEIF_OK;
 }
