@@ -3,7 +3,7 @@
 #include "impulse.h"
 #include <stdlib.h>
 
-enum { LEVELS = 16 };
+enum { LEVELS = 16, SHOWN = 400 };
 
 void impulse_fill(steif_report *r, const steif_impulse *i)
 {
@@ -64,7 +64,7 @@ static int projectors(struct call *call, const struct linear *l, steif_report *r
 {
   const size_t n = (size_t)l->n;
   const steif_analysis a = linear_analysis(call);
-  double *P = malloc(2 * n * n * sizeof *P), *rows = P + n * n;
+  double *P = malloc(2 * n * n * sizeof *P), *rows = P ? P + n * n : NULL;
   if (!P) return linear_no_memory(call, "projectors");
   const int code = steif_projector_find(call->ctx, l->system.E, l->system.F, &a, P);
   for (size_t k = 0; k < n * n; k++) rows[k] = P[k % n * n + k / n];
@@ -75,12 +75,30 @@ static int projectors(struct call *call, const struct linear *l, steif_report *r
   return code ? linear_fail(call) : EXIT_OK;
 }
 
-static int tell(struct call *call, const struct linear *l, const steif_impulse *i)
+/* What they make of x(0-), where they are too large to be shown. */
+static int projected(struct call *call, const struct linear *l, const steif_structure *s,
+                     steif_report *r)
+{
+  const size_t n = (size_t)l->n;
+  const steif_analysis a = linear_analysis(call);
+  double *x = malloc(n * sizeof *x);
+  if (!x) return linear_no_memory(call, "projected start");
+  const int code = steif_projector_apply(call->ctx, l->system.E, l->system.F, &a, s, l->x0, x);
+  if (!code) steif_report_list(r, "projectors.slow_x0", n, x);
+  for (size_t k = 0; k < n; k++) x[k] = l->x0[k] - x[k];
+  if (!code) steif_report_list(r, "projectors.fast_x0", n, x);
+  free(x);
+  return code ? linear_fail(call) : EXIT_OK;
+}
+
+static int tell(struct call *call, const struct linear *l, const steif_structure *s,
+                const steif_impulse *i)
 {
   steif_report *r = steif_report_new(call->ctx), *sheet = steif_report_new(call->ctx);
   int code = r && sheet ? EXIT_OK : fail(call);
   if (!code) impulse_fill(r, i), impulse_accuracy(r, l, i);
-  if (!code && given(call, "--projectors")) code = projectors(call, l, r);
+  if (!code && given(call, "--projectors"))
+    code = l->n > SHOWN ? projected(call, l, s, r) : projectors(call, l, r);
   if (!code && given(call, "--vs")) impulse_against(call, l, word_of(call, "--vs", NULL), r);
   if (!code) code = show(call, r);
   if (!code && call->csv) {
@@ -99,7 +117,7 @@ static int start(struct call *call, const struct linear *l, const steif_structur
   const steif_analysis a = linear_analysis(call);
   if (steif_impulse_find(call->ctx, q->E, q->F, l->x0, l->t0, q->f, q->user, &a, s, &i))
     return linear_fail(call);
-  const int code = tell(call, l, &i);
+  const int code = tell(call, l, s, &i);
   steif_impulse_clear(call->ctx, &i);
   return code;
 }
@@ -144,7 +162,7 @@ static const struct option options[] = {
   {"--t1", REAL, "T", "end of that run"},
   {"--h", POSITIVE, "H", "its equal steps (default: chosen)"},
   {"--rtol", POSITIVE, "R", "its tolerance (default 1e-6)"},
-  {"--projectors", FLAG, NULL, "show the slow and the fast spectral projector, too"},
+  {"--projectors", FLAG, NULL, "show the spectral projectors (n > 400: of x(0-)), too"},
   {"--vs", CHOICE, "ida|cvode|arkode", "run that, too, from the same x(0-) to --t1"},
   ANALYSIS_ROWS,
   {NULL, FLAG, NULL, NULL},

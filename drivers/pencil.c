@@ -62,7 +62,9 @@ static int find(struct call *call, const struct linear *l)
   progress(call, "%ld equations", (long)l->n);
   if (steif_structure_find(call->ctx, l->system.E, l->system.F, &a, &s))
     return linear_fail(call);
-  const int code = tell(call, &s);
+  const int code = steif_structure_ranks(call->ctx, l->system.E, l->system.F, &s)
+                     ? linear_fail(call)
+                     : tell(call, &s);
   steif_structure_clear(call->ctx, &s);
   return code;
 }

@@ -49,14 +49,14 @@ typedef struct steif_analysis {
 
 /* What was found. Lists are owned by the structure. */
 typedef struct steif_structure {
-  sunindextype n, rank_E;   /* rank_E -1: not computed (contour) */
+  sunindextype n, rank_E;   /* rank_E -1: not computed (circles: see steif_structure_ranks) */
   int regular;              /* 1, 0 */
   int index;                /* -1: undecided, then index_least is a lower bound */
   int index_least;
   sunindextype finite, infinite; /* eigenvalues; -1: undecided */
   sunindextype degree;      /* structural: maximum-weight perfect matching; -1: no perfect matching */
   sunrealtype count;        /* finite eigenvalues by Jensen's formula; NaN: not computed */
-  int weyr_count;           /* Weyr characteristic at infinity, dense algorithms; 0: not computed */
+  int weyr_count;           /* Weyr characteristic at infinity; 0: not computed, or index 0 */
   sunindextype *weyr;
   sunrealtype gap;          /* ratio of the singular values or moments that decide the index */
   sunrealtype rcond;        /* best reciprocal condition of equilibrated s E + F tried */
@@ -76,6 +76,12 @@ typedef struct steif_structure {
 STEIF_EXPORT int steif_structure_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                                       const steif_analysis *analysis, steif_structure *structure);
 STEIF_EXPORT void steif_structure_clear(steif_context *ctx, steif_structure *structure);
+/* What circles leave open of a structure they found: rank_E, and the Weyr characteristic where it
+ * agrees with their index and count. Ranks are those of the numbers exactly as given, by elimination
+ * over a prime field, of E and of matrices of up to index + 1 times its order; rank_E stays -1 where
+ * the factors would grow 64 times as large as that. E and F: the same again. */
+STEIF_EXPORT int steif_structure_ranks(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                                       steif_structure *structure);
 
 typedef struct steif_impulse {
   sunindextype n;
@@ -106,7 +112,13 @@ STEIF_EXPORT void steif_impulse_clear(steif_context *ctx, steif_impulse *impulse
 STEIF_EXPORT int steif_settle_jump(steif_context *ctx, const steif_problem *problem,
                                    sunrealtype t, N_Vector y, N_Vector yp);
 
-/* Pi_s = Phi_{-1} E (slow) into P, n x n by columns: dense pencils only. */
+/* slow = Pi_s x with Pi_s = Phi_{-1} E, n values each, by any algorithm; Pi_f x = x - Pi_s x. structure
+ * as above. */
+STEIF_EXPORT int steif_projector_apply(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                                       const steif_analysis *analysis,
+                                       const steif_structure *structure, const sunrealtype *x,
+                                       sunrealtype *slow);
+/* All of Pi_s into P, n x n by columns: dense algorithms only, else STEIF_UNSUPPORTED. */
 STEIF_EXPORT int steif_projector_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                                       const steif_analysis *analysis, sunrealtype *P);
 

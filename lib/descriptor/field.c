@@ -6,6 +6,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "field.h"
+#include <colamd.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -18,6 +19,15 @@ static const uint64_t prime[2] = {2147483647, 2147483629}, point[2] = {123456789
 /* Entries of the factor beyond those of the matrix, as a multiple of it, that are let grow. */
 enum { GROWTH = 64, ROOM = 1 << 16, NONE = -1 };
 
+/* Vectors of a kernel that are looked at. */
+enum { BLAMED = 64 };
+
+/* Columns of a triangular factor, and room for more. */
+typedef struct factor {
+  sunindextype *start, *row, room, used;
+  uint32_t *value;
+} factor;
+
 typedef struct field {
   steif_context *ctx;
   stf_pool *pool;
@@ -27,10 +37,10 @@ typedef struct field {
   uint32_t *value;
   sunindextype *weight, *order; /* entries of rows; columns by their number of entries */
   sunindextype *pivot_of;       /* row -> its step; NONE */
-  sunindextype *start;          /* of the columns of L, by step */
-  sunindextype room, used, *L_row;
-  uint32_t *L_value;
-  uint64_t *x; /* one column, spread out */
+  factor L, U;                  /* by steps; of U only what a kernel asks for */
+  sunindextype *column_of;      /* step -> column */
+  unsigned char *kernel;        /* columns in its vectors; NULL: not wanted */
+  uint64_t *x, *y;              /* one column, spread out by rows; by steps */
   sunindextype *reach, *stack, *next, *seen;
 } field;
 
@@ -67,8 +77,8 @@ static sunindextype entries(SUNMatrix M)
   return dense(M) ? SM_LDATA_D(M) : SM_INDEXPTRS_S(M)[SM_COLUMNS_S(M)];
 }
 
-/* Column j of factor M joins a column of the matrix, from row `shift` on. */
-static void join(field *f, SUNMatrix M, sunindextype j, sunindextype shift, uint64_t factor,
+/* Column j of `times` M joins a column of the matrix, from row `shift` on. */
+static void join(field *f, SUNMatrix M, sunindextype j, sunindextype shift, uint64_t times,
                  sunindextype *count)
 {
   const sunindextype height = order_of(M);
@@ -78,7 +88,7 @@ static void join(field *f, SUNMatrix M, sunindextype j, sunindextype shift, uint
   for (sunindextype k = from; k < to; k++) {
     if (a[k] == 0) continue;
     f->row[*count] = shift + (dense(M) ? k - from : SM_INDEXVALS_S(M)[k]);
-    f->value[(*count)++] = (uint32_t)(factor * residue(f->p, a[k]) % f->p);
+    f->value[(*count)++] = (uint32_t)(times * residue(f->p, a[k]) % f->p);
   }
 }
 
@@ -96,25 +106,22 @@ static void assemble(field *f, SUNMatrix E, SUNMatrix F, int blocks)
   for (sunindextype k = 0; k < count; k++) f->weight[f->row[k]]++;
 }
 
-/* Columns in order of their number of entries, by counting. */
-static void sort(field *f)
+/* Columns in an order with little fill for any choice of rows. */
+static int arrange(field *f)
 {
-  sunindextype *first = f->stack; /* n + 1 of scratch; columns may have up to 2 n entries */
-  memset(first, 0, ((size_t)f->n + 1) * sizeof *first);
-  for (int pass = 0; pass < 2; pass++) {
-    for (sunindextype j = 0; j < f->n; j++) {
-      const sunindextype length = f->ptr[j + 1] - f->ptr[j], at = length < f->n ? length : f->n;
-      if (pass)
-        f->order[first[at]++] = j;
-      else
-        first[at]++;
-    }
-    sunindextype sum = 0;
-    for (sunindextype k = 0; !pass && k <= f->n; k++) {
-      const sunindextype here = first[k];
-      first[k] = sum, sum += here;
-    }
-  }
+  const sunindextype count = f->ptr[f->n];
+  const size_t room = colamd_l_recommended(count, f->n, f->n);
+  SuiteSparse_long stats[COLAMD_STATS];
+  sunindextype *row = stf_allocate(f->ctx, room ? room : 1, sizeof *row);
+  if (!row) return STEIF_NO_MEMORY;
+  memcpy(row, f->row, (size_t)count * sizeof *row);
+  memcpy(f->order, f->ptr, ((size_t)f->n + 1) * sizeof *f->order);
+  const bool good =
+    room && colamd_l(f->n, f->n, (SuiteSparse_long)room, row, f->order, NULL, stats);
+  stf_release(f->ctx, row);
+  STEIF_CHECK(good, f->ctx, STEIF_NO_MEMORY, "no memory to order %lld columns",
+              (long long)f->n);
+  return STEIF_OK;
 }
 
 static int open(field *f, SUNMatrix E, SUNMatrix F, int blocks)
@@ -123,38 +130,45 @@ static int open(field *f, SUNMatrix E, SUNMatrix F, int blocks)
   const size_t n = (size_t)order_of(E) * copies;
   const size_t count = ((size_t)entries(E) + (size_t)entries(F)) * copies + 1;
   f->n = (sunindextype)n;
-  f->ptr = stf_claim(f->pool, 9 * n + 3, size);
+  f->ptr = stf_claim(f->pool, 11 * n + 5, size);
   f->row = stf_claim(f->pool, count, size);
   f->value = stf_claim(f->pool, count, sizeof *f->value);
-  f->x = stf_claim(f->pool, n, sizeof *f->x);
+  f->x = stf_claim(f->pool, 2 * n, sizeof *f->x);
   if (!f->ptr || !f->row || !f->value || !f->x) return STEIF_NO_MEMORY;
-  f->weight = f->ptr + n + 1, f->order = f->weight + n, f->pivot_of = f->order + n;
-  f->start = f->pivot_of + n, f->reach = f->start + n + 1, f->stack = f->reach + n;
-  f->next = f->stack + n + 1, f->seen = f->next + n;
+  f->weight = f->ptr + n + 1, f->order = f->weight + n, f->pivot_of = f->order + n + 1;
+  f->L.start = f->pivot_of + n, f->U.start = f->L.start + n + 1, f->reach = f->U.start + n + 1;
+  f->stack = f->reach + n, f->next = f->stack + n, f->seen = f->next + n;
+  f->column_of = f->seen + n;
+  f->y = f->x + n;
   assemble(f, E, F, blocks);
-  sort(f);
   for (sunindextype i = 0; i < f->n; i++) f->pivot_of[i] = NONE, f->seen[i] = NONE;
-  return STEIF_OK;
+  return arrange(f);
 }
 
 /* ---- elimination ---------------------------------------------------------------------------------- */
 
-/* Room for one more column of L; blocks of a pool are not given back before its end. */
-static int widen(field *f)
+/* Room for one more column. */
+static int widen(const field *f, factor *t)
 {
-  if (f->used + f->n <= f->room) return STEIF_OK;
-  const sunindextype room = 2 * f->room + f->n + ROOM;
+  if (t->used + f->n <= t->room) return STEIF_OK;
+  const sunindextype room = 2 * t->room + f->n + ROOM;
   sunindextype *row = stf_allocate(f->ctx, (size_t)room, sizeof *row);
   uint32_t *value = row ? stf_allocate(f->ctx, (size_t)room, sizeof *value) : NULL;
-  if (value && f->used) {
-    memcpy(row, f->L_row, (size_t)f->used * sizeof *row);
-    memcpy(value, f->L_value, (size_t)f->used * sizeof *value);
+  if (value && t->used) {
+    memcpy(row, t->row, (size_t)t->used * sizeof *row);
+    memcpy(value, t->value, (size_t)t->used * sizeof *value);
   }
-  stf_release(f->ctx, value ? f->L_row : row);
+  stf_release(f->ctx, value ? t->row : row);
   if (!value) return STEIF_NO_MEMORY;
-  stf_release(f->ctx, f->L_value);
-  f->L_row = row, f->L_value = value, f->room = room;
+  stf_release(f->ctx, t->value);
+  t->row = row, t->value = value, t->room = room;
   return STEIF_OK;
+}
+
+static void append(factor *t, sunindextype row, uint64_t value)
+{
+  t->row[t->used] = row;
+  t->value[t->used++] = (uint32_t)value;
 }
 
 /* Rows that row i leads to through the columns of L, depth first; they stand in `reach` from `top`
@@ -162,19 +176,19 @@ static int widen(field *f)
 static sunindextype search(field *f, sunindextype i, sunindextype mark, sunindextype top)
 {
   sunindextype depth = 0;
-  f->stack[0] = i, f->next[0] = f->pivot_of[i] < 0 ? 0 : f->start[f->pivot_of[i]];
+  f->stack[0] = i, f->next[0] = f->pivot_of[i] < 0 ? 0 : f->L.start[f->pivot_of[i]];
   f->seen[i] = mark;
   while (depth >= 0) {
     const sunindextype at = f->stack[depth], step = f->pivot_of[at];
-    const sunindextype end = step < 0 ? 0 : f->start[step + 1];
+    const sunindextype end = step < 0 ? 0 : f->L.start[step + 1];
     sunindextype k = f->next[depth];
-    while (k < end && f->seen[f->L_row[k]] == mark) k++;
+    while (k < end && f->seen[f->L.row[k]] == mark) k++;
     if (k < end) {
-      const sunindextype to = f->L_row[k];
+      const sunindextype to = f->L.row[k];
       f->next[depth] = k + 1;
       f->seen[to] = mark;
       f->stack[++depth] = to;
-      f->next[depth] = f->pivot_of[to] < 0 ? 0 : f->start[f->pivot_of[to]];
+      f->next[depth] = f->pivot_of[to] < 0 ? 0 : f->L.start[f->pivot_of[to]];
     } else {
       f->reach[--top] = at;
       depth--;
@@ -196,8 +210,8 @@ static sunindextype solve(field *f, sunindextype j)
     const sunindextype step = f->pivot_of[f->reach[k]];
     const uint64_t x = f->x[f->reach[k]];
     if (step < 0 || !x) continue;
-    for (sunindextype q = f->start[step]; q < f->start[step + 1]; q++)
-      f->x[f->L_row[q]] = (f->x[f->L_row[q]] + (f->p - x) * f->L_value[q]) % f->p;
+    for (sunindextype q = f->L.start[step]; q < f->L.start[step + 1]; q++)
+      f->x[f->L.row[q]] = (f->x[f->L.row[q]] + (f->p - x) * f->L.value[q]) % f->p;
   }
   return top;
 }
@@ -217,25 +231,48 @@ static sunindextype choose(const field *f, sunindextype top)
 static void keep(field *f, sunindextype step, sunindextype pivot, sunindextype top)
 {
   const uint64_t over = power(f->p, f->x[pivot], f->p - 2);
-  f->pivot_of[pivot] = step;
   for (sunindextype k = top; k < f->n; k++) {
     const sunindextype i = f->reach[k];
-    if (f->pivot_of[i] >= 0 || !f->x[i]) continue;
-    f->L_row[f->used] = i;
-    f->L_value[f->used++] = (uint32_t)(f->x[i] * over % f->p);
+    if (!f->x[i] || i == pivot) continue;
+    if (f->pivot_of[i] < 0) append(&f->L, i, f->x[i] * over % f->p);
+    if (f->pivot_of[i] >= 0 && f->kernel) append(&f->U, f->pivot_of[i], f->x[i]);
   }
-  f->start[step + 1] = f->used;
+  if (f->kernel) append(&f->U, step, over);
+  f->pivot_of[pivot] = step;
+  f->L.start[step + 1] = f->L.used, f->U.start[step + 1] = f->U.used;
+}
+
+/* Column j is U y of those before it: they and j are in a vector of the kernel. */
+static void blame(field *f, sunindextype j, sunindextype steps, sunindextype top)
+{
+  uint64_t *y = f->y;
+  memset(y, 0, (size_t)f->n * sizeof *y);
+  for (sunindextype k = top; k < f->n; k++) y[f->pivot_of[f->reach[k]]] = f->x[f->reach[k]];
+  f->kernel[j] = 1;
+  for (sunindextype step = steps - 1; step >= 0; step--) {
+    if (!y[step]) continue;
+    const sunindextype last = f->U.start[step + 1] - 1;
+    y[step] = y[step] * f->U.value[last] % f->p;
+    for (sunindextype q = f->U.start[step]; q < last; q++)
+      y[f->U.row[q]] = (y[f->U.row[q]] + (f->p - y[step]) * f->U.value[q]) % f->p;
+    f->kernel[f->column_of[step]] = 1;
+  }
 }
 
 static int eliminate(field *f, sunindextype *rank)
 {
   const sunindextype most = GROWTH * (f->ptr[f->n] + ROOM);
+  sunindextype dependent = 0;
   *rank = 0;
   for (sunindextype k = 0; k < f->n; k++) {
-    STEIF_TRY(widen(f));
-    const sunindextype top = solve(f, f->order[k]), pivot = choose(f, top);
-    if (pivot >= 0) keep(f, (*rank)++, pivot, top);
-    if (f->used <= most) continue;
+    STEIF_TRY(widen(f, &f->L));
+    if (f->kernel) STEIF_TRY(widen(f, &f->U));
+    const sunindextype j = f->order[k], top = solve(f, j), pivot = choose(f, top);
+    if (pivot >= 0)
+      f->column_of[*rank] = j, keep(f, (*rank)++, pivot, top);
+    else if (f->kernel && dependent++ < BLAMED)
+      blame(f, j, *rank, top);
+    if (f->L.used + f->U.used <= most) continue;
     *rank = NONE;
     break;
   }
@@ -243,21 +280,22 @@ static int eliminate(field *f, sunindextype *rank)
 }
 
 static int rank_of(steif_context *ctx, SUNMatrix E, SUNMatrix F, int blocks, int which,
-                   sunindextype *rank)
+                   unsigned char *kernel, sunindextype *rank)
 {
   field f = {.ctx = ctx, .pool = stf_pool_new(ctx), .p = prime[which], .s = point[which]};
   if (!f.pool) return STEIF_NO_MEMORY;
+  f.kernel = kernel;
   int code = open(&f, E, F, blocks);
   if (!code) code = eliminate(&f, rank);
-  stf_release(ctx, f.L_row);
-  stf_release(ctx, f.L_value);
+  stf_release(ctx, f.L.row), stf_release(ctx, f.L.value);
+  stf_release(ctx, f.U.row), stf_release(ctx, f.U.value);
   stf_pool_free(&f.pool);
   return code;
 }
 
 int stf_field_rank(steif_context *ctx, SUNMatrix E, SUNMatrix F, int blocks, sunindextype *rank)
 {
-  return rank_of(ctx, E, F, blocks, 0, rank);
+  return rank_of(ctx, E, F, blocks, 0, NULL, rank);
 }
 
 int stf_field_singular(steif_context *ctx, SUNMatrix E, SUNMatrix F, bool *singular)
@@ -265,8 +303,39 @@ int stf_field_singular(steif_context *ctx, SUNMatrix E, SUNMatrix F, bool *singu
   *singular = true;
   for (int which = 0; which < 2 && *singular; which++) {
     sunindextype rank;
-    STEIF_TRY(rank_of(ctx, E, F, 0, which, &rank));
+    STEIF_TRY(rank_of(ctx, E, F, 0, which, NULL, &rank));
     *singular = rank >= 0 && rank < order_of(E);
   }
   return STEIF_OK;
+}
+
+static int list(steif_context *ctx, SUNMatrix E, SUNMatrix F, sunindextype *count,
+                sunindextype **out)
+{
+  const sunindextype n = order_of(E);
+  sunindextype rank, used = 0;
+  unsigned char *kernel = stf_allocate(ctx, (size_t)n, sizeof *kernel);
+  if (!kernel) return STEIF_NO_MEMORY;
+  int code = rank_of(ctx, E, F, 0, 0, kernel, &rank);
+  for (sunindextype j = 0; j < n; j++) used += kernel[j];
+  if (!code) code = stf_structure_list(ctx, used, out);
+  *count = code ? 0 : used;
+  for (sunindextype j = 0, k = 0; j < n && !code; j++)
+    if (kernel[j]) (*out)[k++] = j;
+  stf_release(ctx, kernel);
+  return code;
+}
+
+int stf_field_offenders(steif_context *ctx, SUNMatrix E, SUNMatrix F, steif_structure *s)
+{
+  SUNMatrix rows_E = NULL, rows_F = NULL; /* by rows: the transposes by columns */
+  STEIF_TRY(list(ctx, E, F, &s->unknowns_count, &s->unknowns));
+  const bool good = !SUNSparseMatrix_ToCSR(E, &rows_E) && rows_E &&
+                    !SUNSparseMatrix_ToCSR(F, &rows_F) && rows_F;
+  const int code =
+    good ? list(ctx, rows_E, rows_F, &s->equations_count, &s->equations)
+         : STEIF_FAIL(ctx, STEIF_NO_MEMORY, "no memory for the transpose of a matrix");
+  if (rows_E) SUNMatDestroy(rows_E);
+  if (rows_F) SUNMatDestroy(rows_F);
+  return code;
 }

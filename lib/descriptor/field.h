@@ -16,4 +16,9 @@ int stf_field_rank(steif_context *ctx, SUNMatrix E, SUNMatrix F, int blocks,
 /* det(s E + F) = 0 for all s, with two primes: "true" is wrong once in about (2^31 / n)^2. */
 int stf_field_singular(steif_context *ctx, SUNMatrix E, SUNMatrix F, bool *singular);
 
+/* The unknowns and equations in up to 64 vectors of the kernels of s E + F and its transpose, of a
+ * pencil that is singular: each of them depends on the others of its list. E and F: CSC. */
+int stf_field_offenders(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                        steif_structure *structure);
+
 #endif

@@ -4,12 +4,14 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "structure.h"
+#include "field.h"
 #include "pairing.h"
 #include "pencil.h"
 #include "units.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdio.h>
+#include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
@@ -52,13 +54,19 @@ static int check_matrix(steif_context *ctx, const char *name, SUNMatrix M)
   return check_finite(ctx, name, M);
 }
 
-static int check(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis)
+int stf_structure_check(steif_context *ctx, SUNMatrix E, SUNMatrix F)
 {
   STEIF_TRY(check_matrix(ctx, "E", E));
   STEIF_TRY(check_matrix(ctx, "F", F));
   STEIF_CHECK(order(E) == order(F), ctx, STEIF_BAD_INPUT,
               "E is of order %lld, F of order %lld: they must be equal", (long long)order(E),
               (long long)order(F));
+  return STEIF_OK;
+}
+
+static int check(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis)
+{
+  STEIF_TRY(stf_structure_check(ctx, E, F));
   STEIF_CHECK((int)analysis->algorithm >= STEIF_AUTOMATIC && analysis->algorithm <= STEIF_ARRAY,
               ctx, STEIF_BAD_INPUT, "algorithm %d does not exist: choose 0 .. %d",
               (int)analysis->algorithm, STEIF_ARRAY);
@@ -96,6 +104,28 @@ static int pattern(steif_context *ctx, SUNMatrix E, SUNMatrix F, steif_structure
   return code;
 }
 
+/* Circles find no s where s E + F is regular: is there none, for the numbers as given? What the
+ * pattern alone raises the index by is not to blame. */
+static int settle(steif_context *ctx, SUNMatrix E, SUNMatrix F, steif_structure *s)
+{
+  bool singular = s->degree < 0;
+  if (s->regular) return STEIF_OK;
+  if (s->degree >= 0) {
+    s->equations_count = s->unknowns_count = 0;
+    STEIF_TRY(stf_field_singular(ctx, E, F, &singular));
+    if (singular) STEIF_TRY(stf_field_offenders(ctx, E, F, s));
+    snprintf(
+      s->message, sizeof s->message,
+      "singular pencil%s (reciprocal condition %.1e at best) although its pattern is not; "
+      "look for an equation that follows from others%s",
+      singular ? ": det(s E + F) = 0 for all s exactly"
+               : " to rounding: s E + F is so at every s tried",
+      s->rcond, singular ? "" : " but for rounding");
+  }
+  s->certified = singular;
+  return STEIF_OK;
+}
+
 static int find(steif_context *ctx, stf_pool *pool, SUNMatrix E, SUNMatrix F,
                 const steif_analysis *analysis, bool whole, steif_structure *structure)
 {
@@ -106,8 +136,9 @@ static int find(steif_context *ctx, stf_pool *pool, SUNMatrix E, SUNMatrix F,
     if (!whole) return STEIF_OK;
   }
   STEIF_TRY(stf_units_open(ctx, pool, E, F, &u));
-  return by_dense(analysis) ? pattern(ctx, u.E, u.F, structure)
-                            : stf_contour(ctx, u.E, u.F, analysis, structure);
+  if (by_dense(analysis)) return pattern(ctx, u.E, u.F, structure);
+  STEIF_TRY(stf_contour(ctx, u.E, u.F, analysis, structure));
+  return settle(ctx, u.E, u.F, structure);
 }
 
 int steif_structure_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
@@ -271,6 +302,19 @@ int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F, const sunre
   if (q.lent) q.found.circle = NULL;
   steif_structure_clear(ctx, &q.found);
   stf_pool_free(&q.pool);
+  return code;
+}
+
+/* Without forcing x(0+) = Pi_s x(0-). */
+int steif_projector_apply(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                          const steif_analysis *analysis, const steif_structure *structure,
+                          const sunrealtype *x, sunrealtype *slow)
+{
+  steif_impulse i;
+  STEIF_CHECK(slow, ctx, STEIF_BAD_INPUT, "no place for the projected vector: it is NULL");
+  const int code = steif_impulse_find(ctx, E, F, x, 0, NULL, NULL, analysis, structure, &i);
+  if (!code) memcpy(slow, i.x_plus, (size_t)i.n * sizeof *slow);
+  if (!code) steif_impulse_clear(ctx, &i);
   return code;
 }
 

@@ -69,6 +69,8 @@ int stf_array_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
 int stf_matching(steif_context *ctx, SUNMatrix E, SUNMatrix F, sunindextype *rank,
                  steif_structure *structure);
 
+/* Square, of one order, dense or CSC, finite; or a sentence. */
+int stf_structure_check(steif_context *ctx, SUNMatrix E, SUNMatrix F);
 /* Claim lists in a structure (one that is there is released) and an impulse. Behind x_plus stand
  * 2 n values for the residuals: nothing else may claim it. */
 int stf_structure_list(steif_context *ctx, sunindextype count, sunindextype **list);

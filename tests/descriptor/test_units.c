@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "families.h"
 #include "field.h"
+#include "linear.h"
+#include "systems.h"
 
 static const enum steif_algorithm ways[] = {STEIF_STAIRCASE, STEIF_QZ, STEIF_CONTOUR};
 enum { WAYS = 3 };
@@ -179,6 +181,83 @@ static void ranks_over_a_field(void)
   steif_context_free(&ctx);
 }
 
+/* Constraints on velocities reach pressures in chains of 2, those on positions forces in chains of 3,
+ * and loads of a power network nothing else: one chain for each. */
+static void chains_of_sparse_pencils(void)
+{
+  static const struct {
+    const char *spec;
+    sunindextype rank;
+    int count;
+    sunindextype weyr[3];
+  } of[] = {{"springs:n=40,c=5", 80, 3, {5, 5, 5}},
+            {"stokes:m=8", 112, 2, {63, 63}},
+            {"bus:n=40", 20, 1, {40}}};
+  for (int k = 0; k < 3; k++) {
+    system_ q;
+    steif_structure s;
+    const steif_analysis a = {.algorithm = STEIF_CONTOUR};
+    system_open(&q, NULL, of[k].spec);
+    CHECK(steif_structure_find(q.ctx, q.E, q.F, &a, &s) == STEIF_OK);
+    CHECK(s.certified && s.rank_E == -1 && s.weyr_count == 0);
+    CHECK(steif_structure_ranks(q.ctx, q.E, q.F, &s) == STEIF_OK);
+    CHECK(s.rank_E == of[k].rank && s.weyr_count == of[k].count);
+    for (int j = 0; j < s.weyr_count; j++) CHECK(s.weyr[j] == of[k].weyr[j]);
+    steif_structure_clear(q.ctx, &s);
+    system_close(&q);
+  }
+}
+
+/* Pi_s by circles, applied to a vector twice, and beside the whole projector of the staircase. */
+static void projectors_of_sparse_pencils(void)
+{
+  system_ q;
+  steif_structure s;
+  const steif_analysis a = {.algorithm = STEIF_CONTOUR};
+  system_open(&q, NULL, "springs:n=40,c=5");
+  const size_t n = (size_t)q.n;
+  double *x = calloc(3 * n, sizeof *x), *slow = x + n, *again = slow + n;
+  stf_random r = {19};
+  for (size_t i = 0; i < n; i++) x[i] = stf_random_in(&r, -1, 1);
+  CHECK(steif_structure_find(q.ctx, q.E, q.F, &a, &s) == STEIF_OK);
+  CHECK(steif_projector_apply(q.ctx, q.E, q.F, &a, &s, x, slow) == STEIF_OK);
+  CHECK(steif_projector_apply(q.ctx, q.E, q.F, &a, &s, slow, again) == STEIF_OK);
+  CHECK(system_error(q.n, again, slow) < 1e-11 && system_error(q.n, slow, x) > 1e-2);
+  double *P = calloc(n * n, sizeof *P);
+  CHECK(steif_projector_find(q.ctx, q.E, q.F, NULL, P) == STEIF_OK);
+  for (size_t i = 0; i < n; i++) {
+    again[i] = 0;
+    for (size_t j = 0; j < n; j++) again[i] += P[j * n + i] * x[j];
+  }
+  CHECK(system_error(q.n, slow, again) < 1e-10);
+  steif_structure_clear(q.ctx, &s);
+  free(x), free(P);
+  system_close(&q);
+}
+
+/* Equation 21 is the sum of equations 5, 6 and 7 of a chain of 30: no pattern shows it. */
+static void dependent_equations_are_named(void)
+{
+  enum { N = 30, SUM = 21 };
+  static const sunindextype wanted[4] = {5, 6, 7, SUM};
+  double E[N * N] = {0}, F[N * N] = {0};
+  for (int i = 0; i < N; i++) {
+    E[i * N + i] = 1 + 0.25 * (i % 4), F[i * N + i] = 2;
+    if (i) F[(i - 1) * N + i] = F[i * N + i - 1] = -1;
+  }
+  for (int j = 0; j < N; j++) {
+    E[j * N + SUM] = E[j * N + 5] + E[j * N + 6] + E[j * N + 7];
+    F[j * N + SUM] = F[j * N + 5] + F[j * N + 6] + F[j * N + 7];
+  }
+  steif_context *ctx = steif_context_new(NULL);
+  steif_structure s = look(ctx, N, E, F, STEIF_CONTOUR);
+  CHECK(!s.regular && s.certified && s.degree >= 0 && s.equations_count == 4);
+  for (int k = 0; k < 4 && k < s.equations_count; k++) CHECK(s.equations[k] == wanted[k]);
+  CHECK(s.unknowns_count > 0 && !!strstr(s.message, "exactly"));
+  steif_structure_clear(ctx, &s);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_units[] = {
   {"a shift beside any diagonal has index 3", a_shift_beside_any_diagonal},
   {"the 5 x 5 pencil in any units", five_by_five_in_any_units},
@@ -187,4 +266,7 @@ CU_TestInfo tests_of_units[] = {
   {"singular exactly, or to rounding", singular_exactly_or_to_rounding},
   {"counts leave room for the index", counts_and_indices_agree},
   {"ranks over a field", ranks_over_a_field},
+  {"rank of E and chains of sparse pencils", chains_of_sparse_pencils},
+  {"projectors of sparse pencils", projectors_of_sparse_pencils},
+  {"dependent equations are named", dependent_equations_are_named},
   CU_TEST_INFO_NULL};
