@@ -46,7 +46,8 @@ static const struct {
                   {"workprec", bench_workprec},
                   {"impulse", bench_impulse},
                   {"phi", bench_phi},
-                  {"lyapunov", bench_lyapunov}};
+                  {"lyapunov", bench_lyapunov},
+                  {"lorenz", bench_lorenz}};
 enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
 static const char *name_at(const void *list, size_t i)
@@ -75,7 +76,7 @@ static const struct option options[] = {
 const struct verb verb_bench = {
   "bench",
   "Measure steps against their kernels, solves against CVODE, IDA, ARKODE",
-  "[step|workprec|impulse|phi|lyapunov]",
+  "[step|workprec|impulse|phi|lyapunov|lorenz]",
   0,
   1,
   options,

@@ -24,11 +24,6 @@
   "    t, Y = min(batch(A, count) for i in range(10)) / count, expm(A)\n"                      \
   "    print(t, abs(X - Y).sum(0).max() / abs(Y).sum(0).max())\n"
 
-/* The first Python that has SciPy. */
-#define COMMAND                                                                                \
-  "for p in python3 /usr/bin/python3; do $p -c 'import scipy.linalg' 2>/dev/null && "          \
-  "exec $p -c \"$STEIF_SCRIPT\" \"$STEIF_MATRICES\"; done; exit 1"
-
 enum { MOST = 64 };
 
 typedef struct results {
@@ -62,16 +57,12 @@ static int measure(struct call *call, FILE *file, results *r)
 /* SciPy's times, if it is there. */
 static void ask(struct call *call, const char *path, results *r)
 {
-  setenv("STEIF_SCRIPT", SCRIPT, 1);
-  setenv("STEIF_MATRICES", path, 1);
   size_t got = 0;
-  FILE *answer = popen(COMMAND, "r");
+  FILE *answer = scipy_ask(SCRIPT, path);
   while (answer && got < r->count &&
          fscanf(answer, "%lf %lf", r->theirs + got, r->distance + got) == 2)
     got++;
-  if ((answer && pclose(answer)) || got < r->count)
-    say(call,
-        "no SciPy to compare with: install python3-scipy (Debian) for the column scipy_us");
+  if ((answer && pclose(answer)) || got < r->count) scipy_missing(call, "scipy_us");
 }
 
 static int exponentials(struct call *call, results *r)

@@ -39,6 +39,17 @@ typedef struct steif_bench_row {
 STEIF_EXPORT int steif_bench_step(steif_context *ctx, size_t i, steif_bench_row *row);
 STEIF_EXPORT int steif_bench_lyapunov(steif_context *ctx, size_t i, steif_bench_row *row);
 
+/* The exponents of Lorenz' equations over `time` behind a transient, by equal steps. The tolerance rtol
+ * is one with which an adaptive method of order 8 keeps their sum about as well; its exact value is
+ * the divergence. STEIF_BAD_INPUT without a sentence past the end. */
+typedef struct steif_bench_attractor {
+  char method[STEIF_SPEC_WORD];
+  sunrealtype h, time, transient, rtol;
+  sunrealtype cpu_s, exponent[3], error[3]; /* error: their standard errors */
+  sunrealtype sum, defect;                  /* sum: exact; |sum of the exponents - sum| */
+} steif_bench_attractor;
+STEIF_EXPORT int steif_bench_lorenz(steif_context *ctx, size_t i, steif_bench_attractor *row);
+
 /* Work against precision: whole solves, from the creation of the solver to its destruction. Least
  * processor time of all threads over 5 solves and 20 ms; longer solves are repeated less. */
 typedef struct steif_bench_solve {
