@@ -43,6 +43,13 @@ void stf_trust_set(stf_step *s, const stf_trust *trust, sunrealtype top, sunreal
   s->error_order = trust->s + (less && ratio < 1 ? trust->beyond : 0);
 }
 
+void stf_trust_none(stf_step *s, const stf_trust *trust)
+{
+  const sunrealtype bound = 0.1;
+  s->error_tolerance = fmin(s->error_tolerance, bound);
+  s->error_order = trust->s;
+}
+
 /* Unknowns of index 3 forget their start in so many steps; what so many refusals have not cured is not
  * theirs. */
 enum { SETTLED = 3, PATIENT = 3 };

@@ -107,6 +107,9 @@ void stf_trust_open(stf_trust *trust, const steif_table *T, const stf_split *spl
 /* s->error_tolerance and s->error_order of this attempt, from the norms of the two differences. */
 void stf_trust_set(stf_step *s, const stf_trust *trust, sunrealtype top, sunrealtype below);
 
+/* The same where the estimate is all that is known: no higher order. */
+void stf_trust_none(stf_step *s, const stf_trust *trust);
+
 /* Velocities and multipliers of index 3 have no more than the order of the estimate: it is made
  * larger for them, as if the tolerance had not been raised, but above rounding; not in the first steps,
  * whose start they forget, nor where many shorter steps do not help. */

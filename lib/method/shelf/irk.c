@@ -25,7 +25,9 @@ typedef struct state {
   sunrealtype *slope;    /* weights in Z of u' where F is looked at for the error, times h */
   bool accurate;         /* the end is a stage */
   stf_trust trust;
-  long fails;          /* of Newton up to the accepted step */
+  sunrealtype omega; /* frequency of the fastest part if that oscillates; 0: it does not */
+  long heard;        /* Jacobians made when omega was found */
+  long fails;        /* of Newton up to the accepted step */
   N_Vector *Z, *trial; /* of the last step and of the attempt, relative to y_n */
   N_Vector *base, *offset, *X;
   N_Vector before; /* y_n of the last step */
@@ -244,11 +246,25 @@ static sunrealtype size(stf_step *s, const sunrealtype *weight)
   return stf_norm(&s->system.space, e->work, s->weights);
 }
 
+/* Oscillations that a step does not resolve take from the higher order. */
+static int trust(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  if (s->system.nje != e->heard) {
+    e->heard = s->system.nje;
+    stf_sum(&s->system.space, 1, s->next, -1, s->y, e->work);
+    STEIF_TRY(stf_oscillation(s, e->work, e->X[0], e->imaginary, &e->omega));
+  }
+  stf_trust_set(s, &e->trust, size(s, e->trust.top), size(s, e->trust.below));
+  if (e->omega * h > 1) stf_trust_none(s, &e->trust);
+  return STEIF_OK;
+}
+
 static int estimate(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
-  stf_trust_set(s, &e->trust, size(s, e->trust.top), size(s, e->trust.below));
+  STEIF_TRY(trust(s, h));
   sunrealtype slope[STEIF_STAGES];
   for (int j = 0; j < e->s; j++) slope[j] = e->slope[j] / h;
   stf_combine(space, e->s, slope, e->trial, e->work);
