@@ -81,14 +81,16 @@ int stf_feasible_keep(steif_solver *s, sunrealtype h, int tries)
   const steif_problem *p = s->problem;
   sunrealtype *y = N_VGetArrayPointer(s->step.next);
   bool pressed = false;
+  /* a hundredth of what a step may err */
+  const sunrealtype noise = s->step.adaptive ? fmin(1e-3, 0.01 * s->step.error_tolerance) : 1e-3;
   for (sunindextype i = 0; i < p->n; i++) {
     const int c = p->constraint[i];
     if (holds(c, y[i])) continue;
     const sunrealtype off = fabs(y[i]) / allowed(s, i);
     if (c * c > 1 || off > 1)
       return s->step.adaptive && tries < PATIENCE ? STEIF_RETRY : left(s, i, y[i], h);
-    if (off > 1e-3 && s->pressed >= PRESSED) return left(s, i, y[i], h);
-    pressed = pressed || off > 1e-3;
+    if (off > noise && s->pressed >= PRESSED) return left(s, i, y[i], h);
+    pressed = pressed || off > noise;
     y[i] = 0;
   }
   s->pressed = pressed ? s->pressed + 1 : 0;

@@ -13,6 +13,35 @@ static void difference(int k, const sunrealtype *node, sunrealtype *weight)
   }
 }
 
+sunrealtype stf_share(const stf_step *s, int q, int p, sunrealtype rounding)
+{
+  const sunrealtype sum = 2e-3, anchor = 1e-3, most = 0.1;
+  const sunrealtype rtol = s->options->rtol, power = (q + 1.0) / p;
+  return fmin(most, fmax(pow(sum * rtol / anchor, power) * anchor, rounding) / rtol);
+}
+
+int stf_share_open(stf_step *s, const char *name, int q, int p)
+{
+  const sunrealtype rounding = 1e-14, none = 0.1 * rounding;
+  const sunrealtype wanted = stf_share(s, q, p, none) * s->options->rtol;
+  s->error_order = q;
+  if (!s->adaptive) return STEIF_OK;
+  STEIF_CHECK(wanted > none, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' of order %d cannot keep rtol = %g: the error of one step would have to be below "
+              "rounding; take a method of higher order, radau:s=3 or more, or a larger rtol",
+              name, p, s->options->rtol);
+  s->error_tolerance = stf_share(s, q, p, rounding);
+  stf_share_newton(s, rounding);
+  return STEIF_OK;
+}
+
+void stf_share_newton(stf_step *s, sunrealtype rounding)
+{
+  const sunrealtype most = 1e-3, least = 0.1 * rounding / s->options->rtol;
+  if (s->options->newton > 0) return;
+  s->newton.tolerance = fmin(most, fmax(0.01 * s->error_tolerance, least));
+}
+
 void stf_trust_open(stf_trust *trust, const steif_table *T, const stf_split *split,
                     sunrealtype rtol)
 {
@@ -29,7 +58,7 @@ void stf_trust_open(stf_trust *trust, const steif_table *T, const stf_split *spl
   trust->legendre = 1;
   for (int k = 1; k <= s; k++) trust->legendre *= (sunrealtype)k / (s + k);
   trust->loosest =
-    0.06 * pow(anchor, (s + 1.0) / (2 * s)) * pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
+    0.05 * pow(anchor, (s + 1.0) / (2 * s)) * pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
 }
 
 void stf_trust_set(stf_step *s, const stf_trust *trust, sunrealtype top, sunrealtype below)
@@ -45,7 +74,7 @@ void stf_trust_set(stf_step *s, const stf_trust *trust, sunrealtype top, sunreal
 
 void stf_trust_none(stf_step *s, const stf_trust *trust)
 {
-  const sunrealtype bound = 0.1;
+  const sunrealtype bound = 0.05;
   s->error_tolerance = fmin(s->error_tolerance, bound);
   s->error_order = trust->s;
 }
@@ -96,7 +125,7 @@ int stf_test_undamped(stf_step *s, N_Vector first, bool diverged)
 int stf_refuse_index(const stf_step *s, const char *name)
 {
   STEIF_CHECK(
-    !s->adaptive || s->system.linear || s->problem->dae_index < 3, s->ctx, STEIF_UNSUPPORTED,
+    !s->adaptive || s->problem->dae_index < 3, s->ctx, STEIF_UNSUPPORTED,
     "'%s' cannot choose steps for problem '%s' of index %d, whose multipliers it does "
     "not find: use radau, or give steps with h",
     name, s->problem->name, s->problem->dae_index);

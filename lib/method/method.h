@@ -87,6 +87,17 @@ int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_meth
  * Jacobian in every iteration, before giving up. */
 int stf_solve_stages(stf_step *s, const stf_stages *stages);
 
+/* What an estimate of order q may be, in units of the tolerance, so that the errors of all steps of a
+ * method of order p add to a multiple of rtol where y is smooth, est^(p/(q+1)) ~ rtol, but above
+ * rounding, relative to y. At rtol = 1e-3 the multiple is small enough for orbits that magnify errors a thousand
+ * times before they close. */
+sunrealtype stf_share(const stf_step *s, int q, int p, sunrealtype rounding);
+/* Newton's tolerance for s->error_tolerance, unless the caller has given his: what is left of the
+ * iteration must not be seen in the estimate. */
+void stf_share_newton(stf_step *s, sunrealtype rounding);
+/* Both for a method of one order, which refuses what is below rounding. */
+int stf_share_open(stf_step *s, const char *name, int q, int p);
+
 /* How far the estimate of collocation, of order s, may exceed the tolerance because the method has
  * order p. On y' = lambda y, omega = h |lambda|, the error is the estimate times
  * s! / (gamma_0 (p + 1)!) omega^(p-s); omega is taken from the divided differences of order s
@@ -95,7 +106,7 @@ int stf_solve_stages(stf_step *s, const stf_stages *stages);
  * below: then the error is as large as the estimate, unless they are
  * below the tolerance themselves. Never more than a bound
  * that makes the sum of the errors of all steps proportional to rtol where y is smooth, est^(p/(s+1))
- * ~ rtol, and is 0.6 of the 0.1 rtol^((s+1)/(2s)) of Hairer and Wanner (II, IV.8) at rtol = 1e-3. */
+ * ~ rtol, and is half of the 0.1 rtol^((s+1)/(2s)) of Hairer and Wanner (II, IV.8) at rtol = 1e-3. */
 typedef struct stf_trust {
   int s, beyond;                                        /* beyond: p - s */
   sunrealtype gain, loosest;                            /* s! / (gamma_0 (p + 1)!) */
@@ -126,7 +137,7 @@ bool stf_filters_twice(const stf_step *s);
  * overwritten, s->error the second one. */
 int stf_test_undamped(stf_step *s, N_Vector first, bool diverged);
 
-/* Refuses chosen steps on nonlinear problems of index 3: methods whose stages have order 1 or
+/* Refuses chosen steps on problems of index 3: methods whose stages have order 1 or
  * that do not damp do not find the multipliers there, and no estimate of theirs would tell. */
 int stf_refuse_index(const stf_step *s, const char *name);
 

@@ -106,8 +106,9 @@ static bool stalled(stf_step *s, double norm, double last, double tolerance)
 {
   stf_small *e = s->state;
   const bool high = s->problem->dae_index > 1;
-  e->rough = (norm >= 0.5 * last && norm <= fmax(tolerance, high ? 0.01 : 0.1)) ||
-             (norm >= last && norm <= 1 && !high);
+  const double rounding = fmin(1, 1e-10 / s->options->rtol);
+  e->rough = (norm >= 0.5 * last && norm <= fmax(tolerance, (high ? 0.01 : 0.1) * rounding)) ||
+             (norm >= last && norm <= rounding && !high);
   return e->rough;
 }
 

@@ -116,7 +116,7 @@ static void chosen_steps_come_through_the_start(void)
       double error[PARTS], most = 0;
       const int steps = ut5_errors(chosen[i], 0, rtol[k], error);
       for (int part = 0; part < PARTS; part++) most = fmax(most, error[part]);
-      const bool good = steps > 5 && steps < 500 && most < 15 * 15 * rtol[k];
+      const bool good = steps > 5 && steps < 1200 && most < 15 * 15 * rtol[k];
       CHECK(good);
       if (!good) printf("\n  %s, %g: %d steps, error %.1e", chosen[i], rtol[k], steps, most);
     }

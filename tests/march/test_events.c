@@ -262,8 +262,8 @@ static void a_terminal_event_ends_the_run(void)
     CHECK(steif_solve_to(s, 2) == STEIF_EVENT && steif_solve_step(s) == STEIF_EVENT);
     CHECK(!steif_solve_to(s, t) && steif_time(s) == t && steif_status(ctx) == STEIF_OK);
     N_Vector y = N_VClone(steif_solution(s));
-    CHECK(!steif_dense(s, t - 1e-3, y));
-    CLOSE(NV_Ith_S(y, 0), t - 1e-3, 1e-12);
+    CHECK(!steif_dense(s, t - 1e-6, y));
+    CLOSE(NV_Ith_S(y, 0), t - 1e-6, 1e-12);
     CHECK(steif_dense(s, t + 1e-3, y) == STEIF_BAD_INPUT);
     N_VDestroy(y);
     steif_solver_free(&s);

@@ -6,7 +6,7 @@
 
 #include "smooth.h"
 
-enum { SEEN = 64, FUNCTIONS = 4, STEPS = 512 };
+enum { SEEN = 64, FUNCTIONS = 4, STEPS = 4096 };
 typedef struct watched {
   int count;
   double t[SEEN];

@@ -51,9 +51,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(stf_chain_open(s, table->name, &e->chain));
   e->old = stf_claim_vectors(s->pool, e->s, s->y);
   e->before = stf_claim_vector(s->pool, s->y);
-  s->error_order = table->order_hat < table->order ? table->order_hat : table->order;
-  s->error_tolerance = 0.1;
-  if (s->adaptive && !(s->options->newton > 0)) s->newton.tolerance = 1e-3;
+  const int q = table->order_hat < table->order ? table->order_hat : table->order;
+  STEIF_TRY(stf_share_open(s, table->name, q, table->order));
   return e->old && e->before ? STEIF_OK : STEIF_NO_MEMORY;
 }
 

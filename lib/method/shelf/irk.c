@@ -160,7 +160,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
               "'%s' has no error estimate (its first node is 0): give steps with h",
               table->name);
   if (table->c[0] > 0) fill_slope(e);
-  if (s->adaptive && !(s->options->newton > 0)) s->newton.tolerance = 1e-4;
+  if (s->adaptive && !(s->options->newton > 0))
+    s->newton.tolerance = s->problem->dae_index >= 3 ? 1e-6 : 1e-4;
   if (s->adaptive && s->table->s > 1 && !s->system.linear && s->system.storage == STEIF_SPARSE)
     STEIF_TRY(blend(s));
   stf_trust_open(&e->trust, table, &split, s->options->rtol);

@@ -54,9 +54,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
     stf_rodas_small_open(&e->kernel, (int)s->problem->n,
                          s->system.E ? SM_DATA_D(s->system.E) : NULL);
   s->newton.fresh = false;
-  s->error_order = e->r->order - 1;
-  s->error_tolerance = 0.1;
-  return STEIF_OK;
+  return stf_share_open(s, spec->name, e->r->order - 1, e->r->order);
 }
 
 /* f at the accepted point and its slope in t. */

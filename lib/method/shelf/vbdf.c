@@ -6,8 +6,7 @@
  * pred_k the extrapolation through k + 1 past points. Factors are kept while alpha_0/h stays
  * within a ratio of 1.67; steps grow only by factors above 1.5, and every k + 1 steps the
  * neighbouring orders are compared (biases 6, 6, 10 as in VODE: Brown, Byrne, Hindmarsh, SISC
- * 10, 1989). The error of a step is kept below a tenth of the tolerance, and Newton stops at a
- * hundredth of that: what it leaves in the past values is
+ * 10, 1989). Newton stops at a hundredth of what the error may be: what it leaves in the past values is
  * amplified by up to 2^(k+1) - 1 in the estimate, and more of it would hold the step down where
  * the solution is smooth.
  *
@@ -18,6 +17,9 @@
 
 enum { HIGHEST = 5, POINTS = HIGHEST + 2, AGE = 50 }; /* AGE: steps a Jacobian may serve */
 
+/* Of past values, amplified by up to 2^(k+1) - 1 in the estimate. */
+static const sunrealtype rounding = 3e-12;
+
 typedef struct state {
   int p, k, last;   /* highest order; order of the trial; of the last step */
   int points, wait; /* valid past points; steps until the order is looked at */
@@ -27,7 +29,7 @@ typedef struct state {
   long heard;        /* Jacobians made when omega was found */
   N_Vector y[POINTS + 1];
   sunrealtype t[POINTS + 1];
-  sunrealtype alpha[HIGHEST + 1];
+  sunrealtype alpha[HIGHEST + 1], allowed[HIGHEST + 1]; /* allowed: of the error of order k */
   N_Vector base, offset, Z, other;
 } state;
 
@@ -84,7 +86,7 @@ static int listen(stf_step *s)
   return stf_oscillation(s, e->Z, e->other, e->offset, &e->omega);
 }
 
-static bool rings(const state *e, sunrealtype h) { return e->omega * h > 3; }
+static bool rings(const state *e, sunrealtype h) { return e->omega * h > 1; }
 
 static int attempt(stf_step *s, sunrealtype h)
 {
@@ -95,12 +97,13 @@ static int attempt(stf_step *s, sunrealtype h)
   if (e->k > e->points) e->k = e->points;
   if (s->system.nje != e->seen) e->seen = s->system.nje, e->since = s->count;
   if (s->count - e->since >= AGE) s->newton.wanted = true;
+  s->error_order = e->k, s->error_tolerance = e->allowed[e->k];
+  stf_share_newton(s, rounding);
   predict(s, h);
   STEIF_TRY(solve(s, h));
   if (s->system.nje != e->heard) STEIF_TRY(listen(s));
   const sunrealtype span = e->points > e->k ? s->t + h - e->t[e->k] : 2 * h;
   stf_sum(&s->system.space, h / span, s->next, -h / span, e->base, s->error);
-  s->error_order = e->k;
   return STEIF_OK;
 }
 
@@ -114,7 +117,7 @@ static sunrealtype error_at(stf_step *s, int k)
   extrapolate(e, k + 1, t, weight);
   stf_combine(space, k + 1, weight, e->y, e->other);
   stf_sum(space, scale, s->next, -scale, e->other, e->other);
-  return stf_norm(space, e->other, s->weights) / s->error_tolerance;
+  return stf_norm(space, e->other, s->weights) / e->allowed[k];
 }
 
 static sunrealtype growth(sunrealtype bias, sunrealtype error, int k)
@@ -129,7 +132,7 @@ static void choose(stf_step *s)
   const int k = e->k;
   const sunrealtype cap = s->options->h_max > 0 ? s->options->h_max / s->h_try : INFINITY;
   const sunrealtype now = stf_norm(&s->system.space, s->error, s->weights);
-  sunrealtype best = growth(6, now / s->error_tolerance, k);
+  sunrealtype best = growth(6, now / e->allowed[k], k);
   int order = k;
   if (--e->wait <= 0) {
     const sunrealtype lower = k > 1 ? growth(6, error_at(s, k - 1), k - 1) : 0;
@@ -173,6 +176,14 @@ static int dense(const stf_step *s, sunrealtype t, N_Vector y)
   return STEIF_OK;
 }
 
+/* Order 1 serves beginnings, whose few errors do not add up. Highest orders 1 and 2 would need a million
+ * steps for six digits: they keep a tenth of the tolerance in each step, and less at the end. */
+static sunrealtype share(const stf_step *s, int p, int k)
+{
+  const int order = k > 1 ? k : 2;
+  return p > 2 ? stf_share(s, order, order, rounding) : 0.1;
+}
+
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 {
   (void)table;
@@ -187,7 +198,6 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(stf_split_single(s->pool, 1, &split));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
   s->newton.window = 1.67, s->newton.join = true, s->newton.stale = 0.7;
-  if (!(s->options->newton > 0)) s->newton.tolerance = 0.001;
   e->base = stf_claim_vector(s->pool, s->y);
   e->offset = stf_claim_vector(s->pool, s->y);
   e->Z = stf_claim_vector(s->pool, s->y);
@@ -197,7 +207,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->points = 1, e->k = 1, e->wait = 2;
   for (int j = 1; j <= POINTS; j++)
     if (!(e->y[j] = stf_claim_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
-  s->error_tolerance = 0.1, s->bias = 6;
+  for (int k = 1; k <= HIGHEST; k++) e->allowed[k] = share(s, e->p, k);
+  s->bias = 6;
   return STEIF_OK;
 }
 
