@@ -3,7 +3,7 @@
  * Control by local errors looks one step ahead. On x' = A(t) x with a non-normal A the numbers may
  * grow for ever while every local error is small against |x| and the problem decays: the errors tilt
  * x, and the growth that follows is the problem's own. The supervisor follows a solution w of
- *   w' = J(t, y) w,  J = df/dy along the computed y,
+ *   w' = J(t, y) w,  J = df/dy along the computed y;  M w' = J w;  F_y w + F_y' w' = 0
  * with the caller's word that the problem contracts, |w(t)| <= K exp(-rate (t - s)) |w(s)|:
  *
  *   windows   of length H. Where mu = (ln |w(T + H)| - ln |w(T)|) / H > -rate, the window is undone and
@@ -13,9 +13,10 @@
  *             G > swing, steps are capped by shrink times their mean and G := 0. Nothing is undone:
  *             cheap, but numbers may grow between the interventions.
  *
- * E. Steyer and E. Van Vleck, arXiv 1709.02059, pose the problem. Where f is linear and homogeneous w
- * is y itself, its local error is measured against |y| in the Euclidean norm, and atol is not used.
- * Else y and w are integrated side by side, w with the tolerance rtol |w|; .jac is needed then, and
+ * E. Steyer and E. Van Vleck, arXiv 1709.02059, pose the problem. Where f (F) is linear and
+ * homogeneous w is y itself, its local error is measured against |y| in the Euclidean norm, and atol
+ * is not used. Else y and w are integrated side by side, w with the tolerance rtol |w|; .jac (.idajac)
+ * is needed then, and
  * the coupling dJ/dy w is left out of Newton's matrix (Rosenbrock and exponential methods, which
  * need it, and auto, which may choose them, are refused).
  *
@@ -70,8 +71,10 @@ typedef struct steif_supervised {
 } steif_supervised;
 
 /* Integrates from t0 to t1 with steps chosen by the error estimate; options as for a solver, but not
- * h, mesh, atols, ewt or observe. y: n values at t1 (may be NULL), as facts. The problem is an ode on
- * serial vectors. w starts as y0, or as ones where that is 0. Solver failures are passed on. */
+ * h, mesh, atols, ewt or observe. y: n values at t1 (may be NULL), as facts. The problem is an ode,
+ * or of mass or implicit form and index 0 or 1, on serial vectors. w starts as y0, or as ones where
+ * that is 0, made consistent. Solver failures are passed on; DIRK methods with an explicit first stage
+ * need y', which a DAE does not give behind the start, and are refused there. */
 STEIF_EXPORT int steif_supervise(steif_context *ctx, const steif_problem *problem,
                                  const char *method, const steif_options *options,
                                  const steif_supervision *how, sunrealtype *y,

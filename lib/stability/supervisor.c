@@ -211,21 +211,13 @@ static int suits(steif_context *ctx, const steif_problem *p, const char *method,
 static int begin(stf_pool *pool, guard *g, const steif_problem *p)
 {
   stf_tangent *tangent = &g->tangent;
-  STEIF_CHECK(
-    steif_problem_form(g->ctx, p) == STEIF_ODE && p->y0 && !p->react, g->ctx, STEIF_UNSUPPORTED,
-    "problem '%s' is not of the form y' = f(t, y) with .y0, without events that change y",
-    p->name);
   STEIF_TRY(stf_tangent_open(pool, g->ctx, p, tangent));
   STEIF_TRY(suits(g->ctx, p, g->method, tangent));
-  const sunindextype n = p->n, all = tangent->pair.n;
+  const sunindextype all = tangent->pair.n;
   g->z = stf_claim(pool, 2 * (size_t)all, sizeof *g->z);
   if (!g->z) return STEIF_NO_MEMORY;
   g->saved = g->z + all;
-  sunrealtype *w = g->z + all - n;
-  memcpy(g->z, p->y0, (size_t)n * sizeof *g->z);
-  memcpy(w, p->y0, (size_t)n * sizeof *g->z);
-  const bool nothing = !(stf_tangent_size(tangent, g->z) > 0);
-  for (sunindextype i = 0; nothing && i < n; i++) w[i] = 1;
+  STEIF_TRY(stf_tangent_begin(tangent, g->z));
   tangent->rtol = g->options.rtol > 0 ? g->options.rtol : steif_defaults().rtol;
   tangent->atol = g->options.atol > 0 ? g->options.atol
                                       : tangent->rtol * (p->rtol_scale > 0 ? p->rtol_scale : 1);

@@ -8,6 +8,7 @@ extern CU_TestInfo tests_of_region[], tests_of_boundary[], tests_of_order[],
   tests_of_attractors[];
 
 extern CU_TestInfo tests_of_underlying[], tests_of_general_regions[], tests_of_laws[],
+  tests_of_supervised_forms[],
   tests_of_leading[];
 
 SUITE_MAIN({.pName = "underlying", .pTests = tests_of_underlying},
@@ -24,5 +25,6 @@ SUITE_MAIN({.pName = "underlying", .pTests = tests_of_underlying},
            {.pName = "map of a step", .pTests = tests_of_stepmap},
            {.pName = "hamiltonian", .pTests = tests_of_hamiltonian},
            {.pName = "supervisor", .pTests = tests_of_supervisor},
+           {.pName = "supervised forms", .pTests = tests_of_supervised_forms},
            {.pName = "counterexample", .pTests = tests_of_counterexample},
            {.pName = "attractors", .pTests = tests_of_attractors})
