@@ -14,8 +14,8 @@ enum { POINTS = 16, REFINEMENTS = 2, INDEX_MOST = 8, SEED = 1 };
 /* Coefficient i also collects that of i - points, which has to be of order -ALIAS or less. */
 enum { ALIAS = 3 };
 
-/* Points whose factors are alive at a time, at most, and whose solutions are. */
-enum { SLOTS = 4, KEPT = 8, PAIRS = KEPT / 2 };
+/* Unknowns from which on threads pay. */
+enum { CROWD = 2000, PAIRS = STF_LANES / 2 };
 
 /* Sums of powers -1 .. STF_INDEX_MOST. */
 enum { SUMS = STF_INDEX_MOST + 2 };
@@ -76,14 +76,20 @@ static int fill(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analys
   stf_scaled *s = &c->scaled;
   STEIF_TRY(stf_scaled_open(ctx, E, F, s));
   const size_t n = (size_t)s->n, size = sizeof(sunrealtype);
-  const int half = a->points / 2, threads = stf_threads(ctx);
-  c->slots = threads >= SLOTS ? SLOTS : threads > 1 ? 2 : 1;
-  c->x = stf_claim(s->pool, 2 * n * (size_t)(half < KEPT ? half : KEPT), size);
+  c->threads = s->n >= CROWD ? stf_threads(ctx) : 1;
+  const int most = (a->points / 2 + STF_LANES - 1) / STF_LANES;
+  c->batches = most < c->threads ? most : c->threads;
+  c->batch = stf_claim(s->pool, (size_t)c->batches, sizeof *c->batch);
   c->sum = stf_claim(s->pool, n * (size_t)c->room, size);
-  c->size = stf_claim(s->pool, n, size);
-  c->r = stf_claim(s->pool, 2 * n, size);
   c->square = stf_claim(s->pool, (size_t)c->room, size);
-  return c->x && c->sum && c->size && c->r && c->square ? STEIF_OK : STEIF_NO_MEMORY;
+  return c->batch && c->sum && c->square ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+/* The pivots, and what goes with them. */
+static void forget(stf_circle *c)
+{
+  for (int k = 0; c->batch && k < c->batches; k++) stf_batch_close(&c->batch[k]);
+  stf_sequence_close(&c->sequence);
 }
 
 int stf_circle_open(steif_context *ctx, SUNMatrix E, SUNMatrix F,
@@ -104,6 +110,7 @@ int stf_circle_open(steif_context *ctx, SUNMatrix E, SUNMatrix F,
 void stf_circle_close(steif_context *ctx, stf_circle **circle)
 {
   if (!*circle) return;
+  forget(*circle);
   stf_scaled_close(&(*circle)->scaled);
   stf_release(ctx, *circle);
   *circle = NULL;
@@ -131,18 +138,20 @@ static sunrealtype angle_of(const stf_circle *c, int visit)
 }
 
 /* Of solutions a, b at a pair of nodes, for even and odd powers of s: real parts a +- b and
- * imaginary parts a -+ b; b NULL: none. */
+ * imaginary parts a -+ b; without a partner b = 0. */
 typedef struct fold {
   sunrealtype re[2][BLOCK], im[2][BLOCK];
 } fold;
 
-static void fold_pair(const sunrealtype *restrict a, const sunrealtype *restrict b, int n,
+static void fold_pair(const stf_batch *batch, int lane, bool pair, sunindextype at, int n,
                       fold *restrict f)
 {
-  for (int i = 0; i < n; i++) {
-    const sunrealtype re = b ? b[2 * i] : 0, im = b ? b[2 * i + 1] : 0;
-    f->re[0][i] = a[2 * i] + re, f->im[0][i] = a[2 * i + 1] - im;
-    f->re[1][i] = a[2 * i] - re, f->im[1][i] = a[2 * i + 1] + im;
+  enum { WIDE = STF_LANES };
+  const sunrealtype *restrict a = batch->x + 2 * WIDE * at + lane;
+  for (int i = 0; i < n; i++, a += 2 * WIDE) {
+    const sunrealtype re = pair ? a[1] : 0, im = pair ? a[WIDE + 1] : 0;
+    f->re[0][i] = a[0] + re, f->im[0][i] = a[WIDE] - im;
+    f->re[1][i] = a[0] - re, f->im[1][i] = a[WIDE] + im;
   }
 }
 
@@ -175,20 +184,15 @@ static void add_power(const weights *w, const fold *f, int n, sunrealtype *restr
   }
 }
 
-/* Sizes and the squared norm of a sum that is complete. */
-static sunrealtype measure(const sunrealtype *restrict sum, bool first, int n,
-                           sunrealtype *restrict size)
+static sunrealtype squares(const sunrealtype *restrict sum, int n)
 {
   sunrealtype square = 0;
-  for (int i = 0; i < n; i++) {
-    size[i] = (first ? 0 : size[i]) + fabs(sum[i]);
-    square += sum[i] * sum[i];
-  }
+  for (int i = 0; i < n; i++) square += sum[i] * sum[i];
   return square;
 }
 
-/* The solutions of visits from .. from + visits - 1 join the sums. */
-static void add(stf_circle *c, int from, int visits)
+/* The solutions of visits from .. from + visits - 1, which are in a batch, join the sums. */
+static void add(stf_circle *c, const stf_batch *batch, int from, int visits)
 {
   const sunindextype n = c->scaled.n;
   fold f[PAIRS];
@@ -197,98 +201,168 @@ static void add(stf_circle *c, int from, int visits)
     c->square[k] = 0, w[k] = weights_of(c, from, visits, k - 1);
   for (sunindextype at = 0; at < n; at += BLOCK) {
     const int now = n - at < BLOCK ? (int)(n - at) : BLOCK;
-    for (int k = 0; k < visits; k += 2) {
-      const sunrealtype *a = c->x + 2 * (k * n + at);
-      fold_pair(a, k + 1 < visits ? a + 2 * n : NULL, now, &f[k / 2]);
-    }
+    for (int k = 0; k < visits; k += 2) fold_pair(batch, k, k + 1 < visits, at, now, &f[k / 2]);
     for (int k = 0; k < c->count; k++) {
       sunrealtype *sum = c->sum + k * n + at;
       add_power(&w[k], f, now, sum);
-      if (w[k].last) c->square[k] += measure(sum, k == 0, now, c->size + at);
+      if (w[k].last) c->square[k] += squares(sum, now);
     }
   }
 }
 
-/* ---- around the circle -------------------------------------------------------------------- */
+/* ---- pivots -------------------------------------------------------------------------------- */
 
-/* The solution at a node that is factored in `slot`. False: the first is not steady, and nobody
- * has been careful. */
-static bool visit(stf_circle *c, int slot, int number, steif_shift z, stf_circle_source *source,
-                  void *user)
+static int fill_batches(stf_circle *c)
+{
+  STEIF_TRY(stf_sequence_open(c->scaled.pencil, 0, &c->sequence));
+  for (int k = 0; k < c->batches; k++) STEIF_TRY(stf_batch_open(c->sequence, &c->batch[k]));
+  return STEIF_OK;
+}
+
+/* The pivots that the pencil has in use become those of all batches. The order of the unknowns is that
+ * of its analysis and stays. */
+static int adopt(stf_circle *c)
+{
+  forget(c);
+  c->replaced = false;
+  c->filled = c->scaled.size;
+  const int code = fill_batches(c);
+  if (code) forget(c);
+  return code;
+}
+
+/* ---- a node by itself ------------------------------------------------------------------------ */
+
+/* The solution in one lane, by the factors of the pencil. */
+static int solve_alone(stf_circle *c, stf_batch *b, int lane, const stf_polynomial *g)
 {
   stf_scaled *s = &c->scaled;
-  sunrealtype *x = c->x + 2 * s->n * (number % KEPT);
-  source(s, z, user, x);
-  stf_scaled_direct(s, slot, x);
-  for (int sweep = 0; c->careful && sweep < c->refinements; sweep++) {
-    source(s, z, user, c->r);
-    if (!stf_scaled_refine(s, slot, sweep == 0, x, c->r)) break;
+  const stf_sequence *q = c->sequence;
+  enum { WIDE = STF_LANES };
+  if (!c->r) c->r = stf_claim(s->pool, 4 * (size_t)s->n, sizeof *c->r);
+  if (!c->r) return STEIF_NO_MEMORY;
+  sunrealtype *x = c->r, *r = c->r + 2 * s->n;
+  stf_batch_load(b, g, b->r);
+  const sunrealtype *from = b->r + lane;
+  for (int sweep = 0; sweep <= c->refinements; sweep++) {
+    sunrealtype *to = sweep ? r : x;
+    for (int k = 0; k < q->n; k++) {
+      to[2 * q->equation[k]] = from[2 * WIDE * (sunindextype)k];
+      to[2 * q->equation[k] + 1] = from[2 * WIDE * (sunindextype)k + WIDE];
+    }
+    if (!sweep)
+      stf_scaled_direct(s, 0, x);
+    else if (!stf_scaled_refine(s, 0, sweep == 1, x, r))
+      break;
   }
-  if (c->careful || number > 0) return true;
-  source(s, z, user, c->r);
-  return stf_sparse_residual(s->pencil, slot, x, c->r, s->most) <= GOOD;
+  for (int k = 0; k < q->n; k++) {
+    b->x[2 * WIDE * (sunindextype)k + lane] = x[2 * q->unknown[k]];
+    b->x[2 * WIDE * (sunindextype)k + WIDE + lane] = x[2 * q->unknown[k] + 1];
+  }
+  b->error[lane] = 0;
+  return STEIF_OK;
 }
 
-/* Of (1/m) sum_j (s_j E + F) x(s_j) the sums are to leave the constant part of the source: the
- * residuals of all nodes in one. */
-static bool steady(stf_circle *c, stf_circle_source *source, void *user)
+/* A lane with bad pivots: KLU looks for better ones, which serve from the next circle on. */
+static int alone(stf_circle *c, stf_batch *b, int lane, const stf_polynomial *g)
 {
-  stf_scaled *s = &c->scaled;
-  source(s, (steif_shift){0, 0}, user, c->r);
-  for (sunindextype i = 0; i < s->n; i++) c->r[i] = c->r[2 * i];
-  return stf_sparse_balance(s->pencil, c->radius, c->sum, c->sum + s->n, c->size, c->r,
-                            s->most) <= GOOD;
+  steif_pencil *p = c->scaled.pencil;
+  p->trusted = false;
+  STEIF_TRY(steif_pencil_factor(p, 1, &b->s[lane]));
+  if (c->counts) STEIF_TRY(stf_pencil_logdet(p, 0, &b->log_det[lane]));
+  c->replaced = true;
+  return g ? solve_alone(c, b, lane, g) : STEIF_OK;
 }
 
-static int determinant(stf_circle *c, int slot)
+/* ---- around the circle ------------------------------------------------------------------------- */
+
+/* What a thread does for one batch. */
+typedef struct round_ {
+  stf_circle *c;
+  const stf_polynomial *g;
+} round_;
+
+static void work(void *task, int i)
 {
-  sunrealtype log_det;
-  STEIF_TRY(stf_pencil_logdet(c->scaled.pencil, slot, &log_det));
-  c->log_det += 2 * (log_det - c->scaled.log_scale) / c->points;
+  const round_ *now = task;
+  stf_circle *c = now->c;
+  stf_batch_factor(&c->batch[i], c->careful ? c->sequence->growth : 0);
+  if (now->g)
+    stf_batch_solve(&c->batch[i], now->g, c->careful ? c->refinements : 0, STF_STEADY);
+}
+
+static steif_shift node(const stf_circle *c, int visit)
+{
+  const sunrealtype angle = angle_of(c, visit);
+  return (steif_shift){c->radius * cos(angle), c->radius * sin(angle)};
+}
+
+/* The pivots of the first node, and the values of this circle. */
+static int prepare(stf_circle *c)
+{
+  steif_pencil *p = c->scaled.pencil;
+  if (c->sequence) {
+    if (c->filled != c->scaled.size) stf_sequence_fill(p, c->sequence);
+    c->filled = c->scaled.size;
+    return STEIF_OK;
+  }
+  const steif_shift first = node(c, 0);
+  p->trusted = !c->careful;
+  STEIF_TRY(steif_pencil_factor(p, 1, &first));
+  p->stats.refactors--; /* a lane repeats this matrix, which counts once */
+  return adopt(c);
+}
+
+/* Lanes that are left over repeat the last node. */
+static void place(stf_circle *c, int from, int batches)
+{
+  const int half = c->points / 2;
+  for (int k = 0; k < batches * STF_LANES; k++)
+    c->batch[k / STF_LANES].s[k % STF_LANES] = node(c, from + k < half ? from + k : half - 1);
+}
+
+/* The visits from .. of one batch join; false: a solution is not steady, and nobody has been
+ * careful. */
+static int join(stf_circle *c, stf_batch *b, int from, const stf_polynomial *g, bool *good)
+{
+  const int half = c->points / 2, visits = half - from < STF_LANES ? half - from : STF_LANES;
+  steif_pencil_stats *stats = &c->scaled.pencil->stats;
+  for (int k = 0; k < visits; k++) {
+    if (!b->good[k]) STEIF_TRY(alone(c, b, k, g));
+    c->log_det += 2 * (b->log_det[k] - c->scaled.log_scale) / c->points;
+    stats->refactors += b->good[k];
+    stats->solves += g && b->good[k] ? b->solves[k] : 0;
+    *good &= !g || c->careful || b->error[k] <= GOOD;
+  }
+  if (g) add(c, b, from, visits);
   return STEIF_OK;
 }
 
 /* `good`: as far as one can see. */
-static int around(stf_circle *c, stf_circle_source *source, void *user, bool *good)
+static int around(stf_circle *c, const stf_polynomial *g, bool *good)
 {
   const int half = c->points / 2;
-  const sunrealtype R = c->radius;
-  steif_shift s[SLOTS];
   c->log_det = 0;
-  *good = false;
-  c->scaled.pencil->trusted = !c->careful;
-  for (int done = 0; done < half; done += c->slots) {
-    const int now = half - done < c->slots ? half - done : c->slots;
-    for (int k = 0; k < now; k++) {
-      const sunrealtype angle = angle_of(c, done + k);
-      s[k] = (steif_shift){R * cos(angle), R * sin(angle)};
-    }
-    STEIF_TRY(steif_pencil_factor(c->scaled.pencil, now, s));
-    for (int k = 0; k < now; k++) {
-      const steif_shift z = {s[k].re / R / R, -s[k].im / R / R};
-      if (c->counts) STEIF_TRY(determinant(c, k));
-      if (source && !visit(c, k, done + k, z, source, user)) return STEIF_OK;
-    }
-    const int end = done + now, kept = end % KEPT ? end % KEPT : KEPT;
-    if (source && (end == half || kept == KEPT)) add(c, end - kept, kept);
+  *good = true;
+  for (int done = 0; done < half; done += c->batches * STF_LANES) {
+    const int left = (half - done + STF_LANES - 1) / STF_LANES;
+    const int now = left < c->batches ? left : c->batches;
+    place(c, done, now);
+    stf_crew(c->threads, now, work, &(round_){c, g});
+    for (int k = 0; k < now; k++)
+      STEIF_TRY(join(c, &c->batch[k], done + k * STF_LANES, g, good));
   }
-  *good = !source || c->careful || steady(c, source, user);
-  return STEIF_OK;
+  return c->replaced ? adopt(c) : STEIF_OK;
 }
 
-int stf_circle_care(stf_circle *c)
-{
-  c->careful = true;
-  return steif_pencil_update(c->scaled.pencil);
-}
-
-int stf_circle_run(stf_circle *c, sunrealtype R, stf_circle_source *source, void *user)
+int stf_circle_run(stf_circle *c, sunrealtype R, const stf_polynomial *g)
 {
   bool good;
   c->radius = R;
   STEIF_TRY(stf_scaled_set(&c->scaled, R));
-  STEIF_TRY(around(c, source, user, &good));
+  STEIF_TRY(prepare(c));
+  STEIF_TRY(around(c, g, &good));
   if (good) return STEIF_OK;
-  STEIF_TRY(stf_circle_care(c));
-  return around(c, source, user, &good);
+  c->careful = true;
+  return around(c, g, &good);
 }

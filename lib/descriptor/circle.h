@@ -3,6 +3,7 @@
 #ifndef STF_CIRCLE_H
 #define STF_CIRCLE_H
 
+#include "batch.h"
 #include "structure.h"
 #include <nvector/nvector_serial.h>
 #include <steif/pencil.h>
@@ -40,22 +41,20 @@ void stf_scaled_direct(stf_scaled *s, int k, sunrealtype *b);
  * False: none was made, as the backward error of x is STF_STEADY or less. */
 bool stf_scaled_refine(stf_scaled *s, int k, bool anyway, sunrealtype *x, sunrealtype *r);
 
-/* A right-hand side at s = 1/z in scaled coordinates, interleaved; how often it is asked for does
- * not matter. z = 0: its constant part. */
-typedef void stf_circle_source(const stf_scaled *scaled, steif_shift z, void *user,
-                               sunrealtype *b);
-
-/* The quadrature with `points` nodes R e^{2 pi i (j + 1/2) / points}, of which half are factored:
- * the data are real; as many at a time as there are threads, up to four. */
+/* The quadrature with `points` nodes R e^{2 pi i (j + 1/2) / points}, of which half are factored,
+ * the data being real: a batch of them at a time on each thread. */
 typedef struct stf_circle {
   stf_scaled scaled;
-  int points, refinements, slots, room, count;
-  bool careful;   /* pivots are watched and solves refined; else the sums alone are looked at */
-  bool counts;    /* log_det is wanted */
-  sunrealtype *x; /* solutions of some points */
-  sunrealtype *sum; /* count x n by rows: R^i times the coefficient of s^i, i = -1, 0, ... */
-  sunrealtype *size, *r; /* sum of |sums|, n; scratch, 2 n */
-  sunrealtype *square;   /* squared norms of the sums */
+  int points, refinements, threads, batches, room, count;
+  bool careful; /* pivots are watched and solves refined; else residuals alone are looked at */
+  bool counts;  /* log_det is wanted */
+  bool replaced; /* the pencil has found better pivots */
+  stf_sequence *sequence; /* pivots, of the first node or the last that needed its own */
+  sunrealtype filled;     /* the size of the scales whose values it has */
+  stf_batch *batch;
+  sunrealtype *sum;    /* count x n by rows: R^i times the coefficient of s^i, i = -1, 0, ... */
+  sunrealtype *r;      /* scratch, 4 n; NULL: not needed yet */
+  sunrealtype *square; /* squared norms of the sums */
   sunrealtype radius;
   sunrealtype log_det; /* mean of log |det(s E + F)| over the circle */
 } stf_circle;
@@ -72,10 +71,9 @@ void stf_circle_close(steif_context *ctx, stf_circle **circle);
  * counted from now on. */
 bool stf_circle_adopt(stf_circle *circle, SUNMatrix E, SUNMatrix F,
                       const steif_analysis *analysis, int room);
-/* From now on pivots are watched and solves refined. */
-int stf_circle_care(stf_circle *circle);
-/* Factor around the circle of radius R; source NULL: determinant only. */
-int stf_circle_run(stf_circle *circle, sunrealtype R, stf_circle_source *source, void *user);
+/* Factor around the circle of radius R; right-hand sides g in scaled coordinates, NULL: determinant
+ * only. */
+int stf_circle_run(stf_circle *circle, sunrealtype R, const stf_polynomial *g);
 
 /* The analysis with its defaults. */
 steif_analysis stf_analysis_filled(const steif_analysis *analysis);

@@ -47,13 +47,6 @@ typedef struct search {
   sample of[CIRCLES];
 } search;
 
-static void random_source(const stf_scaled *scaled, steif_shift z, void *user, sunrealtype *b)
-{
-  const sunrealtype *v = user;
-  (void)z;
-  for (sunindextype i = 0; i < scaled->n; i++) b[2 * i] = v[i], b[2 * i + 1] = 0;
-}
-
 /* m_i = ||R^i Phi_i v||, i = -1 .. most; the index is one more than the last i with m_i > 0. The
  * root of sum m_i^2 is the mean size of (s E + F)^{-1} v. */
 static void judge(search *w, sample *now)
@@ -82,7 +75,8 @@ static int draw(search *w, sunrealtype radius, bool moments)
 {
   sample *now = &w->of[w->circles++];
   *now = (sample){.radius = radius, .count = NAN};
-  const int code = stf_circle_run(w->circle, radius, moments ? random_source : NULL, w->v);
+  const stf_polynomial v = {.constant = w->v};
+  const int code = stf_circle_run(w->circle, radius, moments ? &v : NULL);
   now->singular = code == STEIF_SINGULAR;
   if (now->singular) steif_forget(w->ctx);
   if (code) return now->singular ? STEIF_OK : code;

@@ -31,37 +31,6 @@ typedef struct residue {
   answer at[3];
 } residue;
 
-/* Unknowns taken together, so that the terms pass over them in the first cache. */
-enum { BLOCK = 256 };
-
-/* (re, im) <- z (re + f, im). */
-static void horner(steif_shift z, const sunrealtype *restrict f, int n,
-                   sunrealtype *restrict re, sunrealtype *restrict im)
-{
-  for (int i = 0; i < n; i++) {
-    const sunrealtype p = re[i] + f[i], q = im[i];
-    re[i] = z.re * p - z.im * q;
-    im[i] = z.re * q + z.im * p;
-  }
-}
-
-/* E x(0-) + sum_j f^(j) z^{j+1} by Horner's rule. */
-static void source(const stf_scaled *scaled, steif_shift z, void *user, sunrealtype *b)
-{
-  const residue *w = user;
-  const sunindextype n = scaled->n;
-  for (sunindextype at = 0; at < n; at += BLOCK) {
-    const int now = n - at < BLOCK ? (int)(n - at) : BLOCK;
-    const sunrealtype *restrict row = scaled->row + at, *restrict Ex0 = w->sources->Ex0 + at;
-    sunrealtype re[BLOCK] = {0}, im[BLOCK] = {0}, *restrict to = b + 2 * at;
-    for (int j = w->terms - 1; j >= 0; j--) horner(z, w->sources->f + j * n + at, now, re, im);
-    for (int i = 0; i < now; i++) {
-      to[2 * i] = (re[i] + Ex0[i]) * row[i];
-      to[2 * i + 1] = im[i] * row[i];
-    }
-  }
-}
-
 static int claim(residue *w, answer *out)
 {
   const size_t size = (size_t)w->impulse->n * (size_t)(w->impulse->count + 1);
@@ -74,11 +43,13 @@ static int draw(residue *w, sunrealtype R, answer *out)
   const stf_circle *c = w->circle;
   const sunindextype n = c->scaled.n;
   STEIF_TRY(claim(w, out));
-  STEIF_TRY(stf_circle_run(w->circle, R, source, w));
+  const stf_polynomial g = {w->terms, w->sources->Ex0, w->sources->f, c->scaled.row};
+  STEIF_TRY(stf_circle_run(w->circle, R, &g));
+  const int *unknown = c->sequence->unknown;
   for (int k = 0; k <= w->impulse->count; k++) {
     const sunrealtype power = pow(R, 1 - k), *sum = c->sum + k * n;
     for (sunindextype i = 0; i < n; i++)
-      out->x[k * n + i] = power * c->scaled.column[i] * sum[i];
+      out->x[k * n + unknown[i]] = power * c->scaled.column[unknown[i]] * sum[i];
   }
   return STEIF_OK;
 }
@@ -140,7 +111,7 @@ static int find(residue *w, bool fixed, sunrealtype *R)
   const sunrealtype first = *R;
   STEIF_TRY(pair(w, *R));
   if (*estimate > AGREED && !w->circle->careful) {
-    STEIF_TRY(stf_circle_care(w->circle));
+    w->circle->careful = true;
     STEIF_TRY(pair(w, *R));
   }
   if (fixed || *estimate <= AGREED) return STEIF_OK;

@@ -30,9 +30,13 @@ void stf_pattern_assemble(const steif_pencil *p, const stf_pattern *u, steif_shi
 /* No entry of s E - A can overflow. */
 bool stf_pattern_moderate(const stf_pattern *u, steif_shift s);
 
-/* sparse.c: the pattern of a sparse pencil; of a factored slot s E - A on it, and its factors. */
+/* sparse.c: the pattern of a sparse pencil and KLU's analysis of it; of a factored slot s E - A on
+ * it, and its factors. */
 const stf_pattern *stf_sparse_pattern(const steif_pencil *p);
+klu_l_symbolic *stf_sparse_symbolic(const steif_pencil *p);
 const double *stf_sparse_values(const steif_pencil *p, int slot);
-const klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot);
+klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot);
+/* The reciprocal growth down to which pivots in use are kept. */
+double stf_sparse_growth(const steif_pencil *p, int slot);
 
 #endif

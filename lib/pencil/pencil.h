@@ -70,7 +70,9 @@ static inline sunrealtype *stf_array(N_Vector v)
   return v->ops->nvgetarraypointer ? N_VGetArrayPointer(v) : NULL;
 }
 
-/* crew.c: factor slots[0 .. count-1], side by side where it pays; out[i] belongs to slots[i]. */
+/* crew.c: piece(task, i) for i < count on up to so many threads; the pieces are independent. */
+void stf_crew(int threads, int count, void (*piece)(void *task, int i), void *task);
+/* Factor slots[0 .. count-1], side by side where it pays; out[i] belongs to slots[i]. */
 void stf_crew_factor(steif_pencil *p, int count, const int *slots, const steif_shift *s,
                      stf_outcome *out);
 
@@ -93,10 +95,6 @@ void stf_sparse_direct(steif_pencil *p, int slot, double *b);
  * 1964): their maximum grows with the number of rows. size: scratch, n. */
 double stf_sparse_residual(const steif_pencil *p, int slot, const double *x, double *r,
                            double *size);
-/* The same of b - radius E x + A y, the terms being of size (radius |E| + |A|) z. */
-double stf_sparse_balance(const steif_pencil *p, double radius, const double *x,
-                          const double *y, const double *z, double *r, double *size);
-
 /* log |det(s E - A)| of a factored slot, sparse pencils only: the logarithms of the diagonal of U
  * and of KLU's row scales, summed with compensation. */
 int stf_pencil_logdet(steif_pencil *p, int slot, sunrealtype *log_abs_det);

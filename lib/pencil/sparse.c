@@ -194,6 +194,8 @@ static double growth(sparse *s, factors *f)
   return good ? f->common.rgrowth : 0;
 }
 
+static double least(const factors *f) { return fmin(GROWTH, SLACK * f->growth); }
+
 /* New values with the old pivots; false when these have become bad. */
 static bool refactor(const steif_pencil *p, sparse *s, factors *f)
 {
@@ -201,7 +203,7 @@ static bool refactor(const steif_pencil *p, sparse *s, factors *f)
   const SuiteSparse_long good = (f->complex ? klu_zl_refactor : klu_l_refactor)(
     u->ptr, u->row, f->value, s->symbolic, f->numeric, &f->common);
   if (!good || f->common.status != KLU_OK) return false;
-  return p->trusted || growth(s, f) >= fmin(GROWTH, SLACK * f->growth);
+  return p->trusted || growth(s, f) >= least(f);
 }
 
 static void judge(const sparse *s, const factors *f, stf_outcome *out)
@@ -292,9 +294,19 @@ const double *stf_sparse_values(const steif_pencil *p, int slot)
   return ((const sparse *)p->state)->slot[slot]->value;
 }
 
-const klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot)
+klu_l_symbolic *stf_sparse_symbolic(const steif_pencil *p)
+{
+  return ((const sparse *)p->state)->symbolic;
+}
+
+klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot)
 {
   return ((const sparse *)p->state)->slot[slot]->numeric;
+}
+
+double stf_sparse_growth(const steif_pencil *p, int slot)
+{
+  return least(((const sparse *)p->state)->slot[slot]);
 }
 
 const stf_fronts *stf_sparse_fronts(const steif_pencil *p, int slot, const double **block)

@@ -6,8 +6,8 @@ extern CU_TestInfo tests_of_exact[], tests_of_pair[], tests_of_moments[], tests_
   tests_of_bdf[], tests_of_ut5[], tests_of_rk[], tests_of_duality[], tests_of_mesh[],
   tests_of_layer[], tests_of_weak[], tests_of_matching[], tests_of_contour[],
   tests_of_regular[], tests_of_structure[], tests_of_families[], tests_of_impulse_dense[],
-  tests_of_run[], tests_of_subject[], tests_of_ida[], tests_of_array[],
-  tests_of_units[];
+  tests_of_run[], tests_of_subject[], tests_of_ida[], tests_of_array[], tests_of_units[],
+  tests_of_circle[];
 
 SUITE_MAIN(
   {.pName = "exact", .pTests = tests_of_exact}, {.pName = "pair", .pTests = tests_of_pair},
@@ -18,6 +18,7 @@ SUITE_MAIN(
   {.pName = "layer", .pTests = tests_of_layer}, {.pName = "weak", .pTests = tests_of_weak},
   {.pName = "matching", .pTests = tests_of_matching},
   {.pName = "contour", .pTests = tests_of_contour},
+  {.pName = "circle", .pTests = tests_of_circle},
   {.pName = "array", .pTests = tests_of_array},
   {.pName = "regular", .pTests = tests_of_regular},
   {.pName = "structure", .pTests = tests_of_structure},

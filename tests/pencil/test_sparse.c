@@ -301,22 +301,6 @@ static void backward_errors(void)
   end();
 }
 
-/* (s E - A) x = b in two real products: b = s E x - A x. */
-static void balance(void)
-{
-  begin(false);
-  const steif_shift s = {1.7, 0};
-  double x[N], z[N], r[N], b[N], size[N];
-  for (int i = 0; i < N; i++) b[i] = r[i] = x[i] = 1 + sin(2.3 * i);
-  CHECK(steif_pencil_factor(p, 1, &s) == STEIF_OK);
-  stf_sparse_direct(p, 0, x);
-  for (int i = 0; i < N; i++) z[i] = fabs(x[i]);
-  CHECK(stf_sparse_balance(p, s.re, x, x, z, r, size) < 1e-13);
-  for (int i = 0; i < N; i++) r[i] = b[i] + 1e-5;
-  CHECK(stf_sparse_balance(p, s.re, x, x, z, r, size) > 1e-8);
-  end();
-}
-
 /* Who looks at residuals may keep pivots that have become bad. */
 static void trusted_pivots(void)
 {
@@ -354,7 +338,6 @@ CU_TestInfo tests_of_sparse[] = {
   {"the determinant is the product of the eigenvalues", determinant},
   {"a determinant of factors outside the range of squares", determinant_of_extremes},
   {"backward errors row by row", backward_errors},
-  {"the backward error of two products in balance", balance},
   {"trusted pivots are kept", trusted_pivots},
   CU_TEST_INFO_NULL,
 };

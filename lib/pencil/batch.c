@@ -1,0 +1,233 @@
+/* batch.c: what batch.h keeps: the sequence of pivots out of KLU's factors, memory for all lanes, and
+ * the order of work on it.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "batch.h"
+#include <limits.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* Bytes of a line of cache, which is an entry of a batch. */
+enum { ALIGNED = 64 };
+
+/* ---- the sequence -------------------------------------------------------------------------- */
+
+/* What klu_zl_extract writes. */
+typedef struct extract {
+  SuiteSparse_long *lp, *li, *up, *ui, *p, *q, *r;
+  double *values; /* nobody reads them */
+} extract;
+
+static int claim(stf_pool *pool, const klu_l_numeric *f, const klu_l_symbolic *s, extract *x)
+{
+  const size_t n = (size_t)f->n, size = sizeof *x->lp;
+  const size_t lnz = (size_t)f->lnz, unz = (size_t)f->unz;
+  x->lp = stf_claim(pool, n + 1, size), x->up = stf_claim(pool, n + 1, size);
+  x->li = stf_claim(pool, lnz, size), x->ui = stf_claim(pool, unz, size);
+  x->p = stf_claim(pool, n, size), x->q = stf_claim(pool, n, size);
+  x->r = stf_claim(pool, (size_t)s->nblocks + 1, size);
+  x->values = stf_claim(pool, lnz > unz ? lnz : unz, sizeof *x->values);
+  return x->lp && x->up && x->li && x->ui && x->p && x->q && x->r && x->values
+           ? STEIF_OK
+           : STEIF_NO_MEMORY;
+}
+
+static int allocate(const stf_pattern *u, const klu_l_numeric *f, stf_sequence *q)
+{
+  const size_t n = (size_t)q->n, nnz = (size_t)u->nnz, wide = sizeof *q->lower;
+  q->first = stf_allocate(q->ctx, (size_t)q->blocks + 1, sizeof *q->first);
+  q->equation = stf_allocate(q->ctx, n, sizeof *q->equation);
+  q->unknown = stf_allocate(q->ctx, n, sizeof *q->unknown);
+  q->place = stf_allocate(q->ctx, n, sizeof *q->place);
+  q->lower = stf_allocate(q->ctx, n + 1, wide), q->upper = stf_allocate(q->ctx, n + 1, wide);
+  q->below = stf_allocate(q->ctx, (size_t)f->lnz - n, sizeof *q->below);
+  q->above = stf_allocate(q->ctx, (size_t)f->unz - n, sizeof *q->above);
+  q->column = stf_allocate(q->ctx, n + 1, wide), q->inner = stf_allocate(q->ctx, n, wide);
+  q->row = stf_allocate(q->ctx, n + 1, wide);
+  q->entry = stf_allocate(q->ctx, nnz, sizeof *q->entry);
+  q->across = stf_allocate(q->ctx, nnz, sizeof *q->across);
+  q->e = stf_allocate(q->ctx, 2 * nnz, sizeof *q->e), q->row_e = q->e ? q->e + nnz : NULL;
+  q->a = stf_allocate(q->ctx, 2 * nnz, sizeof *q->a), q->row_a = q->a ? q->a + nnz : NULL;
+  return q->first && q->equation && q->unknown && q->place && q->lower && q->upper &&
+             q->below && q->above && q->column && q->inner && q->row && q->entry && q->across &&
+             q->e && q->a
+           ? STEIF_OK
+           : STEIF_NO_MEMORY;
+}
+
+/* Columns of a triangular factor without their diagonal, which comes first in L, last in U. */
+static void off_diagonal(int n, const SuiteSparse_long *ptr, const SuiteSparse_long *row,
+                         int skip, SuiteSparse_long *to, int *index)
+{
+  for (int k = 0; k < n; k++) {
+    to[k] = ptr[k] - k;
+    for (SuiteSparse_long p = ptr[k]; p < ptr[k + 1] - 1; p++)
+      index[p - k] = (int)row[p + skip];
+  }
+  to[n] = ptr[n] - n;
+}
+
+static void convert(const extract *x, stf_sequence *q)
+{
+  off_diagonal(q->n, x->lp, x->li, 1, q->lower, q->below);
+  off_diagonal(q->n, x->up, x->ui, 0, q->upper, q->above);
+  for (int k = 0; k < q->n; k++) {
+    q->equation[k] = (int)x->p[k], q->unknown[k] = (int)x->q[k];
+    q->place[x->p[k]] = k;
+  }
+  for (int b = 0; b <= q->blocks; b++) q->first[b] = (int)x->r[b];
+}
+
+/* Where columns and rows begin; entries above the block of their column stand behind the others. */
+static void arrange(const stf_pattern *u, stf_sequence *q)
+{
+  SuiteSparse_long next = 0;
+  for (int b = 0; b < q->blocks; b++)
+    for (int k = q->first[b]; k < q->first[b + 1]; k++) {
+      const int j = q->unknown[k];
+      q->column[k] = q->inner[k] = next;
+      for (SuiteSparse_long p = u->ptr[j]; p < u->ptr[j + 1]; p++) {
+        const int i = q->place[u->row[p]];
+        q->inner[k] += i >= q->first[b];
+        q->row[i + 1]++;
+      }
+      next += u->ptr[j + 1] - u->ptr[j];
+    }
+  q->column[q->n] = next;
+  for (int i = 0; i < q->n; i++) q->row[i + 1] += q->row[i];
+}
+
+/* While entries join the rows, row[i] is where the next one goes: in the end, where row i + 1
+ * begins. */
+static void fill(const stf_pattern *u, const double *A, stf_sequence *q)
+{
+  for (int b = 0; b < q->blocks; b++)
+    for (int k = q->first[b]; k < q->first[b + 1]; k++) {
+      const int j = q->unknown[k];
+      SuiteSparse_long inside = q->column[k], outside = q->inner[k];
+      for (SuiteSparse_long p = u->ptr[j]; p < u->ptr[j + 1]; p++) {
+        const int i = q->place[u->row[p]];
+        const SuiteSparse_long by_column = i >= q->first[b] ? inside++ : outside++;
+        const SuiteSparse_long by_row = q->row[i]++;
+        const double e = u->e ? u->e[p] : u->row[p] == j;
+        q->entry[by_column] = i, q->across[by_row] = k;
+        q->e[by_column] = q->row_e[by_row] = e;
+        q->a[by_column] = q->row_a[by_row] = A[p];
+      }
+    }
+  memmove(q->row + 1, q->row, (size_t)q->n * sizeof *q->row);
+  q->row[0] = 0;
+}
+
+void stf_sequence_fill(const steif_pencil *p, stf_sequence *q)
+{
+  const stf_pattern *u = stf_sparse_pattern(p);
+  fill(u, stf_pattern_A(p, u), q);
+}
+
+static int build(steif_pencil *p, int slot, stf_pool *pool, stf_sequence *q)
+{
+  klu_l_common common;
+  klu_l_symbolic *symbolic = stf_sparse_symbolic(p);
+  klu_l_numeric *f = stf_sparse_factors(p, slot);
+  extract x;
+  q->n = (int)f->n, q->blocks = (int)f->nblocks;
+  STEIF_TRY(claim(pool, f, symbolic, &x));
+  STEIF_TRY(allocate(stf_sparse_pattern(p), f, q));
+  klu_l_defaults(&common);
+  klu_zl_extract(f, symbolic, x.lp, x.li, x.values, x.values, x.up, x.ui, x.values, x.values,
+                 NULL, NULL, NULL, NULL, x.p, x.q, NULL, x.r, &common);
+  convert(&x, q);
+  arrange(stf_sparse_pattern(p), q);
+  stf_sequence_fill(p, q);
+  q->growth = stf_sparse_growth(p, slot);
+  return STEIF_OK;
+}
+
+int stf_sequence_open(steif_pencil *p, int slot, stf_sequence **sequence)
+{
+  STEIF_CHECK(p->n <= INT_MAX, p->ctx, STEIF_UNSUPPORTED,
+              "%lld unknowns: shifts side by side take up to %d", (long long)p->n, INT_MAX);
+  stf_pool *pool = stf_pool_new(p->ctx);
+  stf_sequence *q = *sequence = stf_allocate(p->ctx, 1, sizeof *q);
+  int code = STEIF_NO_MEMORY;
+  if (q) q->ctx = p->ctx;
+  if (pool && q) code = build(p, slot, pool, q);
+  stf_pool_free(&pool);
+  if (code) stf_sequence_close(sequence);
+  return code;
+}
+
+void stf_sequence_close(stf_sequence **sequence)
+{
+  stf_sequence *q = *sequence;
+  if (!q) return;
+  void *const block[] = {q->first, q->equation, q->unknown, q->place,  q->lower,
+                         q->upper, q->below,    q->above,   q->column, q->inner,
+                         q->entry, q->row,      q->across,  q->e,      q->a};
+  steif_context *ctx = q->ctx;
+  for (size_t i = 0; i < sizeof block / sizeof *block; i++) stf_release(ctx, block[i]);
+  stf_release(ctx, q);
+  *sequence = NULL;
+}
+
+/* ---- the batch --------------------------------------------------------------------------------- */
+
+int stf_batch_open(const stf_sequence *q, stf_batch *b)
+{
+  enum { ENTRY = 2 * STF_LANES };
+  const size_t n = (size_t)q->n, l = (size_t)q->lower[n], u = (size_t)q->upper[n];
+  *b = (stf_batch){.sequence = q};
+  double *at = b->memory = stf_allocate(q->ctx, l + u + 3 * n + 1, ENTRY * sizeof *at);
+  if (!at) return STEIF_NO_MEMORY;
+  at += (ALIGNED - (uintptr_t)at % ALIGNED) % ALIGNED / sizeof *at;
+  b->x = at, b->r = b->x + ENTRY * n, b->pivot = b->r + ENTRY * n;
+  b->l = b->pivot + ENTRY * n, b->u = b->l + ENTRY * l;
+  return STEIF_OK;
+}
+
+void stf_batch_close(stf_batch *b)
+{
+  if (b->memory) stf_release(b->sequence->ctx, b->memory);
+  b->memory = NULL;
+}
+
+void stf_batch_factor(stf_batch *b, double growth)
+{
+  stf_sweeps_here()->factor(b, growth > 0);
+  for (int q = 0; q < STF_LANES; q++) b->good[q] &= !(b->growth[q] < growth);
+}
+
+void stf_batch_load(const stf_batch *b, const stf_polynomial *g, double *x)
+{
+  stf_sweeps_here()->load(b, g, x);
+}
+
+/* Lanes decide each for itself, so that they do not depend on their neighbours. */
+static bool unsteady(stf_batch *b, bool anyway, double steady, bool *again)
+{
+  bool any = false;
+  for (int q = 0; q < STF_LANES; q++) {
+    again[q] = anyway || b->error[q] > steady;
+    b->solves[q] += again[q];
+    any |= again[q];
+  }
+  return any;
+}
+
+void stf_batch_solve(stf_batch *b, const stf_polynomial *g, int sweeps, double steady)
+{
+  const stf_sweeps *with = stf_sweeps_here();
+  bool again[STF_LANES];
+  with->load(b, g, b->x);
+  with->solve(b, b->x);
+  for (int q = 0; q < STF_LANES; q++) b->solves[q] = 1;
+  if (!sweeps) with->residual(b, g);
+  for (int sweep = 0; sweep < sweeps; sweep++) {
+    with->load(b, g, b->r);
+    stf_batch_residual(b);
+    if (!unsteady(b, sweep == 0, steady, again)) break;
+    with->solve(b, b->r);
+    with->correct(b, again);
+  }
+}
