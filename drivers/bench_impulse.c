@@ -13,10 +13,12 @@ static void add(steif_report *r, const steif_bench_impulse *row)
   steif_report_whole(r, "rows.factors", row->factors);
   steif_report_whole(r, "rows.refactors", row->refactors);
   steif_report_whole(r, "rows.solves", row->solves);
-  steif_report_real(r, "rows.wall_s", row->wall_s);
   steif_report_real(r, "rows.cpu_s", row->cpu_s);
   steif_report_real(r, "rows.floor_s", row->floor_s);
   steif_report_real(r, "rows.ratio", row->ratio);
+  steif_report_whole(r, "rows.threads", row->threads);
+  steif_report_real(r, "rows.wall_s", row->wall_s);
+  steif_report_real(r, "rows.wall_ratio", row->wall_ratio);
   steif_report_real(r, "rows.us_per_unknown", 1e6 * row->cpu_s / (double)row->n);
   steif_report_real(r, "rows.floor_us_per_unknown", 1e6 * row->floor_s / (double)row->n);
   steif_report_real(r, "rows.analyse_us_per_unknown", 1e6 * row->analyse_s / (double)row->n);
