@@ -47,7 +47,9 @@ typedef struct steif_lyapunov_options {
   int weak_start; /* 1: the history of a BDF by rk4 without its last stage, weights
                             (1, 2, 2, 0)/6 (steif_growth_measure): an error of order h at the start */
   sunrealtype *error; /* room for count standard errors of the exponents, from the means over 16
-                            parts of the run; NaN below 32 steps. NULL: not wanted */
+                            parts of the run: the exponent of the recurrence lies within 1 of them
+                            in 2/3 of all runs, within 2.131 in 19/20 (Student's t), or more often;
+                            NaN below 32 steps. NULL: not wanted */
 } steif_lyapunov_options;
 
 typedef struct steif_lyapunov_facts {
