@@ -117,19 +117,26 @@ int stf_case_singular(stf_case *c)
   return STEIF_OK;
 }
 
-static int from_start(stf_case *c, steif_start *start)
+/* allowed: of the error of y at the start. */
+static int from_start(stf_case *c, sunrealtype *allowed, steif_start *start)
 {
   const steif_scene *s = c->scene;
   const size_t n = c->lens->n;
-  const steif_inquiry q = {.y = s->count ? s->y : c->lens->y0,
-                           .yp = s->count ? s->yp : c->lens->yp0,
-                           .t = s->count ? s->t[0] : c->lens->t,
+  const bool linear = c->lens->problem.linear, kept = s->count > 0;
+  const sunrealtype *y = kept ? s->y : c->lens->y0, *yp = kept ? s->yp : c->lens->yp0;
+  const steif_inquiry q = {.y = linear ? NULL : y, /* NULL: the start of the problem */
+                           .yp = linear ? NULL : yp,
+                           .t = linear ? s->t0 : kept ? s->t[0] : c->lens->t,
                            .size = c->lens->floor,
                            .equation = c->lens->equation,
                            .unknown = c->lens->unknown};
   sunrealtype *weight = stf_allocate(c->lens->ctx, n, sizeof *weight);
   if (!weight) return STEIF_NO_MEMORY;
-  for (size_t j = 0; j < n; j++) weight[j] = 1 / c->weight[j];
+  for (size_t j = 0; j < n; j++) {
+    allowed[j] = s->rtol * (linear ? c->lens->size[j] : fabs(y[j])) +
+                 (s->atols ? s->atols[j] : s->atol);
+    weight[j] = 1 / allowed[j];
+  }
   const steif_request request = {.weight = weight};
   const int code = steif_consistent(c->lens->ctx, &c->lens->problem, &q, &request, start);
   stf_release(c->lens->ctx, weight);
@@ -140,30 +147,34 @@ int stf_case_start(stf_case *c)
 {
   steif_start start = {0};
   char y[STEIF_SPEC_WORD], e[STEIF_SPEC_WORD];
-  if (c->scene->steps > 1) return STEIF_OK;
+  const bool linear = c->lens->problem.linear; /* impulses of the start outlive many short steps */
+  if (c->scene->steps > 1 && !linear) return STEIF_OK;
   STEIF_TRY(stf_case_diagnose(c));
   if (c->diagnosis.index < 1) return STEIF_OK;
-  const int code = from_start(c, &start);
+  sunrealtype *allowed = stf_claim(c->lens->pool, c->lens->n, sizeof *allowed);
+  if (!allowed) return STEIF_NO_MEMORY;
+  const int code = from_start(c, allowed, &start);
   if (code) return code == STEIF_NO_MEMORY ? code : STEIF_OK;
   sunrealtype most = 10;
   const size_t n = c->lens->n;
   size_t at = n;
   for (int number = 1; number <= STF_DEEPEST && at == n; number++) /* causes before effects */
     for (size_t j = 0; j < n; j++)
-      if (c->diagnosis.number[j] == number && fabs(start.moved[j]) / c->weight[j] > most)
-        most = fabs(start.moved[j]) / c->weight[j], at = j;
+      if (c->diagnosis.number[j] == number && fabs(start.moved[j]) / allowed[j] > most)
+        most = fabs(start.moved[j]) / allowed[j], at = j;
   if (at < n) {
-    const bool visible = start.worst >= 0 && start.violation > c->weight[at];
+    const bool visible = start.worst >= 0 && start.violation > allowed[at];
     steif_cause *cause = c->cause;
     cause->kind = STEIF_CAUSE_START, cause->unknown = (sunindextype)at;
     cause->equation = visible ? start.worst : -1;
     cause->value[0] = start.moved[at], cause->value[1] = most;
     stf_diagnose_say(cause->message,
                      "Start is inconsistent with %s%s: %s is off by %.3g (%.2g "
-                     "weights). Call steif_consistent first; it says: %s",
+                     "weights). Call steif_consistent first%s; it says: %s",
                      visible ? "equation " : "a hidden constraint",
                      visible ? stf_diagnose_equation(c->lens, (size_t)start.worst, e) : "",
                      stf_diagnose_unknown(c->lens, at, y), -start.moved[at], most,
+                     linear ? ", or let steif_linear_run give the jump and the impulses" : "",
                      start.message);
   }
   steif_start_clear(&start);

@@ -39,23 +39,26 @@ static int claim(stf_lens *s)
   return s->scratch ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-/* The point into y0, yp0 and the vectors. */
+/* The point into y0, yp0 and the vectors. The entries of a constant pencil are measured by the start of
+ * the problem: unknowns that a failing run has made large say nothing of them. */
 static int put_point(stf_lens *s, const steif_inquiry *q, int form)
 {
   stf_space space;
   bool known;
+  const bool here = q && q->y, constant = s->problem.linear;
   stf_space_open(&space, s->y);
-  if (!q || !q->y)
+  if (!here || constant)
     STEIF_TRY(stf_system_start(s->ctx, &s->problem, form, &space, s->y, s->yp, &known));
   sunrealtype *y = N_VGetArrayPointer(s->y), *yp = N_VGetArrayPointer(s->yp);
   for (size_t j = 0; j < s->n; j++) {
-    if (q && q->y) y[j] = q->y[j];
+    const sunrealtype begun = fabs(y[j]);
+    if (here) y[j] = q->y[j];
     if (q && q->yp) yp[j] = q->yp[j];
     s->y0[j] = y[j], s->yp0[j] = yp[j];
     s->floor[j] = q && q->size                ? q->size[j]
                   : s->problem.rtol_scale > 0 ? s->problem.rtol_scale
                                               : 1;
-    s->size[j] = exp2(round(log2(fabs(y[j]) + s->floor[j])));
+    s->size[j] = exp2(round(log2((constant ? begun : fabs(y[j])) + s->floor[j])));
   }
   return STEIF_OK;
 }

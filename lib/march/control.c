@@ -179,8 +179,10 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
     STEIF_CHECK(
       tries < REFUSALS, s->ctx, STEIF_STEP_SIZE,
       "the error test of problem '%s' failed %d times at t = %.12g, last with h = %.3g and "
-      "%.3g times the tolerance",
-      s->problem->name, tries, step->t, h, e);
+      "%.3g times the tolerance%s",
+      s->problem->name, tries, step->t, h, e,
+      step->count > 0 ? "" : ": are the start values consistent? steif_consistent finds such, "
+                             "steif_linear_run the impulses of linear systems");
   }
 }
 

@@ -83,6 +83,21 @@ static void an_inconsistent_start_is_told(void)
   steif_context_free(&ctx);
 }
 
+/* Impulses of ut5, regular and of index 3, drive y to 1e16 in many short steps: what fails is still the
+ * start. */
+static void impulses_of_the_start_are_told(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_failure f;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, "ut5", &p));
+  find(&p, "radau:s=5", 1e-6, &f);
+  CHECK(f.cause.kind == STEIF_CAUSE_START && f.steps > 1);
+  CHECK(strstr(f.message, "steif_linear_run") != NULL);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
 static void good_runs_have_no_failure(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -123,6 +138,7 @@ CU_TestInfo tests_of_failure[] = {
   {"a blow-up is told with its time", a_blow_up_is_told_with_its_time},
   {"an impasse is told with its time", an_impasse_is_told_with_its_time},
   {"an inconsistent start is told", an_inconsistent_start_is_told},
+  {"impulses of the start are told", impulses_of_the_start_are_told},
   {"good runs have no failure", good_runs_have_no_failure},
   {"memory may fail at any request", memory_may_fail_at_any_request},
   CU_TEST_INFO_NULL};
