@@ -10,9 +10,10 @@
 
 struct stf_lanes_kernels {
   int (*factor)(stf_lanes *L, const double *J, double h);
-  void (*begin)(stf_lanes *L, const double *y);
+  void (*begin)(stf_lanes *L, int count, const double *a, const double *x, const double *y);
   double (*sweep)(stf_lanes *L, const double *y, const double *weight, double h);
   void (*end)(stf_lanes *L);
+  void (*keep)(stf_lanes *L, const double *K, double *a);
   void (*filter)(stf_lanes *L, double *x);
   void (*solve_thin)(stf_lanes *L, double *rhs, double *x);
 };
@@ -125,15 +126,13 @@ INLINE void stages(stf_lanes *L, const int n, const int lanes, const int wide, c
   }
 }
 
-INLINE void stages_of(stf_lanes *L, const int n, const int lanes, const double *y)
-{
-  if (L->wide == 4)
-    stages(L, n, lanes, 4, y);
-  else if (L->wide == 8)
-    stages(L, n, lanes, 8, y);
-  else
-    stages(L, n, lanes, 16, y);
-}
+#define WITH_WIDE(body, ...)                                                                   \
+  if (L->wide == 4)                                                                            \
+    body(L, n, lanes, 4, __VA_ARGS__);                                                         \
+  else if (L->wide == 8)                                                                       \
+    body(L, n, lanes, 8, __VA_ARGS__);                                                         \
+  else                                                                                         \
+    body(L, n, lanes, 16, __VA_ARGS__);
 
 /* rhs_k = [V^{-1} F]_k - lambda_k/h (M omega)_k. */
 INLINE void right_sides(stf_lanes *L, const int n, const int lanes, double h)
@@ -171,33 +170,54 @@ INLINE void sweep(stf_lanes *L, const int n, const int lanes, const double *y,
     for (int k = 0; k < lanes; k++) total[k] += u * (d[k] * d[k] + d[lanes + k] * d[lanes + k]);
     for (int k = 0; k < 2 * lanes; k++) w[k] += d[k];
   }
-  stages_of(L, n, lanes, y);
+  WITH_WIDE(stages, y)
   for (int k = 0; k < lanes; k++) *sum += L->gain[k] * total[k];
 }
 
-INLINE void begin(stf_lanes *L, const int n, const int lanes, const double *y)
+INLINE void predicted(stf_lanes *L, const int n, const int lanes, const int wide, int count,
+                      const double *a, const double *x, const double *y)
 {
   for (int i = 0; i < n; i++) {
-    double w[2 * STF_LANES] = {0};
+    double w[2 * STF_LANES] = {0}, *z = L->Z + i * wide;
+    horner(wide / 2, count, a + i * wide, x, z);
     for (int j = 0; j < L->s; j++) {
-      const double z = L->Z[i * L->wide + j];
-      L->Y[j * n + i] = y[i] + z;
-      add(lanes, w, L->Vinv[j], z);
+      L->Y[j * n + i] = y[i] + z[j];
+      add(lanes, w, L->Vinv[j], z[j]);
     }
     for (int k = 0; k < 2 * lanes; k++) L->omega[i * 2 * lanes + k] = w[k];
   }
 }
 
-INLINE void end_of(stf_lanes *L, const int n, const int lanes, int unused)
+INLINE void begin(stf_lanes *L, const int n, const int lanes, int count, const double *a,
+                  const double *x, const double *y){WITH_WIDE(predicted, count, a, x, y)}
+
+INLINE void last(stf_lanes *L, const int n, const int lanes, const int wide, int unused)
 {
   (void)unused;
   for (int i = 0; i < n; i++) {
-    double *z = L->Z + i * L->wide;
+    double z[STF_WIDE] = {0};
     const double *w = L->omega + i * 2 * lanes;
-    for (int j = 0; j < L->wide; j++) z[j] = 0;
-    for (int k = 0; k < 2 * lanes; k++) add(L->wide / 2, z, L->V[k], w[k]);
+    for (int k = 0; k < 2 * lanes; k++) add(wide / 2, z, L->V[k], w[k]);
+    for (int j = 0; j < wide; j++) L->Z[i * wide + j] = z[j];
   }
 }
+
+INLINE void end_of(stf_lanes *L, const int n, const int lanes,
+                   int unused){WITH_WIDE(last, unused)}
+
+INLINE void polynomial(stf_lanes *L, const int n, const int lanes, const int wide,
+                       const double *K, double *a)
+{
+  (void)lanes;
+  for (int i = 0; i < n; i++) {
+    double c[STF_WIDE] = {0};
+    for (int j = 0; j < L->s; j++) add(wide / 2, c, K + j * STF_WIDE, L->Z[i * wide + j]);
+    for (int k = 0; k < wide; k++) a[i * wide + k] = c[k];
+  }
+}
+
+INLINE void keep(stf_lanes *L, const int n, const int lanes, const double *K,
+                 double *a){WITH_WIDE(polynomial, K, a)}
 
 INLINE void filter(stf_lanes *L, const int n, const int lanes, double *x)
 {
@@ -223,23 +243,29 @@ INLINE void filter(stf_lanes *L, const int n, const int lanes, double *x)
       WITH_SIZES(eliminate, J, h, &failed)                                                     \
     return failed;                                                                             \
   }                                                                                            \
-  attribute static void begin_##isa(stf_lanes *L, const double *y){                            \
-    WITH_SIZES(begin, y)} attribute static double sweep_##isa(stf_lanes *L, const double *y,   \
-                                                              const double *weight, double h)  \
+  attribute static void begin_##isa(stf_lanes *L, int count, const double *a, const double *x, \
+                                    const double *y){WITH_SIZES(                               \
+    begin, count, a, x, y)} attribute static double sweep_##isa(stf_lanes *L, const double *y, \
+                                                                const double *weight,          \
+                                                                double h)                      \
   {                                                                                            \
     double sum = 0;                                                                            \
     WITH_SIZES(sweep, y, weight, h, &sum)                                                      \
     return sum;                                                                                \
   }                                                                                            \
-  attribute static void end_##isa(stf_lanes *L){                                               \
-    WITH_SIZES(end_of, 0)} attribute static void filter_##isa(stf_lanes *L, double *x){        \
-    WITH_SIZES(filter, x)} attribute static void thin_##isa(stf_lanes *L, double *rhs,         \
-                                                            double *x)                         \
+  attribute static void end_##isa(stf_lanes *L){WITH_SIZES(                                    \
+    end_of, 0)} attribute static void keep_##isa(stf_lanes *L, const double *K, double *a)     \
+  {                                                                                            \
+    const int n = L->n;                                                                        \
+    keep(L, n, 1, K, a);                                                                       \
+  }                                                                                            \
+  attribute static void filter_##isa(stf_lanes *L, double *x){WITH_SIZES(                      \
+    filter, x)} attribute static void thin_##isa(stf_lanes *L, double *rhs, double *x)         \
   {                                                                                            \
     WITH_LANES(solve_thin, L->n, rhs, x)                                                       \
   }                                                                                            \
-  static const struct stf_lanes_kernels isa = {factor_##isa, begin_##isa,  sweep_##isa,        \
-                                               end_##isa,    filter_##isa, thin_##isa};
+  static const struct stf_lanes_kernels isa = {                                                \
+    factor_##isa, begin_##isa, sweep_##isa, end_##isa, keep_##isa, filter_##isa, thin_##isa};
 
 KERNELS(plain, )
 #ifdef STF_SIMD_X86
@@ -260,7 +286,10 @@ int stf_lanes_factor(stf_lanes *L, const double *J, double h)
   return L->kernels->factor(L, J, h);
 }
 
-void stf_lanes_begin(stf_lanes *L, const double *y) { L->kernels->begin(L, y); }
+void stf_lanes_begin(stf_lanes *L, int count, const double *a, const double *x, const double *y)
+{
+  L->kernels->begin(L, count, a, x, y);
+}
 
 double stf_lanes_sweep(stf_lanes *L, const double *y, const double *weight, double h)
 {
@@ -268,6 +297,11 @@ double stf_lanes_sweep(stf_lanes *L, const double *y, const double *weight, doub
 }
 
 void stf_lanes_end(stf_lanes *L) { L->kernels->end(L); }
+
+void stf_lanes_keep(stf_lanes *L, double (*K)[STF_WIDE], double *a)
+{
+  L->kernels->keep(L, K[0], a);
+}
 
 void stf_lanes_filter(stf_lanes *L, double *x) { L->kernels->filter(L, x); }
 

@@ -51,12 +51,16 @@ void stf_lanes_look(stf_lanes *L, const double *J);
 
 /* LU of all lanes; J n x n by columns. 0, or 1 + the column whose pivot vanished. */
 int stf_lanes_factor(stf_lanes *L, const double *J, double h);
-/* omega = V^{-1} Z of the predicted stages, and Y = y + Z. */
-void stf_lanes_begin(stf_lanes *L, const double *y);
+/* Z_j = sum_{k < count} a_k x_j^(k+1), omega = V^{-1} Z and Y = y + Z; a by components, `wide` each,
+ * x of `wide` numbers. */
+void stf_lanes_begin(stf_lanes *L, int count, const double *a, const double *x,
+                     const double *y);
 /* One Newton sweep from F: omega and Y are moved; returns sum_i weight_i^2 sum_k gain |d omega|^2. */
 double stf_lanes_sweep(stf_lanes *L, const double *y, const double *weight, double h);
 /* Z from omega. */
 void stf_lanes_end(stf_lanes *L);
+/* a_k = sum_j K[j][k] Z_j, by components. */
+void stf_lanes_keep(stf_lanes *L, double (*K)[STF_WIDE], double *a);
 /* x = (lambda_0 / h M - J)^{-1} x, by the real lane 0; of a pair the quadratic filter or, if `whole`,
  * the real part. */
 void stf_lanes_filter(stf_lanes *L, double *x);

@@ -63,43 +63,54 @@ INLINE void times(const int lanes, double *restrict x, const double *restrict y)
     v##N *to = (v##N *)r;                                                                      \
     const v##N *from = (const v##N *)x;                                                        \
     to[0] += from[0] * f, to[1] += from[1] * f;                                                \
+  }                                                                                            \
+  /* z = sum_{k < count} c_k x^(k+1) for vectors of 2 N numbers. */                            \
+  INLINE void horner##N(int count, const double *c, const double *x, double *z)                \
+  {                                                                                            \
+    const v##N *at = (const v##N *)x;                                                          \
+    v##N low = {0}, high = {0};                                                                \
+    for (int k = count; k-- > 0;) low = (low + c[k]) * at[0], high = (high + c[k]) * at[1];    \
+    ((v##N *)z)[0] = low, ((v##N *)z)[1] = high;                                               \
   }
 
 VECTOR(2)
 VECTOR(4)
 VECTOR(8)
 #define HAND(N, name, ...)                                                                     \
-  if (lanes == N) {                                                                            \
+  if (half == N) {                                                                             \
     name##N(__VA_ARGS__);                                                                      \
     return;                                                                                    \
   }
 
-INLINE void subtract(const int lanes, int from, int to, const double *a, const double *x,
+INLINE void subtract(const int half, int from, int to, const double *a, const double *x,
                      double *z)
 {
   HAND(2, subtract, from, to, a, x, z)
   HAND(4, subtract, from, to, a, x, z)
   HAND(8, subtract, from, to, a, x, z)
-  for (int i = from; i < to; i++) minus(lanes, z + i * 2 * lanes, a + i * 2 * lanes, x);
+  for (int i = from; i < to; i++) minus(half, z + i * 2 * half, a + i * 2 * half, x);
 }
 
-INLINE void subtract_at(const int lanes, int count, const unsigned char *row, const double *a,
+INLINE void subtract_at(const int half, int count, const unsigned char *row, const double *a,
                         const double *x, double *z)
 {
   HAND(2, subtract_at, count, row, a, x, z)
   HAND(4, subtract_at, count, row, a, x, z)
   HAND(8, subtract_at, count, row, a, x, z)
-  for (int i = 0; i < count; i++)
-    minus(lanes, z + row[i] * 2 * lanes, a + row[i] * 2 * lanes, x);
+  for (int i = 0; i < count; i++) minus(half, z + row[i] * 2 * half, a + row[i] * 2 * half, x);
 }
 
-/* r += x f, 2 lanes numbers. */
-INLINE void add(const int lanes, double *r, const double *x, double f)
+INLINE void horner(const int half, int count, const double *c, const double *x,
+                   double *z){HAND(2, horner, count, c, x, z) HAND(4, horner, count, c, x, z)
+                                HAND(8, horner, count, c, x, z)}
+
+/* r += x f, 2 half numbers. */
+INLINE void add(const int half, double *r, const double *x, double f)
 {
   HAND(2, add, r, x, f)
   HAND(4, add, r, x, f)
   HAND(8, add, r, x, f)
-  for (int k = 0; k < 2 * lanes; k++) r[k] += x[k] * f;
+  for (int k = 0; k < 2 * half; k++) r[k] += x[k] * f;
 }
 
 #endif

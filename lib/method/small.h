@@ -28,7 +28,8 @@ typedef struct stf_small {
 
 /* K, d and end for stage j. */
 void stf_small_basis(stf_small *e, int j);
-/* Z_j = u(q c_j) from the last polynomial, q = h / h_old, cut where its terms begin to grow. */
+/* Z_j = u(q c_j) from the last polynomial, q = h / h_old, cut where its terms begin to grow, and what
+ * the iteration begins with. */
 void stf_small_predict(const stf_step *s, stf_small *e, double h);
 
 /* A Jacobian and factors for a step h, where those at hand do not serve. */

@@ -144,7 +144,6 @@ int stf_small_iterate(stf_step *s, double h)
   const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
   double last = 0, quotient = 0, theta = 0;
   e->eta = pow(fmax(e->eta, STF_EPS), 0.8), e->rough = e->sharpened = false;
-  stf_lanes_begin(&e->L, y);
   for (int m = 1, since = 1;; m++, since++) {
     STEIF_TRY(evaluate(s, h));
     const double norm = sqrt(stf_lanes_sweep(&e->L, y, w, h) * mean);

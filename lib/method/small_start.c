@@ -45,20 +45,12 @@ static int terms(const stf_step *s, const stf_small *e, double q)
   return best;
 }
 
-/* Z_j = u(q c_j) from the last polynomial. */
 void stf_small_predict(const stf_step *s, stf_small *e, double h)
 {
-  const int wide = e->L.wide;
   const bool start = !e->history || s->restart || e->fails > 2;
   const double q = start ? 0 : h / s->h;
   const int count = start ? 0 : terms(s, e, q);
   double x[STF_WIDE] = {0};
   for (int j = 0; j < e->s; j++) x[j] = q * e->table->c[j];
-  for (int i = 0; i < e->n; i++) {
-    double *z = e->L.Z + i * wide;
-    const double *a = e->a + i * wide;
-    for (int j = 0; j < wide; j++) z[j] = 0;
-    for (int k = count; k-- > 0;)
-      for (int j = 0; j < wide; j++) z[j] = (z[j] + a[k]) * x[j];
-  }
+  stf_lanes_begin(&e->L, count, e->a, x, STF_ARRAY(s->y));
 }

@@ -67,8 +67,8 @@ static void sweep(bench *b, double h, double *omega)
   const size_t count = (size_t)(2 * b->L.lanes * b->n);
   unsigned seed = 7;
   for (int i = 0; i < b->n; i++) weight[i] = 1;
-  for (int i = 0; i < b->n * b->L.wide; i++) b->L.Z[i] = 0;
-  stf_lanes_begin(&b->L, y);
+  static const double none[STF_WIDE];
+  stf_lanes_begin(&b->L, 0, none, none, y);
   for (int i = 0; i < b->n * b->L.s; i++) b->L.F[i] = uniform(&seed);
   stf_lanes_sweep(&b->L, y, weight, h);
   memcpy(omega, b->L.omega, count * sizeof *omega);

@@ -193,12 +193,9 @@ static void commit(stf_step *s)
   const int wide = e->L.wide;
   double size = 0;
   const double *w = STF_ARRAY(s->weights);
+  stf_lanes_keep(&e->L, e->K, e->a);
   for (int i = 0; i < e->n; i++) {
     const double *z = e->L.Z + i * wide;
-    double a[STF_WIDE] = {0};
-    for (int j = 0; j < e->s; j++)
-      for (int k = 0; k < wide; k++) a[k] += e->K[j][k] * z[j];
-    for (int k = 0; k < wide; k++) e->a[i * wide + k] = a[k];
     size += z[e->s - 1] * z[e->s - 1] * w[i] * w[i];
   }
   e->first /= sqrt(size / (double)e->n) + 1e-300;
