@@ -174,3 +174,5 @@ bool stf_finite(const stf_space *space, N_Vector x)
   for (sunindextype i = 0; i < space->n; i++) sum += a[i] * 0;
   return sum == 0;
 }
+
+sunrealtype stf_power(sunrealtype x, sunrealtype p) { return powf((float)x, (float)p); }

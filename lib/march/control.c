@@ -82,10 +82,10 @@ static sunrealtype clamp(sunrealtype x, sunrealtype low, sunrealtype high)
 static sunrealtype grown(const steif_solver *s, sunrealtype h, sunrealtype e)
 {
   const sunrealtype power = 1 / (s->step.error_order + 1.0);
-  sunrealtype factor = s->step.safety * pow(fmax(e, 1e-10), -power);
+  sunrealtype factor = s->step.safety * stf_power(fmax(e, 1e-10), -power);
   if (s->step.count > 1 && s->h_old > 0)
     factor = fmin(factor, s->step.safety * h / s->h_old *
-                            pow(fmax(s->error_old, 1e-2) / (e * e + 1e-20), power));
+                            stf_power(fmax(s->error_old, 1e-2) / (e * e + 1e-20), power));
   factor = clamp(factor, shrink_most, s->after_reject ? 1 : s->step.grow_most);
   return factor >= 1 && factor <= s->step.keep_up_to ? h : h * factor;
 }

@@ -143,7 +143,7 @@ int stf_small_iterate(stf_step *s, double h)
   const double tolerance = floor_of(s, e), mean = 1 / (double)(e->s * e->n);
   const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
   double last = 0, quotient = 0, theta = 0;
-  e->eta = pow(fmax(e->eta, STF_EPS), 0.8), e->rough = e->sharpened = false;
+  e->eta = stf_power(fmax(e->eta, STF_EPS), 0.8), e->rough = e->sharpened = false;
   for (int m = 1, since = 1;; m++, since++) {
     STEIF_TRY(evaluate(s, h));
     const double norm = sqrt(stf_lanes_sweep(&e->L, y, w, h) * mean);
@@ -167,7 +167,7 @@ int stf_small_iterate(stf_step *s, double h)
       const double excess = e->eta * norm * power(theta, left) / tolerance;
       if (left < 0 || excess >= 1) {
         const double q = fmax(1e-4, fmin(20, excess));
-        return refuse(s, h, norm, theta, 0.8 * pow(q, -1.0 / (4 + (left > 0 ? left : 0))));
+        return refuse(s, h, norm, theta, 0.8 * stf_power(q, -1.0 / (4 + (left > 0 ? left : 0))));
       }
     } else if (e->eta * norm <= tolerance)
       break;
