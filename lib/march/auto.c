@@ -1,6 +1,9 @@
 /* auto.c: which method for which problem, and why.
  *
  *   given steps                                   radau:s=3
+ *   few unknowns and digits, with a given Jacobian
+ *     autonomous, n <= 24                         rodas4 down to rtol 1e-3, for n > 5 to 1e-4
+ *     forced, n <= 8                              rodas4p2 down to rtol 1e-3
  *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-4 or index above 1, else s=7,
  *                                                 but s=5 for M y' = f below 5e-11: the split of s=7 has
  *                                                 fourteen times its condition
@@ -17,13 +20,17 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "march.h"
 #include "order.h"
+#include <math.h>
 #include <stdio.h>
 
 enum {
+  TINY = 5,
+  FEW = 8,
+  SOME = 24,
   SMALL = 64,
   MEDIUM = 300,
-  CHEAP = 12
-}; /* CHEAP: flops of an LU per entry of the factors */
+  CHEAP = 12 /* flops of an LU per entry of the factors */
+};
 
 static enum steif_storage storage_of(const steif_problem *p, const steif_options *o)
 {
@@ -34,6 +41,30 @@ static bool small(const steif_problem *p, const steif_options *o, int form)
 {
   return p->n <= SMALL && storage_of(p, o) == STEIF_DENSE &&
          (form == STEIF_ODE || form == STEIF_MASS);
+}
+
+/* Are absolute tolerances above the rounding of the largest component? Where they are below, small
+ * components are differences of large ones, and only iterated residuals keep them. */
+static bool above_rounding(const steif_problem *p, const steif_options *o)
+{
+  const sunrealtype part = 0.01;
+  sunrealtype most = 0, least = o->atol;
+  for (sunindextype i = 0; i < p->n; i++) {
+    most = fmax(most, fabs(p->y0[i]));
+    if (o->atols) least = i ? fmin(least, o->atols[i]) : o->atols[i];
+  }
+  return STF_EPS * most <= part * least;
+}
+
+/* The Rosenbrock method for few digits of few unknowns, NULL for none. More digits, and forces that
+ * oscillate, need many steps; Rodas4 loses its order where stiff components are forced, Rodas4P2 keeps 3
+ * (G. Steinebach, in Progress in Differential-Algebraic Equations II, 2020). */
+static const char *linearly(const steif_problem *p, const steif_options *o)
+{
+  if (p->dae_index > 1 || !p->jac || !p->y0 || o->ewt || !above_rounding(p, o)) return NULL;
+  if (p->n > (p->autonomous ? SOME : FEW)) return NULL;
+  if (o->rtol < (p->autonomous && p->n > TINY ? 0.9e-4 : 0.9e-3)) return NULL;
+  return p->autonomous ? "rodas4" : "rodas4p2";
 }
 
 /* Does an LU cost no more than a few solves? */
@@ -63,6 +94,8 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
   const char *method, *reason;
   if (given)
     method = "radau:s=3", reason = "steps are given: order 5, stiffly accurate";
+  else if (small(p, o, form) && (method = linearly(p, o)))
+    reason = "few unknowns, few digits: no iteration";
   else if (small(p, o, form) && (high || o->rtol >= 1e-4))
     method = "radau:s=5", reason = "small and dense: all shifts in vector registers";
   else if (small(p, o, form) && form == STEIF_MASS && o->rtol < 5e-11)

@@ -113,13 +113,14 @@ static bool stalled(stf_step *s, double norm, double last, double tolerance)
 }
 
 /* A matrix from inside the step about halves the iterations that are left, and an LU costs as much as
- * n / 4 of them: is it worth its price? */
+ * n / 4 of them: is it worth its price? Not for methods that do not damp: what their stiff components
+ * keep from step to step passes the filter of the error, which is this matrix. */
 static bool worth(const stf_step *s, const stf_small *e, double norm, double theta,
                   double tolerance)
 {
   const double slow = 0.1;
   const int price = 2 + e->n / 2;
-  if (e->sharpened || s->system.linear || s->problem->dae_index > 1) return false;
+  if (e->sharpened || !e->accurate || s->system.linear || s->problem->dae_index > 1) return false;
   return theta > slow && theta < 1 && power(theta, price) * e->eta * norm > tolerance;
 }
 
