@@ -28,14 +28,16 @@ static sunrealtype misfit(size_t count, const sunrealtype *t, const sunrealtype 
 static const sunrealtype spacing = 1.5, least_growth = 20, blow_up_misfit = 0.05,
                          blow_up_distance = 1e-6;
 
-/* Points backward from the last at which |y_j'| has fallen by `spacing` each time. */
+/* Points backward from the last at which |y_j'| has fallen by `spacing` each time, but none so near the
+ * end that the clock's rounding shows. */
 static size_t collect(const steif_scene *s, size_t n, size_t j, sunrealtype *t, sunrealtype *x)
 {
+  const sunrealtype end = s->t[s->count - 1], near = 1e3 * STF_EPS * fabs(end);
   size_t count = 0;
   sunrealtype below = INFINITY;
   for (size_t k = s->count; k-- > 0 && count < 9;) {
     const sunrealtype now = fabs(s->yp[k * n + j]);
-    if (!(now <= below)) continue;
+    if (!(now <= below) || fabs(end - s->t[k]) < near) continue;
     t[count] = s->t[k], x[count++] = now;
     below = now / spacing;
   }
