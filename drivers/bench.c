@@ -68,7 +68,7 @@ static int run(struct call *call)
 static const struct option options[] = {
   {"--problems", WORD, "a,b,c", "workprec: instead of the usual ones; impulse: one"},
   {"--methods", WORD, "a,b,c", "workprec: instead of the usual ones; baselines among them"},
-  {"--rtols", REALS, "a,b,c", "workprec: relative tolerances (default 1e-3, 1e-4 ... 1e-11)"},
+  {"--rtols", REALS, "a,b,c", "workprec: relative tolerances (default 1e-1, 1e-2 ... 1e-11)"},
   {"--longest", POSITIVE, "S", "a solve ends after S processor seconds (default 2; phi: 10)"},
   {"--runs", FLAG, NULL, "workprec: every run as well, not the best ones alone"},
   {NULL, FLAG, NULL, NULL}};

@@ -3,7 +3,8 @@
 #include "workprec.h"
 #include <string.h>
 
-static const double usual[] = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11};
+static const double usual[] = {1e-1, 1e-2, 1e-3, 1e-4,  1e-5, 1e-6,
+                               1e-7, 1e-8, 1e-9, 1e-10, 1e-11};
 
 /* Items of a list as it was given, or of the usual plan. A parameter "key=value" without ':' belongs
  * to the item before it: "heat:n=400,storage=sparse". */

@@ -2,9 +2,10 @@
  *
  *   given steps                                   radau:s=3
  *   few unknowns and digits, with a given Jacobian
- *     autonomous, n <= 24                         rodas4 down to rtol 1e-3, for n > 5 to 1e-4
- *     forced, n <= 8                              rodas4p2 down to rtol 1e-3
- *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-4 or index above 1, else s=7,
+ *     n <= 5                                      rodas5p down to rtol 1e-2
+ *     y' = f(y), n <= 24                          rodas4 down to rtol 1e-3
+ *     others, n <= 8                              rodas4p2 down to rtol 1e-2
+ *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-3 or index above 1, else s=7,
  *                                                 but s=5 for M y' = f below 5e-11: the split of s=7 has
  *                                                 fourteen times its condition
  *   dense systems up to n = 300                   radau:s=5: oscillations defeat BDF there
@@ -56,15 +57,16 @@ static bool above_rounding(const steif_problem *p, const steif_options *o)
   return STF_EPS * most <= part * least;
 }
 
-/* The Rosenbrock method for few digits of few unknowns, NULL for none. More digits, and forces that
- * oscillate, need many steps; Rodas4 loses its order where stiff components are forced, Rodas4P2 keeps 3
- * (G. Steinebach, in Progress in Differential-Algebraic Equations II, 2020). */
+/* The Rosenbrock method for few digits of few unknowns, NULL for none: more digits, and forces that
+ * oscillate, need many steps. Order 5 pays while a stage costs nothing; Rodas4 loses its order where stiff
+ * components are forced, Rodas4P2 keeps 3 (G. Steinebach, in Progress in Differential-Algebraic
+ * Equations II, 2020). */
 static const char *linearly(const steif_problem *p, const steif_options *o)
 {
+  const bool more = p->autonomous && p->n > TINY;
   if (p->dae_index > 1 || !p->jac || !p->y0 || o->ewt || !above_rounding(p, o)) return NULL;
-  if (p->n > (p->autonomous ? SOME : FEW)) return NULL;
-  if (o->rtol < (p->autonomous && p->n > TINY ? 0.9e-4 : 0.9e-3)) return NULL;
-  return p->autonomous ? "rodas4" : "rodas4p2";
+  if (p->n > (p->autonomous ? SOME : FEW) || o->rtol < (more ? 0.9e-3 : 0.9e-2)) return NULL;
+  return p->n <= TINY ? "rodas5p" : p->autonomous ? "rodas4" : "rodas4p2";
 }
 
 /* Does an LU cost no more than a few solves? */
@@ -96,7 +98,7 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
     method = "radau:s=3", reason = "steps are given: order 5, stiffly accurate";
   else if (small(p, o, form) && (method = linearly(p, o)))
     reason = "few unknowns, few digits: no iteration";
-  else if (small(p, o, form) && (high || o->rtol >= 1e-4))
+  else if (small(p, o, form) && (high || o->rtol >= 0.9e-3))
     method = "radau:s=5", reason = "small and dense: all shifts in vector registers";
   else if (small(p, o, form) && form == STEIF_MASS && o->rtol < 5e-11)
     method = "radau:s=5",

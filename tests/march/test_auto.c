@@ -42,8 +42,8 @@ static void grids_keep_one_matrix(void)
 
 static void small_systems_take_lanes(void)
 {
-  CHECK(picks("vdpol", 1e-4, STEIF_DENSE, "radau:s=5"));
-  CHECK(picks("ringmod", 1e-3, STEIF_DENSE, "radau:s=5"));
+  CHECK(picks("vdpol", 1e-3, STEIF_DENSE, "radau:s=5"));
+  CHECK(picks("ringmod", 1e-2, STEIF_DENSE, "radau:s=5"));
   CHECK(picks("hires", 1e-7, STEIF_DENSE, "radau:s=7"));
   CHECK(picks("caraxis", 1e-7, STEIF_DENSE, "radau:s=5"));
 }
@@ -51,11 +51,11 @@ static void small_systems_take_lanes(void)
 /* e5 has atol 1e-23 beside components of 1e-3: their rounding is larger. */
 static void few_digits_take_rosenbrock(void)
 {
-  CHECK(picks("vdpol", 1e-3, STEIF_DENSE, "rodas4"));
-  CHECK(picks("hires", 1e-4, STEIF_DENSE, "rodas4"));
-  CHECK(picks("hires", 1e-5, STEIF_DENSE, "radau:s=7"));
-  CHECK(picks("transamp", 1e-3, STEIF_DENSE, "rodas4p2"));
-  CHECK(picks("e5", 1e-3, STEIF_DENSE, "radau:s=5"));
+  CHECK(picks("vdpol", 1e-2, STEIF_DENSE, "rodas5p"));
+  CHECK(picks("hires", 1e-3, STEIF_DENSE, "rodas4"));
+  CHECK(picks("hires", 1e-4, STEIF_DENSE, "radau:s=7"));
+  CHECK(picks("transamp", 1e-2, STEIF_DENSE, "rodas4p2"));
+  CHECK(picks("e5", 1e-2, STEIF_DENSE, "radau:s=5"));
 }
 
 CU_TestInfo tests_of_auto[] = {
