@@ -137,11 +137,6 @@ static int renew_engine(steif_solver *s)
 static int renew_step(steif_solver *s)
 {
   stf_step *step = &s->step;
-  STEIF_CHECK(step->adaptive || !(step->method->traits & STF_MULTISTEP), s->ctx,
-              STEIF_UNSUPPORTED,
-              "'%s' with given steps cannot begin anew after the event %s at t = %.12g: let it "
-              "choose its steps, or take a one-step method",
-              s->method, s->watch->name, s->end);
   const bool inside = step->t - s->end > 8 * STF_EPS * fabs(step->t);
   if (inside && s->mesh_at > 0) s->mesh_at--; /* the rest of the given step */
   stf_copy(&step->system.space, s->watch->after, step->y);

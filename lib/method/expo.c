@@ -196,7 +196,7 @@ static int step(stf_step *s, sunrealtype h)
   const stf_expo *e = s->state;
   STEIF_TRY(start(s, h));
   aim(s);
-  if (e->x->history && s->count > 0)
+  if (e->x->history && s->count > 0 && !s->restart)
     STEIF_TRY(extrapolate(s, h));
   else
     for (int i = 1; i < e->x->s; i++) STEIF_TRY(stage(s, h, i));

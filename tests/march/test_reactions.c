@@ -149,9 +149,29 @@ static void wrong_reactions_are_refused(void)
   p.user = &any;
   CHECK(watched_run(ctx, &p, "cvode", 0, &w) == STEIF_CALLBACK);
   CHECK(strstr(steif_message(ctx), "returned 7 at the event g1"));
-  p.react = refill;
-  CHECK(watched_run(ctx, &p, "bdf:p=2", 0.01, &w) == STEIF_UNSUPPORTED);
-  CHECK(strstr(steif_message(ctx), "cannot begin anew after the event g1"));
+  steif_context_free(&ctx);
+}
+
+/* Multistep methods with given steps: the rest of the step and the next one of BDF have order 1, h^2 in
+ * the sum. */
+static void multistep_methods_begin_anew_on_their_grid(void)
+{
+  static const char *const methods[] = {"be", "bdf:p=2", "bdf:p=4", "glm:ab,p=2"};
+  static const double ratio[] = {2, 4, 4, 4};
+  steif_problem p = watched_problem(1, quarter);
+  p.react = refill, p.t1 = 3;
+  steif_context *ctx = steif_context_new(NULL);
+  for (int m = 0; m < 4; m++) {
+    double error[2];
+    for (int k = 0; k < 2; k++) {
+      watched w;
+      CHECK(!watched_run(ctx, &p, methods[m], k ? 0.005 : 0.01, &w) && w.count == 3);
+      const int last = w.steps - 1;
+      CHECK(w.step_t[last] == 3);
+      error[k] = fabs(w.step_y[last][1] - exp(4 * log(2) - 3) / 2);
+    }
+    CLOSE(error[0] / error[1], ratio[m], 0.2);
+  }
   steif_context_free(&ctx);
 }
 
@@ -273,6 +293,7 @@ CU_TestInfo tests_of_reactions[] = {
   {"sliding along a surface is said", sliding_is_said},
   {"bounces without end are said", bounces_without_end_are_said},
   {"wrong reactions are refused", wrong_reactions_are_refused},
+  {"multistep methods begin anew on their grid", multistep_methods_begin_anew_on_their_grid},
   {"algebraic components are settled", algebraic_components_are_settled},
   {"linear problems jump", linear_problems_jump},
   CU_TEST_INFO_NULL};

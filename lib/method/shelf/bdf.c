@@ -132,9 +132,22 @@ static int from_exact(stf_step *s, sunrealtype h)
   return STEIF_OK;
 }
 
+/* Behind an event: orders 1, 2, ..., p once more. */
+static int begin_anew(stf_step *s)
+{
+  state *e = s->state;
+  STEIF_CHECK(e->start != CQ, s->ctx, STEIF_UNSUPPORTED,
+              "start=cq of problem '%s' cannot begin anew after an event, at t = %.12g: its weights "
+              "are those of one start",
+              s->problem->name, s->t);
+  e->points = 1, e->t[0] = s->t, e->start = RAMP;
+  return STEIF_OK;
+}
+
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
+  if (s->restart) STEIF_TRY(begin_anew(s));
   if (s->count == 0 && e->start == CONSTANT) past(s, h);
   if (e->start == EXACT && s->count < e->p - 1)
     return e->k = (int)s->count + 1, from_exact(s, h);
@@ -152,7 +165,7 @@ static void commit(stf_step *s)
   e->y[0] = s->y = s->next;
   e->t[0] = s->t + s->h_try;
   s->next = oldest;
-  if (e->points <= e->p) e->points++;
+  if (e->points <= e->p && !s->restart) e->points++; /* the rest of a step is no neighbour */
   e->last = e->k;
   if (s->system.form == STEIF_IMPLICIT) stf_copy(&s->system.space, s->newton.Zp[0], s->yp);
 }
