@@ -4,10 +4,11 @@
 
 extern CU_TestInfo tests_of_law_propagator[], tests_of_law_retry[], tests_of_law_stumble[],
   tests_of_law_backends[], tests_of_law_memory[], tests_of_law_order[], tests_of_law_claims[],
-  tests_of_law_symplectic[];
+  tests_of_law_symplectic[], tests_of_law_chosen[];
 
 SUITE_MAIN({.pName = "propagator", .pTests = tests_of_law_propagator},
            {.pName = "retry", .pTests = tests_of_law_retry},
+           {.pName = "chosen steps", .pTests = tests_of_law_chosen},
            {.pName = "stumble", .pTests = tests_of_law_stumble},
            {.pName = "back ends", .pTests = tests_of_law_backends},
            {.pName = "memory", .pTests = tests_of_law_memory},
