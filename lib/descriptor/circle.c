@@ -9,13 +9,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 16, REFINEMENTS = 2, INDEX_MOST = 8, SEED = 1 };
+enum { POINTS = 16, MOST = 1024, REFINEMENTS = 2, INDEX_MOST = 8, SEED = 1 };
 
 /* Coefficient i also collects that of i - points, which has to be of order -ALIAS or less. */
 enum { ALIAS = 3 };
 
 /* Unknowns from which on threads pay. */
-enum { CROWD = 2000, PAIRS = STF_LANES / 2 };
+enum { CROWD = 2000 };
 
 /* Sums of powers -1 .. STF_INDEX_MOST. */
 enum { SUMS = STF_INDEX_MOST + 2 };
@@ -56,9 +56,9 @@ sunrealtype stf_radius(SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
 
 static int check(steif_context *ctx, const steif_analysis *a)
 {
-  STEIF_CHECK(a->points >= 4 && a->points <= 1024 && a->points % 2 == 0, ctx, STEIF_BAD_INPUT,
-              "%d points on the circle: give an even number from 4 to 1024, or 0 for %d",
-              a->points, (int)POINTS);
+  STEIF_CHECK(a->points >= 4 && a->points <= MOST && a->points % 2 == 0, ctx, STEIF_BAD_INPUT,
+              "%d points on the circle: give an even number from 4 to %d, or 0 for %d",
+              a->points, (int)MOST, (int)POINTS);
   STEIF_CHECK(a->index_most >= 1 && a->index_most <= STF_INDEX_MOST &&
                 a->index_most <= a->points - ALIAS,
               ctx, STEIF_BAD_INPUT,
@@ -75,6 +75,7 @@ static int fill(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analys
 {
   stf_scaled *s = &c->scaled;
   STEIF_TRY(stf_scaled_open(ctx, E, F, s));
+  s->pencil->thorough = true;
   const size_t n = (size_t)s->n, size = sizeof(sunrealtype);
   c->threads = s->n >= CROWD ? stf_threads(ctx) : 1;
   const int most = (a->points / 2 + STF_LANES - 1) / STF_LANES;
@@ -143,8 +144,8 @@ typedef struct fold {
   sunrealtype re[2][BLOCK], im[2][BLOCK];
 } fold;
 
-static void fold_pair(const stf_batch *batch, int lane, bool pair, sunindextype at, int n,
-                      fold *restrict f)
+static void fold_lanes(const stf_batch *batch, int lane, bool pair, sunindextype at, int n,
+                       fold *restrict f)
 {
   enum { WIDE = STF_LANES };
   const sunrealtype *restrict a = batch->x + 2 * WIDE * at + lane;
@@ -155,20 +156,20 @@ static void fold_pair(const stf_batch *batch, int lane, bool pair, sunindextype 
   }
 }
 
-/* What visits contribute to the sum of one power: the first to come set it, with the last it is
- * complete. */
+/* What folds contribute to the sum of one power. */
 typedef struct weights {
-  int pairs;
-  bool odd, first, last;
-  sunrealtype c[PAIRS], s[PAIRS];
+  int folds;
+  bool odd, first;
+  sunrealtype c[STF_LANES], s[STF_LANES];
 } weights;
 
-static weights weights_of(const stf_circle *c, int from, int visits, int power)
+/* visit[k]: a node of fold k; first: there is no sum yet. */
+static weights weights_of(const stf_circle *c, int folds, const int *visit, bool first,
+                          int power)
 {
-  weights w = {.pairs = (visits + 1) / 2, .odd = power & 1};
-  w.first = from == 0, w.last = from + visits == c->points / 2;
-  for (int k = 0; k < w.pairs; k++) {
-    const sunrealtype turn = power * angle_of(c, from + 2 * k), weight = 2.0 / c->points;
+  weights w = {.folds = folds, .odd = power & 1, .first = first};
+  for (int k = 0; k < folds; k++) {
+    const sunrealtype turn = power * angle_of(c, visit[k]), weight = 2.0 / c->points;
     w.c[k] = weight * cos(turn), w.s[k] = weight * sin(turn);
   }
   return w;
@@ -177,36 +178,47 @@ static weights weights_of(const stf_circle *c, int from, int visits, int power)
 static void add_power(const weights *w, const fold *f, int n, sunrealtype *restrict sum)
 {
   for (int i = 0; w->first && i < n; i++) sum[i] = 0;
-  for (int k = 0; k < w->pairs; k++) {
+  for (int k = 0; k < w->folds; k++) {
     const sunrealtype *restrict re = f[k].re[w->odd], *restrict im = f[k].im[w->odd];
     const sunrealtype cosine = w->c[k], sine = w->s[k];
     for (int i = 0; i < n; i++) sum[i] += cosine * re[i] + sine * im[i];
   }
 }
 
-static sunrealtype squares(const sunrealtype *restrict sum, int n)
-{
-  sunrealtype square = 0;
-  for (int i = 0; i < n; i++) square += sum[i] * sum[i];
-  return square;
-}
-
-/* The solutions of visits from .. from + visits - 1, which are in a batch, join the sums. */
-static void add(stf_circle *c, const stf_batch *batch, int from, int visits)
+/* The good lanes of a batch at `visits` join the sums; partners together. */
+static void add(stf_circle *c, const stf_batch *b, const int *visits, int count, bool first)
 {
   const sunindextype n = c->scaled.n;
-  fold f[PAIRS];
+  fold f[STF_LANES];
   weights w[SUMS];
-  for (int k = 0; k < c->count; k++)
-    c->square[k] = 0, w[k] = weights_of(c, from, visits, k - 1);
+  int folds = 0, lane[STF_LANES], visit[STF_LANES];
+  bool pair[STF_LANES];
+  for (int q = 0; q < count; q++) {
+    if (!b->good[q]) continue;
+    lane[folds] = q, visit[folds] = visits[q];
+    pair[folds] =
+      visits[q] % 2 == 0 && q + 1 < count && b->good[q + 1] && visits[q + 1] == visits[q] + 1;
+    q += pair[folds++];
+  }
+  for (int k = 0; k < c->count; k++) w[k] = weights_of(c, folds, visit, first, k - 1);
   for (sunindextype at = 0; at < n; at += BLOCK) {
     const int now = n - at < BLOCK ? (int)(n - at) : BLOCK;
-    for (int k = 0; k < visits; k += 2) fold_pair(batch, k, k + 1 < visits, at, now, &f[k / 2]);
-    for (int k = 0; k < c->count; k++) {
-      sunrealtype *sum = c->sum + k * n + at;
-      add_power(&w[k], f, now, sum);
-      if (w[k].last) c->square[k] += squares(sum, now);
-    }
+    for (int k = 0; k < folds; k++) fold_lanes(b, lane[k], pair[k], at, now, &f[k]);
+    for (int k = 0; k < c->count; k++) add_power(&w[k], f, now, c->sum + k * n + at);
+  }
+}
+
+static void measure(stf_circle *c)
+{
+  const sunindextype n = c->scaled.n;
+  for (int k = 0; k < c->count; k++) {
+    const sunrealtype *sum = c->sum + k * n;
+    sunrealtype square[4] = {0};
+    sunindextype i = 0;
+    for (; i + 4 <= n; i += 4)
+      for (int m = 0; m < 4; m++) square[m] += sum[i + m] * sum[i + m];
+    for (; i < n; i++) square[0] += sum[i] * sum[i];
+    c->square[k] = square[0] + square[1] + square[2] + square[3];
   }
 }
 
@@ -219,150 +231,124 @@ static int fill_batches(stf_circle *c)
   return STEIF_OK;
 }
 
-/* The pivots that the pencil has in use become those of all batches. The order of the unknowns is that
- * of its analysis and stays. */
-static int adopt(stf_circle *c)
-{
-  forget(c);
-  c->replaced = false;
-  c->filled = c->scaled.size;
-  const int code = fill_batches(c);
-  if (code) forget(c);
-  return code;
-}
-
-/* ---- a node by itself ------------------------------------------------------------------------ */
-
-/* The solution in one lane, by the factors of the pencil. */
-static int solve_alone(stf_circle *c, stf_batch *b, int lane, const stf_polynomial *g)
-{
-  stf_scaled *s = &c->scaled;
-  const stf_sequence *q = c->sequence;
-  enum { WIDE = STF_LANES };
-  if (!c->r) c->r = stf_claim(s->pool, 4 * (size_t)s->n, sizeof *c->r);
-  if (!c->r) return STEIF_NO_MEMORY;
-  sunrealtype *x = c->r, *r = c->r + 2 * s->n;
-  stf_batch_load(b, g, b->r);
-  const sunrealtype *from = b->r + lane;
-  for (int sweep = 0; sweep <= c->refinements; sweep++) {
-    sunrealtype *to = sweep ? r : x;
-    for (int k = 0; k < q->n; k++) {
-      to[2 * q->equation[k]] = from[2 * WIDE * (sunindextype)k];
-      to[2 * q->equation[k] + 1] = from[2 * WIDE * (sunindextype)k + WIDE];
-    }
-    if (!sweep)
-      stf_scaled_direct(s, 0, x);
-    else if (!stf_scaled_refine(s, 0, sweep == 1, x, r))
-      break;
-  }
-  for (int k = 0; k < q->n; k++) {
-    b->x[2 * WIDE * (sunindextype)k + lane] = x[2 * q->unknown[k]];
-    b->x[2 * WIDE * (sunindextype)k + WIDE + lane] = x[2 * q->unknown[k] + 1];
-  }
-  b->error[lane] = 0;
-  return STEIF_OK;
-}
-
-/* A lane with bad pivots: KLU looks for better ones, which serve from the next circle on. */
-static int alone(stf_circle *c, stf_batch *b, int lane, const stf_polynomial *g)
-{
-  steif_pencil *p = c->scaled.pencil;
-  p->trusted = false;
-  STEIF_TRY(steif_pencil_factor(p, 1, &b->s[lane]));
-  if (c->counts) STEIF_TRY(stf_pencil_logdet(p, 0, &b->log_det[lane]));
-  c->replaced = true;
-  return g ? solve_alone(c, b, lane, g) : STEIF_OK;
-}
-
-/* ---- around the circle ------------------------------------------------------------------------- */
-
-/* What a thread does for one batch. */
-typedef struct round_ {
-  stf_circle *c;
-  const stf_polynomial *g;
-} round_;
-
-static void work(void *task, int i)
-{
-  const round_ *now = task;
-  stf_circle *c = now->c;
-  stf_batch_factor(&c->batch[i], c->careful ? c->sequence->growth : 0);
-  if (now->g)
-    stf_batch_solve(&c->batch[i], now->g, c->careful ? c->refinements : 0, STF_STEADY);
-}
-
 static steif_shift node(const stf_circle *c, int visit)
 {
   const sunrealtype angle = angle_of(c, visit);
   return (steif_shift){c->radius * cos(angle), c->radius * sin(angle)};
 }
 
-/* The pivots of the first node, and the values of this circle. */
-static int prepare(stf_circle *c)
+/* Pivots by KLU at a node, for all batches. The order of the unknowns is that of its analysis and
+ * stays. */
+static int pivot(stf_circle *c, int visit)
 {
   steif_pencil *p = c->scaled.pencil;
-  if (c->sequence) {
-    if (c->filled != c->scaled.size) stf_sequence_fill(p, c->sequence);
-    c->filled = c->scaled.size;
-    return STEIF_OK;
-  }
-  const steif_shift first = node(c, 0);
-  p->trusted = !c->careful;
-  STEIF_TRY(steif_pencil_factor(p, 1, &first));
+  const steif_shift s = node(c, visit);
+  forget(c);
+  STEIF_TRY(steif_pencil_factor(p, 1, &s));
   p->stats.refactors--; /* a lane repeats this matrix, which counts once */
-  return adopt(c);
+  const int code = fill_batches(c);
+  if (code) forget(c);
+  stf_sparse_drop(p, 0);
+  c->filled = c->scaled.size;
+  return code;
 }
 
-/* Lanes that are left over repeat the last node. */
-static void place(stf_circle *c, int from, int batches)
+/* The values of this circle. */
+static int prepare(stf_circle *c)
 {
-  const int half = c->points / 2;
-  for (int k = 0; k < batches * STF_LANES; k++)
-    c->batch[k / STF_LANES].s[k % STF_LANES] = node(c, from + k < half ? from + k : half - 1);
-}
-
-/* The visits from .. of one batch join; false: a solution is not steady, and nobody has been
- * careful. */
-static int join(stf_circle *c, stf_batch *b, int from, const stf_polynomial *g, bool *good)
-{
-  const int half = c->points / 2, visits = half - from < STF_LANES ? half - from : STF_LANES;
-  steif_pencil_stats *stats = &c->scaled.pencil->stats;
-  for (int k = 0; k < visits; k++) {
-    if (!b->good[k]) STEIF_TRY(alone(c, b, k, g));
-    c->log_det += 2 * (b->log_det[k] - c->scaled.log_scale) / c->points;
-    stats->refactors += b->good[k];
-    stats->solves += g && b->good[k] ? b->solves[k] : 0;
-    *good &= !g || c->careful || b->error[k] <= GOOD;
-  }
-  if (g) add(c, b, from, visits);
+  if (!c->sequence) return pivot(c, 0);
+  if (c->filled != c->scaled.size) stf_sequence_fill(c->scaled.pencil, c->sequence);
+  c->filled = c->scaled.size;
   return STEIF_OK;
 }
 
-/* `good`: as far as one can see. */
-static int around(stf_circle *c, const stf_polynomial *g, bool *good)
+/* ---- around the circle ------------------------------------------------------------------------- */
+
+/* Nodes for one pass, and what becomes of them. */
+typedef struct pass {
+  stf_circle *c;
+  const stf_polynomial *g;
+  int done, count, *visit; /* of them, batch by batch */
+  int bad;                 /* those that are left, in front of `visit` */
+  sunrealtype error;       /* the largest */
+} pass;
+
+static void work(void *task, int i)
 {
-  const int half = c->points / 2;
-  c->log_det = 0;
-  *good = true;
-  for (int done = 0; done < half; done += c->batches * STF_LANES) {
-    const int left = (half - done + STF_LANES - 1) / STF_LANES;
-    const int now = left < c->batches ? left : c->batches;
-    place(c, done, now);
-    stf_crew(c->threads, now, work, &(round_){c, g});
-    for (int k = 0; k < now; k++)
-      STEIF_TRY(join(c, &c->batch[k], done + k * STF_LANES, g, good));
+  const pass *now = task;
+  stf_circle *c = now->c;
+  stf_batch *b = &c->batch[i];
+  const int from = now->done + i * STF_LANES;
+  for (int q = 0; q < STF_LANES; q++) /* lanes that are left over repeat the last node */
+    b->s[q] = node(c, now->visit[from + q < now->count ? from + q : now->count - 1]);
+  stf_batch_factor(b, c->careful ? c->sequence->growth : 0);
+  if (now->g) stf_batch_solve(b, now->g, c->careful ? c->refinements : 0, STF_STEADY);
+}
+
+static void join(pass *now, const stf_batch *b, int from, bool first)
+{
+  stf_circle *c = now->c;
+  steif_pencil_stats *stats = &c->scaled.pencil->stats;
+  const int left = now->count - from, count = left < STF_LANES ? left : STF_LANES;
+  if (now->g) add(c, b, now->visit + from, count, first);
+  for (int q = 0; q < count; q++) {
+    if (!b->good[q]) {
+      now->visit[now->bad++] = now->visit[from + q];
+      continue;
+    }
+    c->log_det += 2 * (b->log_det[q] - c->scaled.log_scale) / c->points;
+    stats->refactors++;
+    stats->solves += now->g ? b->solves[q] : 0;
+    if (now->g) now->error = fmax(now->error, b->error[q]);
   }
-  return c->replaced ? adopt(c) : STEIF_OK;
+}
+
+/* With the pivots that there are, those of the first node if `own`. */
+static void go(pass *now, bool own)
+{
+  stf_circle *c = now->c;
+  now->bad = 0;
+  for (now->done = 0; now->done < now->count; now->done += c->batches * STF_LANES) {
+    const int left = (now->count - now->done + STF_LANES - 1) / STF_LANES;
+    const int batches = left < c->batches ? left : c->batches;
+    stf_crew(c->threads, batches, work, now);
+    if (own && !now->done) c->batch->good[0] = c->batch->growth[0] > 0;
+    for (int k = 0; k < batches; k++)
+      join(now, &c->batch[k], now->done + k * STF_LANES, !own && !now->done && !k);
+  }
+  now->count = now->bad;
+}
+
+/* Nodes with bad pivots go again with those of the first of them. Returns the largest error. */
+static int around(stf_circle *c, const stf_polynomial *g, sunrealtype *error)
+{
+  int visit[MOST / 2];
+  pass now = {.c = c, .g = g, .count = c->points / 2, .visit = visit};
+  for (int k = 0; k < now.count; k++) visit[k] = k;
+  c->log_det = 0;
+  go(&now, false);
+  while (now.count) {
+    const int first = visit[0];
+    const steif_shift s = node(c, first);
+    STEIF_TRY(pivot(c, first));
+    c->scaled.pencil->stats.fallbacks++;
+    go(&now, true);
+    STEIF_CHECK(!now.count || visit[0] != first, c->scaled.ctx, STEIF_SINGULAR,
+                "pivots at s = %g%+gi are out of range: scale the equations", s.re, s.im);
+  }
+  if (g) measure(c);
+  *error = now.error;
+  return STEIF_OK;
 }
 
 int stf_circle_run(stf_circle *c, sunrealtype R, const stf_polynomial *g)
 {
-  bool good;
+  sunrealtype error;
   c->radius = R;
   STEIF_TRY(stf_scaled_set(&c->scaled, R));
   STEIF_TRY(prepare(c));
-  STEIF_TRY(around(c, g, &good));
-  if (good) return STEIF_OK;
+  STEIF_TRY(around(c, g, &error));
+  if (c->careful || error <= GOOD) return STEIF_OK;
   c->careful = true;
-  return around(c, g, &good);
+  return around(c, g, &error);
 }

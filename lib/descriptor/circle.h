@@ -47,13 +47,10 @@ typedef struct stf_circle {
   stf_scaled scaled;
   int points, refinements, threads, batches, room, count;
   bool careful; /* pivots are watched and solves refined; else residuals alone are looked at */
-  bool counts;  /* log_det is wanted */
-  bool replaced; /* the pencil has found better pivots */
   stf_sequence *sequence; /* pivots, of the first node or the last that needed its own */
   sunrealtype filled;     /* the size of the scales whose values it has */
   stf_batch *batch;
   sunrealtype *sum;    /* count x n by rows: R^i times the coefficient of s^i, i = -1, 0, ... */
-  sunrealtype *r;      /* scratch, 4 n; NULL: not needed yet */
   sunrealtype *square; /* squared norms of the sums */
   sunrealtype radius;
   sunrealtype log_det; /* mean of log |det(s E + F)| over the circle */

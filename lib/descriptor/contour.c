@@ -359,7 +359,6 @@ int stf_contour(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analys
   }
   stf_circle_close(ctx, &structure->circle);
   STEIF_TRY(stf_circle_open(ctx, E, F, analysis, w.analysis.index_most + 2, &w.circle));
-  w.circle->counts = true;
   const int code = analyse(&w, E, F);
   structure->cost = *steif_pencil_statistics(w.circle->scaled.pencil);
   structure->circle = w.circle;

@@ -201,7 +201,6 @@ int stf_contour_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
   STEIF_TRY(stf_impulse_claim(ctx, sources->n, index, impulse));
   impulse->method = "contour";
   STEIF_TRY(prepare(&w, E, F, analysis, structure));
-  w.circle->counts = false;
   const steif_pencil_stats before = *steif_pencil_statistics(w.circle->scaled.pencil);
   const int code = analyse(&w, stf_radius(E, F, analysis, structure), fixed, structure);
   impulse->cost = spent(&before, steif_pencil_statistics(w.circle->scaled.pencil));

@@ -52,7 +52,7 @@ typedef struct stf_batch {
   double *l, *u, *pivot; /* factors; pivot: reciprocal diagonal of U */
   double *x, *r;         /* n each: the solution; scratch, in the end the residual */
   bool good[STF_LANES];  /* pivots were finite, not 0, and as large as was asked for */
-  double growth[STF_LANES], log_det[STF_LANES];
+  double growth[STF_LANES], log_det[STF_LANES]; /* growth: reciprocal, 1 unless asked for; 0: none */
   double
     error[STF_LANES]; /* root mean square of the rows' backward errors, when last looked at */
   int solves[STF_LANES]; /* of the last right-hand side */

@@ -38,5 +38,7 @@ const double *stf_sparse_values(const steif_pencil *p, int slot);
 klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot);
 /* The reciprocal growth down to which pivots in use are kept. */
 double stf_sparse_growth(const steif_pencil *p, int slot);
+/* Forget the factors of a slot by KLU: the next ones look for pivots. */
+void stf_sparse_drop(steif_pencil *p, int slot);
 
 #endif

@@ -53,6 +53,7 @@ struct steif_pencil {
   bool stale; /* E and A have not been looked at since they changed */
   /* Sparse: pivots in use serve new values whatever the growth: residuals are looked at instead. */
   bool trusted;
+  bool thorough; /* sparse: many complex matrices will share order and pivots, worth some time */
   int slots;  /* slots in use */
   steif_shift shift[STEIF_PENCIL_SLOTS];
   bool fresh[STEIF_PENCIL_SLOTS];

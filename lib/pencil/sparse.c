@@ -16,6 +16,10 @@
 #define GROWTH 1e-5
 #define SLACK 1e-2
 
+/* Pivots on the diagonal are taken down to this part of the largest of their column where many matrices
+ * are to share them (as in other sparse codes; KLU's own 0.001 suits one matrix at a time). */
+#define SHARED 0.1
+
 enum { FRONTS = 200, DENSE = 12 }; /* unknowns, and flops per entry, from which on blocks pay */
 
 typedef struct factors {
@@ -81,6 +85,24 @@ static void forget(steif_pencil *p)
   s->looked = false;
 }
 
+/* Would the work of factorisations pay for blocks, or for a better order? */
+static bool heavy(const klu_l_symbolic *k)
+{
+  return k->est_flops < 0 || k->est_flops >= DENSE * (k->lnz + k->unz);
+}
+
+/* Nested dissection instead of minimum degree, where that is much work and KLU gets it. */
+static void dissect(sparse *s)
+{
+  const stf_pattern *u = &s->pattern;
+  klu_l_common with = s->common;
+  with.ordering = 3, with.user_order = stf_order_block;
+  klu_l_symbolic *better = klu_l_analyze(u->n, u->ptr, u->row, &with);
+  if (!better) return;
+  klu_l_free_symbolic(&s->symbolic, &s->common);
+  s->symbolic = better;
+}
+
 static int analyse(steif_pencil *p)
 {
   sparse *s = p->state;
@@ -97,6 +119,7 @@ static int analyse(steif_pencil *p)
     s->symbolic, p->ctx, STEIF_BAD_INPUT,
     "KLU refused the pattern of %lld unknowns and %lld entries: check the index arrays", n,
     nnz);
+  if (p->thorough && heavy(s->symbolic)) dissect(s);
   p->stats.analyses++;
   return STEIF_OK;
 }
@@ -137,7 +160,7 @@ static int choose_fronts(steif_pencil *p)
   stf_fronts *f = &s->fronts;
   const klu_l_symbolic *k = s->symbolic;
   if (p->n < FRONTS || p->n > INT_MAX / 2 || k->structural_rank < k->n) return STEIF_OK;
-  if (k->est_flops >= 0 && k->est_flops < DENSE * (k->lnz + k->unz)) return STEIF_OK;
+  if (!heavy(k)) return STEIF_OK;
   STEIF_TRY(stf_fronts_open(p->ctx, &s->pattern, f));
   if (k->lnz >= 0 && (double)f->size > 2 * (k->lnz + k->unz)) {
     stf_fronts_free(p->ctx, f);
@@ -176,6 +199,7 @@ static int prepare(steif_pencil *p, int slot, steif_shift shift)
   if (!f) {
     if (!(f = s->slot[slot] = stf_allocate(p->ctx, 1, sizeof *f))) return STEIF_NO_MEMORY;
     defaults(&f->common);
+    if (p->thorough) f->common.tol = SHARED;
   }
   if (!wide && !s->looked) STEIF_TRY(open_fronts(p));
   if (s->fronts.n && !wide && !f->block && !f->refused) STEIF_TRY(prepare_fronts(p, f));
@@ -302,6 +326,12 @@ klu_l_symbolic *stf_sparse_symbolic(const steif_pencil *p)
 klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot)
 {
   return ((const sparse *)p->state)->slot[slot]->numeric;
+}
+
+void stf_sparse_drop(steif_pencil *p, int slot)
+{
+  drop(((sparse *)p->state)->slot[slot]);
+  p->fresh[slot] = false;
 }
 
 double stf_sparse_growth(const steif_pencil *p, int slot)

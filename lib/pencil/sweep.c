@@ -135,7 +135,7 @@ INLINE void factor(stf_batch *b, const bool watched)
   for (int k = 0; k < b->sequence->n; k++) column(b, k, s, watched, &now);
   for (int q = 0; q < STF_LANES; q++) {
     b->good[q] = !now.bad[q];
-    b->growth[q] = sqrt(now.least[q]);
+    b->growth[q] = now.bad[q] ? 0 : sqrt(now.least[q]);
     b->log_det[q] = 0.5 * (log(now.product[q]) + (double)now.exponent[q] * log(2));
   }
 }
