@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "reduce.h"
 #include <math.h>
+#include <nvector/nvector_serial.h>
 #include <steif/method.h>
 #include <steif/table.h>
 #include <string.h>
@@ -17,6 +18,8 @@ typedef struct run {
   steif_structure structure; /* of the pencil, found once */
   sunrealtype *x;            /* x(t-), then x(t+) */
   int *index;                /* of each unknown; NULL: all 1 */
+  bool settles;              /* the last value of a segment is put on the constraints */
+  sunrealtype end;           /* of the segment */
   stf_reduced reduced;       /* what chosen steps are made on, where there is one */
 } run;
 
@@ -24,7 +27,7 @@ static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
 {
   const run *r = user;
   (void)s;
-  return r->output->step(t, y, r->output->user);
+  return r->settles && t >= r->end ? 0 : r->output->step(t, y, r->output->user);
 }
 
 static int jump(run *r, sunrealtype t)
@@ -69,7 +72,8 @@ static int smooth(run *r, segment *s, sunrealtype from)
   const steif_linear cut = {l->E, l->F, l->f ? left_of : NULL, s};
   const bool low = r->reduced.linear.E;
   r->reduced.from = &cut;
-  STEIF_TRY(steif_linear_problem(r->ctx, low ? &r->reduced.linear : &cut, r->x, from, s->end, &p));
+  STEIF_TRY(
+    steif_linear_problem(r->ctx, low ? &r->reduced.linear : &cut, r->x, from, s->end, &p));
   p.index = r->index, p.dae_index = low ? 1 : r->structure.index;
   steif_options o = r->options;
   begin(r, from, s->end, &o);
@@ -82,8 +86,9 @@ static int smooth(run *r, segment *s, sunrealtype from)
   return code;
 }
 
-/* x(t-) on the constraints that hold before a break: what the method missed them by would be taken
- * for a jump, and differentiated. */
+/* x(t-) on the constraints that hold at the end of a segment: what the method missed them by would be
+ * taken for a jump, and differentiated; and what it makes of unknowns of index k, of which errors
+ * of size tol / h^(k-1) are let pass, follows from the others and f. */
 static int settle(run *r, segment *s)
 {
   steif_impulse i = {0};
@@ -93,6 +98,18 @@ static int settle(run *r, segment *s)
   if (!code) memcpy(r->x, i.x_plus, (size_t)i.n * sizeof *r->x);
   steif_impulse_clear(r->ctx, &i);
   return code;
+}
+
+/* The value that was held back, settled. */
+static int finish(run *r)
+{
+  if (!r->settles || !r->output->step) return STEIF_OK;
+  N_Vector x = N_VMake_Serial(r->structure.n, r->x, steif_sundials(r->ctx));
+  STEIF_CHECK(x, r->ctx, STEIF_NO_MEMORY, "no memory for a vector");
+  const int stop = r->output->step(r->end, x, r->output->user);
+  N_VDestroy(x);
+  STEIF_CHECK(!stop, r->ctx, STEIF_CALLBACK, "the output stopped the run at t = %.12g", r->end);
+  return STEIF_OK;
 }
 
 static int segments(run *r, sunrealtype t0, size_t count, const sunrealtype *breaks)
@@ -105,8 +122,10 @@ static int segments(run *r, sunrealtype t0, size_t count, const sunrealtype *bre
                 r->options.t1, end, t);
     segment s = {r->linear, end, nextafter(end, t)};
     STEIF_TRY(jump(r, t));
+    r->end = end;
     STEIF_TRY(smooth(r, &s, t));
-    if (i < count) STEIF_TRY(settle(r, &s));
+    if (i < count || r->settles) STEIF_TRY(settle(r, &s));
+    STEIF_TRY(finish(r));
     t = end;
   }
   return STEIF_OK;
@@ -131,9 +150,9 @@ static int lower(run *r)
   bool slope;
   const bool chosen = !(r->options.h > 0) && !r->options.mesh;
   STEIF_TRY(keeps(r, &slope));
-  if (chosen)
-    STEIF_TRY(stf_reduced_open(r->ctx, r->linear, &r->structure, slope, &r->reduced));
+  if (chosen) STEIF_TRY(stf_reduced_open(r->ctx, r->linear, &r->structure, slope, &r->reduced));
   if (r->reduced.linear.E) return STEIF_OK;
+  r->settles = chosen && r->structure.index > 1;
   return stf_linear_grade(r->ctx, r->linear, r->analysis, &r->structure, &r->index);
 }
 

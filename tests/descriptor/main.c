@@ -7,7 +7,7 @@ extern CU_TestInfo tests_of_exact[], tests_of_pair[], tests_of_moments[], tests_
   tests_of_layer[], tests_of_weak[], tests_of_matching[], tests_of_contour[],
   tests_of_regular[], tests_of_structure[], tests_of_families[], tests_of_impulse_dense[],
   tests_of_run[], tests_of_subject[], tests_of_ida[], tests_of_array[], tests_of_units[],
-  tests_of_circle[];
+  tests_of_circle[], tests_of_ends[];
 
 SUITE_MAIN(
   {.pName = "exact", .pTests = tests_of_exact}, {.pName = "pair", .pTests = tests_of_pair},
@@ -25,4 +25,5 @@ SUITE_MAIN(
   {.pName = "families", .pTests = tests_of_families},
   {.pName = "impulse dense", .pTests = tests_of_impulse_dense},
   {.pName = "run", .pTests = tests_of_run}, {.pName = "subject", .pTests = tests_of_subject},
-  {.pName = "ida", .pTests = tests_of_ida}, {.pName = "units", .pTests = tests_of_units})
+  {.pName = "ida", .pTests = tests_of_ida}, {.pName = "units", .pTests = tests_of_units},
+  {.pName = "ends", .pTests = tests_of_ends})
