@@ -163,7 +163,7 @@ static sunrealtype dimension(const spectrum *s, const sunrealtype *exponent,
     if (sum + sorted[j] < 0) return (sunrealtype)j + sum / -sorted[j];
     sum += sorted[j];
   }
-  return m == s->v.d ? (sunrealtype)m : NAN;
+  return m == s->v.finite ? (sunrealtype)m : NAN;
 }
 
 static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype *exponent,
