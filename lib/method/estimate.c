@@ -1,4 +1,4 @@
-/* estimate.c: what collocation makes of its error estimate.
+/* estimate.c: what methods make of their error estimates.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "method.h"
 #include <math.h>

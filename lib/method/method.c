@@ -6,6 +6,7 @@
 #include "splitting.h"
 #include <math.h>
 #include <string.h>
+#include <sunmatrix/sunmatrix_dense.h>
 
 static const steif_method *family(const char *name)
 {
@@ -154,6 +155,22 @@ void stf_propagate_scalar(const sunrealtype R[2], int *r, sunrealtype *M)
 {
   *r = 1;
   if (M) M[0] = R[0], M[1] = R[1];
+}
+
+int stf_refuse_factors(stf_step *s, int column, sunrealtype h)
+{
+  const sunrealtype *A = SM_DATA_D(s->system.A);
+  const size_t n = (size_t)s->problem->n;
+  for (size_t k = 0; k < n * n; k++)
+    if (!isfinite(A[k]))
+      return STEIF_RECOVER(s->ctx, STEIF_NOT_FINITE,
+                           "entry (%zu, %zu) (from 0) of the Jacobian of problem '%s' is %g in the "
+                           "step from t = %.12g: look at the function that fills it",
+                           k % n, k / n, s->problem->name, A[k], s->t);
+  return STEIF_RECOVER(s->ctx, STEIF_SINGULAR,
+                       "the stage matrix of problem '%s' is singular in column %d (from 0) at "
+                       "t = %.12g with h = %.6g: check that det(s E - A) is not identically zero",
+                       s->problem->name, column, s->t, h);
 }
 
 void stf_swap(stf_step *s)

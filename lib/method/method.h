@@ -152,6 +152,10 @@ extern const steif_method steif_method_vbdf;
  * Of the ode form and the matrices at hand. */
 int stf_oscillation(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *omega);
 
+/* STEIF_RETRY for dense factors without a pivot in `column` (from 0), with the sentence: entries that
+ * are not finite, or a singular matrix. */
+int stf_refuse_factors(stf_step *s, int column, sunrealtype h);
+
 /* y <-> next. */
 void stf_swap(stf_step *s);
 

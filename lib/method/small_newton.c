@@ -31,12 +31,7 @@ static int factor(stf_step *s, double h)
   e->h_factored = 0;
   const int column = stf_lanes_factor(&e->L, SM_DATA_D(s->system.A), h);
   s->factors += (e->s + 1) / 2;
-  if (column)
-    return STEIF_RECOVER(
-      s->ctx, STEIF_SINGULAR,
-      "the stage matrix of problem '%s' is singular in column %d (from 0) at "
-      "t = %.12g with h = %.6g: check that det(s E - A) is not identically zero",
-      s->problem->name, column - 1, s->t, h);
+  if (column) return stf_refuse_factors(s, column - 1, h);
   e->h_factored = h;
   return STEIF_OK;
 }

@@ -12,9 +12,11 @@ static void bad_options_are_named(void)
   REFUSED(rtol, -1e-3, "rtol = -0.001");
   REFUSED(rtol, 1, "between 0 and 1");
   REFUSED(rtol, NAN, "between 0 and 1");
+  REFUSED(rtol, INFINITY, "between 0 and 1");
   REFUSED(rtol, 1e-15, "more than double precision has");
   REFUSED(atol, -1, "atol = -1");
   REFUSED(atol, INFINITY, "atol = inf");
+  REFUSED(atol, NAN, "atol = nan");
   REFUSED(atols, atols, "atols[1] = 0");
   REFUSED(h, -0.1, "h = -0.1");
   REFUSED(h, NAN, "h = nan");
@@ -25,6 +27,7 @@ static void bad_options_are_named(void)
   REFUSED(newton, NAN, "newton = nan");
   REFUSED(t1, 0.25, "t1 = 0.25 must lie after the start t0 = 0.25");
   REFUSED(t1, NAN, "t1 = nan");
+  REFUSED(t1, -3, "t1 = -3 must lie after the start t0 = 0.25");
 #undef REFUSED
 }
 

@@ -133,12 +133,7 @@ static int prepare_small(stf_step *s, sunrealtype h)
   const int column =
     stf_rodas_small_factor(&e->kernel, SM_DATA_D(s->system.A), 1 / (e->r->g * h));
   s->factors++;
-  if (column)
-    return STEIF_RECOVER(
-      s->ctx, STEIF_SINGULAR,
-      "the matrix of problem '%s' is singular in column %d (from 0) at t = %.12g with h = %.6g: "
-      "check that det(s E - A) is not identically zero",
-      s->problem->name, column - 1, s->t, h);
+  if (column) return stf_refuse_factors(s, column - 1, h);
   e->h_factored = h;
   return STEIF_OK;
 }

@@ -1,0 +1,199 @@
+/* Bad input, one by one: the code, and a sentence with the values and what to do about it.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "smooth.h"
+#include <stdbool.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+static const char *const methods[] = {"auto",      "radau:s=3",  "gauss:s=4",
+                                      "dirk:hw43", "rodas4", "bdf"};
+enum { METHODS = sizeof methods / sizeof *methods };
+
+/* What is wrong with the callbacks. */
+enum fault { NONE, F_NAN, F_REFUSES, F_STOPS, F_RESIZES, JAC_NAN, JAC_STOPS, JAC_GROWS, JAC_OVERFLOWS };
+
+typedef struct wrong {
+  enum fault fault;
+  int calls; /* of the Jacobian */
+} wrong;
+
+/* y1' = -5 y1 + 3 t^2 y2^2, y2' = -y2. */
+static int f(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  const wrong *w = user;
+  const double a = NV_Ith_S(y, 0), b = NV_Ith_S(y, 1);
+  NV_Ith_S(out, 0) = w->fault == F_NAN ? NAN : -5 * a + 3 * t * t * b * b;
+  NV_Ith_S(out, 1) = -b;
+  if (w->fault == F_RESIZES) NV_LENGTH_S(out) = 1;
+  return w->fault == F_REFUSES ? 1 : w->fault == F_STOPS ? -3 : 0;
+}
+
+static int dense(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector a,
+                 N_Vector b, N_Vector c)
+{
+  const wrong *w = user;
+  (void)fy, (void)a, (void)b, (void)c;
+  SM_ELEMENT_D(J, 0, 0) = -5, SM_ELEMENT_D(J, 0, 1) = 6 * t * t * NV_Ith_S(y, 1);
+  SM_ELEMENT_D(J, 1, 1) = w->fault == JAC_NAN ? NAN : -1;
+  return w->fault == JAC_STOPS ? -2 : 0;
+}
+
+/* The entry (0, 1) is there behind the start only. */
+static int sparse(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector a,
+                  N_Vector b, N_Vector c)
+{
+  wrong *w = user;
+  sunindextype *from = SM_INDEXPTRS_S(J), *row = SM_INDEXVALS_S(J);
+  sunrealtype *value = SM_DATA_S(J);
+  (void)fy, (void)a, (void)b, (void)c;
+  from[0] = 0, from[1] = 1, row[0] = 0, value[0] = -5;
+  if (w->calls++ == 0)
+    from[2] = 2, row[1] = 1, value[1] = -1;
+  else {
+    from[2] = w->fault == JAC_OVERFLOWS ? 9 : 3;
+    row[1] = 0, value[1] = 6 * t * t * NV_Ith_S(y, 1), row[2] = 1, value[2] = -1;
+  }
+  return 0;
+}
+
+static const sunrealtype start[] = {0.5, 1};
+
+static steif_problem problem(wrong *w)
+{
+  const bool thin = w->fault >= JAC_GROWS;
+  return (steif_problem){.name = "wrong",
+                         .n = 2,
+                         .t0 = 1,
+                         .t1 = 2,
+                         .y0 = start,
+                         .f = f,
+                         .jac = thin ? sparse : dense,
+                         .storage = thin ? STEIF_SPARSE : STEIF_DENSE,
+                         .nnz = thin ? 3 : 0,
+                         .user = w};
+}
+
+/* Making the solver or the first run fails with this code and these words; nothing is lost (the tests
+ * run under a leak checker). */
+static void fails(enum fault fault, const char *method, int code, const char *words)
+{
+  wrong w = {.fault = fault};
+  const steif_problem p = problem(&w);
+  steif_context *ctx = steif_context_new(NULL);
+  steif_solver *s = steif_solver_new(ctx, &p, method, NULL);
+  const int found = s ? steif_solve_to(s, 2) : steif_status(ctx);
+  if (found != code || !strstr(steif_message(ctx), words))
+    printf("\n  fault %d, %s: %d, %s", fault, method, found, steif_message(ctx));
+  CHECK(found == code && strstr(steif_message(ctx), words));
+  steif_solver_free(&s);
+  steif_context_free(&ctx);
+}
+
+static void callbacks_that_fail_are_named(void)
+{
+  for (int m = 0; m < METHODS; m++) {
+    fails(F_NAN, methods[m], STEIF_NOT_FINITE,
+          "component 0 of f of problem 'wrong' is not finite at the start, t = 1: correct");
+    fails(F_REFUSES, methods[m], STEIF_CALLBACK, "f of problem 'wrong' could not be evaluated");
+    fails(F_STOPS, methods[m], STEIF_CALLBACK, "(it returned -3)");
+    fails(F_RESIZES, methods[m], STEIF_BAD_INPUT,
+          "gave a vector back with 1 components, it had 2: callbacks fill vectors and never");
+    fails(JAC_STOPS, methods[m], STEIF_CALLBACK, "jac of problem 'wrong' stopped the run at t = 1");
+    if (m != 3) /* which keeps the Jacobian of the start */
+      fails(JAC_OVERFLOWS, methods[m], STEIF_BAD_INPUT,
+            "jac of problem 'wrong' filled 9 entries into room for 3: correct .nnz");
+  }
+}
+
+static void jacobians_of_nan_are_not_called_singular(void)
+{
+  for (int m = 0; m < METHODS; m++) {
+    const bool lanes = m < 3 || m == 4;
+    fails(JAC_NAN, methods[m], STEIF_NOT_FINITE,
+          lanes ? "entry (1, 1) (from 0) of the Jacobian of problem 'wrong' is nan"
+                : "A[1,1] (from 0) is nan: look at the function that fills A");
+  }
+}
+
+/* Where there is room, entries may come and go. */
+static void patterns_may_change(void)
+{
+  for (int m = 0; m < METHODS; m++) {
+    wrong w = {.fault = JAC_GROWS}, none = {.fault = NONE};
+    const steif_problem p = problem(&w), q = problem(&none);
+    steif_context *ctx = steif_context_new(NULL);
+    steif_solver *a = smooth_open(ctx, &p, methods[m], NULL),
+                 *b = smooth_open(ctx, &q, methods[m], NULL);
+    CHECK(!steif_solve_to(a, 2) && !steif_solve_to(b, 2));
+    CLOSE(NV_Ith_S(steif_solution(a), 0), NV_Ith_S(steif_solution(b), 0), 1e-5);
+    steif_solver_free(&a), steif_solver_free(&b);
+    steif_context_free(&ctx);
+  }
+}
+
+/* The start is shown at t0; nothing lies before it, and what lies before the last step is gone. */
+static void times_before_are_refused(void)
+{
+  static const double bad[] = {0.5, 1 - 1e-9, -INFINITY, NAN, 2.5};
+  for (int m = 0; m < METHODS; m++) {
+    wrong w = {.fault = NONE};
+    const steif_problem p = problem(&w);
+    steif_context *ctx = steif_context_new(NULL);
+    steif_solver *s = smooth_open(ctx, &p, methods[m], NULL);
+    CHECK(!steif_solve_to(s, 1) && NV_Ith_S(steif_solution(s), 0) == start[0]);
+    for (int i = 0; i < 5; i++) {
+      CHECK(steif_solve_to(s, bad[i]) == STEIF_BAD_INPUT);
+      CHECK(strstr(steif_message(ctx), "outside the interval [1, 2] of the run: set options.t1"));
+    }
+    CHECK(!steif_solve_to(s, 1.9));
+    CHECK(steif_solve_to(s, 1) == STEIF_BAD_INPUT);
+    CHECK(strstr(steif_message(ctx), "outside the last step"));
+    CHECK(!steif_solve_to(s, 2)); /* nothing is lost */
+    steif_solver_free(&s);
+    steif_context_free(&ctx);
+  }
+}
+
+/* Five rows of a chain, whose first equation hears the last unknown against its pattern. */
+enum { N = 5 };
+static int chain(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  (void)t, (void)user;
+  for (int i = 0; i < N; i++) NV_Ith_S(out, i) = -NV_Ith_S(y, i);
+  NV_Ith_S(out, 0) += 0.3 * NV_Ith_S(y, N - 1);
+  return 0;
+}
+
+static void missing_entries_are_found(void)
+{
+  static const sunindextype column[] = {0, 1, 2, 3, 4, 5}, row[] = {0, 1, 2, 3, 4};
+  static const sunrealtype y0[] = {1, 2, 3, 4, 5};
+  const steif_pattern diagonal = {column, row};
+  const steif_problem p = {.name = "chain",
+                           .n = N,
+                           .t1 = 1,
+                           .y0 = y0,
+                           .f = chain,
+                           .storage = STEIF_SPARSE,
+                           .pattern = &diagonal};
+  for (int m = 0; m < METHODS; m++)
+    smooth_refused(&p, methods[m], NULL, STEIF_BAD_INPUT, "misses entry (0, 4)");
+}
+
+/* A method of order 2 would need errors of 1e-18 in a step. */
+static void tolerances_beyond_a_method_are_refused(void)
+{
+  steif_options o = steif_defaults();
+  o.rtol = 1e-10;
+  smooth_refused(&smooth, "dirk:trbdf2", &o, STEIF_UNSUPPORTED,
+                 "'trbdf2' of order 2 cannot keep rtol = 1e-10");
+}
+
+CU_TestInfo tests_of_bad_input[] = {
+  {"callbacks that fail are named", callbacks_that_fail_are_named},
+  {"Jacobians of NaN are not called singular", jacobians_of_nan_are_not_called_singular},
+  {"patterns may change", patterns_may_change},
+  {"times before are refused", times_before_are_refused},
+  {"missing entries are found", missing_entries_are_found},
+  {"tolerances beyond a method are refused", tolerances_beyond_a_method_are_refused},
+  CU_TEST_INFO_NULL};
