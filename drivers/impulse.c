@@ -96,7 +96,7 @@ static int tell(struct call *call, const struct linear *l, const steif_structure
 {
   steif_report *r = steif_report_new(call->ctx), *sheet = steif_report_new(call->ctx);
   int code = r && sheet ? EXIT_OK : fail(call);
-  if (!code) impulse_fill(r, i), impulse_accuracy(r, l, i);
+  if (!code) impulse_fill(r, i), impulse_accuracy(r, l, i), impulse_outputs(r, l, i);
   if (!code && given(call, "--projectors"))
     code = l->n > SHOWN ? projected(call, l, s, r) : projectors(call, l, r);
   if (!code && given(call, "--vs")) impulse_against(call, l, word_of(call, "--vs", NULL), r);

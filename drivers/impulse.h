@@ -16,6 +16,10 @@ void impulse_rows(steif_report *r, const char *sheet, double t, const double *be
 /* Under "vs.": how far `method` comes from the same x(0-). */
 void impulse_against(const struct call *call, const struct linear *l, const char *method,
                      steif_report *r);
+/* Of systems with an output y = C x + D u: y(0+) and its impulses; y at t where x is known. */
+void impulse_outputs(steif_report *r, const struct linear *l, const steif_impulse *i);
+void impulse_output(steif_report *r, const char *name, const struct linear *l, double t,
+                    const double *x);
 /* EXIT_UNCERTIFIED after a sentence, or EXIT_OK. */
 int impulse_verdict(const struct call *call, const steif_impulse *i);
 

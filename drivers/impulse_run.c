@@ -19,7 +19,10 @@ struct record {
 static int jump(double t, const double *before, const steif_impulse *i, void *user)
 {
   struct record *k = user;
-  if (!k->jumps++) impulse_fill(k->shown, i), impulse_accuracy(k->shown, k->linear, i);
+  if (!k->jumps++) {
+    impulse_fill(k->shown, i), impulse_accuracy(k->shown, k->linear, i);
+    impulse_outputs(k->shown, k->linear, i);
+  }
   impulse_rows(k->shown, "jumps", t, before, i);
   if (k->call->csv) impulse_rows(k->sheet, "rows", t, before, i);
   if (!k->verdict) k->verdict = impulse_verdict(k->call, i);
@@ -40,6 +43,7 @@ static int step(double t, N_Vector x, void *user)
   if (t >= k->path.t1) {
     steif_report_real(k->shown, "t", t);
     steif_report_list(k->shown, "x", k->n, value);
+    impulse_output(k->shown, "y", k->linear, t, value);
   }
   return k->call->plot ? trajectory_keep(&k->path, t, x) : 0;
 }

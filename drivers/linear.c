@@ -172,6 +172,12 @@ static int read_forcing(struct call *call, struct linear *l)
   return EXIT_OK;
 }
 
+static int read_output(struct call *call, struct linear *l, const char *path)
+{
+  if (!ends(path, ".mat")) return EXIT_OK;
+  return steif_output_read(call->ctx, path, &l->C, &l->D) ? bad_file(call) : EXIT_OK;
+}
+
 int linear_open(struct call *call, struct linear *l, int from, bool start)
 {
   *l = (struct linear){0};
@@ -179,6 +185,7 @@ int linear_open(struct call *call, struct linear *l, int from, bool start)
                                               : from_collection(call, l, from);
   if (!code && start) code = read_x0(call, l);
   if (!code && start) code = read_forcing(call, l);
+  if (!code && start) code = read_output(call, l, call->word[from]);
   l->t0 = real_of(call, "--t0", l->t0);
   return code;
 }
@@ -197,6 +204,8 @@ void linear_close(struct call *call, struct linear *l)
 {
   if (l->system.E) SUNMatDestroy(l->system.E);
   if (l->system.F) SUNMatDestroy(l->system.F);
+  if (l->C) SUNMatDestroy(l->C);
+  if (l->D) SUNMatDestroy(l->D);
   steif_function_free(&l->function);
   steif_problem_clear(call->ctx, &l->problem);
   free(l->x0);

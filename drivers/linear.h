@@ -10,6 +10,7 @@ struct linear {
   steif_linear system;
   steif_problem problem; /* of the collection; its name is NULL otherwise */
   steif_function *function;
+  SUNMatrix C, D; /* of y = C x + D u in a .mat file; NULL: none */
   double *x0; /* --x0, or the start of the problem; NULL: none */
   double t0;
   sunindextype n;

@@ -146,6 +146,19 @@ if(NOT said MATCHES "without matio")
   expect(0 impulse space.mat --x0 x2.mtx --forcing steps.txt --json) # x = -f, c_0 = -N (x0 - x(0+))
   near(5 x_plus 1)
   near(12 impulses 0 0)
+  # y = C x + D u with C = [1 2; 0 4] and D = I: N x' + x = u = (5, 3 + t), x(0+) = (5 - 1, 3) from
+  # x(0-) = (3, 7), c_0 = (7 - 3, 0); y(0+) = C x(0+) + (5, 3), its impulse C c_0.
+  mat(output.mat E "\\0\\0\\1\\0" F "\\1\\0\\0\\1" C "\\1\\0\\2\\4" D "\\1\\0\\0\\1")
+  forcing(u.txt "5" "3 + t")
+  expect(0 impulse output.mat --x0 x2.mtx --forcing u.txt --json)
+  near(4 impulses 0 0)
+  near(15 y_plus 0)
+  near(15 y_plus 1)
+  near(4 y_impulses 0 0)
+  near(0 y_impulses 0 1)
+  expect(0 impulse output.mat --x0 x2.mtx --forcing u.txt --method radau:s=3 --t1 2 --json)
+  near(19 y 0) # x(2) = (4, 5): 14 + 5
+  near(25 y 1) # 20 + 5
   expect(2 impulse system.mat F.mtx --x0 x2.mtx ERR "holds both matrices. leave F.mtx out")
   expect(2 pencil system.mat --state-space ERR "tells by the name")
 endif()

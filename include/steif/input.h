@@ -37,6 +37,15 @@ STEIF_EXPORT int steif_system_read(steif_context *ctx, const char *path_E, const
  * M q''. *B NULL where there is none. */
 STEIF_EXPORT int steif_input_read(steif_context *ctx, const char *path, SUNMatrix *B);
 
+/* C and D of y = C x + D u beside them in a .mat file, NULL where there is none: C with a column for
+ * each of E (of a mechanical system, whose D is the damping, of q or of (q, v, l)), D with one for
+ * each of B, or of f without B. */
+STEIF_EXPORT int steif_output_read(steif_context *ctx, const char *path, SUNMatrix *C,
+                                   SUNMatrix *D);
+/* y = C x + D u, as many values as C has rows; D or u NULL: 0. For the impulses of y, x = c_i. */
+STEIF_EXPORT void steif_output_value(SUNMatrix C, SUNMatrix D, const sunrealtype *x,
+                                     const sunrealtype *u, sunrealtype *y);
+
 typedef struct steif_function steif_function;
 
 /* n expressions from a file (lines; # begins a comment; fewer lines than n is an error with the
@@ -62,6 +71,9 @@ STEIF_EXPORT void steif_function_free(steif_function **f);
 /* Fits steif_problem.g and steif_impulse_find, with the function as user data; right limits at
  * breakpoints. */
 STEIF_EXPORT int steif_function_value(sunrealtype t, int derivative, N_Vector g, void *function);
+/* u of f = B u, or f itself where there is no B: how many values, and these at t. */
+STEIF_EXPORT size_t steif_function_count(const steif_function *f);
+STEIF_EXPORT int steif_function_inputs(sunrealtype t, steif_function *f, sunrealtype *u);
 /* Declared breakpoints inside (t0, t1), ascending; returns how many there are. */
 STEIF_EXPORT size_t steif_function_breaks(const steif_function *f, sunrealtype t0, sunrealtype t1,
                                           size_t room, sunrealtype *times);

@@ -274,6 +274,13 @@ static void multiply(const steif_function *f, const sunrealtype *u, sunrealtype 
       g[f->row[k]] += f->entry[k] * u[j];
 }
 
+int steif_function_inputs(sunrealtype t, steif_function *f, sunrealtype *u)
+{
+  return f->samples.points ? stf_samples_value(f, t, 0, u) : expressions(f, t, 0, u);
+}
+
+size_t steif_function_count(const steif_function *f) { return (size_t)f->inputs; }
+
 int steif_function_value(sunrealtype t, int derivative, N_Vector g, void *function)
 {
   steif_function *f = function;

@@ -28,6 +28,13 @@ sunindextype stf_input_columns(SUNMatrix M);
 /* Dense or compressed by columns, finite; `name` for the sentence. */
 int stf_input_check(steif_context *ctx, SUNMatrix M, const char *name);
 
+/* Refuse a matrix of a file that has not so many rows and columns; why: "the size of E". */
+int stf_input_sized(steif_context *ctx, const char *path, const char *name, SUNMatrix M,
+                    sunindextype rows, sunindextype columns, const char *why);
+/* A variable of a MATLAB file that need not be there; a failure only when it is and cannot be
+ * read. */
+int stf_input_variable(steif_context *ctx, const char *path, const char *name, SUNMatrix *M);
+
 /* ---- Taylor arithmetic: c[k] = u^(k)(t) / k!, k = 0 .. n ------------------------------------- */
 
 enum { STF_ORDER = 64 };

@@ -9,9 +9,8 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-/* rows and columns of a matrix that must have them. */
-static int sized(steif_context *ctx, const char *path, const char *name, SUNMatrix M,
-                 sunindextype rows, sunindextype columns, const char *why)
+int stf_input_sized(steif_context *ctx, const char *path, const char *name, SUNMatrix M,
+                    sunindextype rows, sunindextype columns, const char *why)
 {
   STEIF_CHECK(stf_input_rows(M) == rows && stf_input_columns(M) == columns, ctx,
               STEIF_BAD_INPUT,
@@ -25,8 +24,8 @@ static int pair(steif_context *ctx, const char *path_E, const char *path_F, cons
                 SUNMatrix E, SUNMatrix F)
 {
   const sunindextype n = stf_input_rows(E);
-  STEIF_TRY(sized(ctx, path_E, "E", E, n, n, "that is, square"));
-  return sized(ctx, path_F, name_F, F, n, n, "the size of E");
+  STEIF_TRY(stf_input_sized(ctx, path_E, "E", E, n, n, "that is, square"));
+  return stf_input_sized(ctx, path_F, name_F, F, n, n, "the size of E");
 }
 
 /* ---- second order ---------------------------------------------------------------------------- */
@@ -112,11 +111,11 @@ static int mechanical(steif_context *ctx, const char *path, SUNMatrix *part, SUN
               "'%s' has M and no K; save M, D, K and G, of which D and G may be left out",
               path);
   const sunindextype n = stf_input_rows(part[MASS]);
-  STEIF_TRY(sized(ctx, path, "M", part[MASS], n, n, "that is, square"));
-  STEIF_TRY(sized(ctx, path, "K", part[STIFFNESS], n, n, "the size of M"));
-  if (part[DAMPING]) STEIF_TRY(sized(ctx, path, "D", part[DAMPING], n, n, "the size of M"));
+  STEIF_TRY(stf_input_sized(ctx, path, "M", part[MASS], n, n, "that is, square"));
+  STEIF_TRY(stf_input_sized(ctx, path, "K", part[STIFFNESS], n, n, "the size of M"));
+  if (part[DAMPING]) STEIF_TRY(stf_input_sized(ctx, path, "D", part[DAMPING], n, n, "the size of M"));
   const sunindextype m = part[CONSTRAINT] ? stf_input_rows(part[CONSTRAINT]) : 0;
-  if (m) STEIF_TRY(sized(ctx, path, "G", part[CONSTRAINT], m, n, "a column for each of M"));
+  if (m) STEIF_TRY(stf_input_sized(ctx, path, "G", part[CONSTRAINT], m, n, "a column for each of M"));
   const sunindextype all = 2 * n + m;
   *E = build(ctx, blocks_of_E, part, all, all);
   *F = *E ? build(ctx, blocks_of_F, part, all, all) : NULL;
@@ -125,8 +124,7 @@ static int mechanical(steif_context *ctx, const char *path, SUNMatrix *part, SUN
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
-/* A variable that need not be there; a failure only when it is and cannot be read. */
-static int variable(steif_context *ctx, const char *path, const char *name, SUNMatrix *M)
+int stf_input_variable(steif_context *ctx, const char *path, const char *name, SUNMatrix *M)
 {
   int found = 0;
   steif_forget(ctx);
@@ -147,8 +145,8 @@ static void negate(SUNMatrix M)
 static int first_order(steif_context *ctx, const char *path, SUNMatrix E, SUNMatrix *F)
 {
   SUNMatrix A = NULL;
-  STEIF_TRY(variable(ctx, path, "F", F));
-  const int code = variable(ctx, path, "A", &A);
+  STEIF_TRY(stf_input_variable(ctx, path, "F", F));
+  const int code = stf_input_variable(ctx, path, "A", &A);
   const bool both = A && *F, negated = A && !*F;
   if (negated) *F = A, A = NULL;
   if (A) SUNMatDestroy(A);
@@ -168,7 +166,7 @@ static int second_order(steif_context *ctx, const char *path, SUNMatrix *E, SUNM
   SUNMatrix part[PARTS] = {NULL};
   int code = STEIF_OK;
   for (int i = 0; i < PARTS && code == STEIF_OK; i++)
-    code = variable(ctx, path, names[i], part + i);
+    code = stf_input_variable(ctx, path, names[i], part + i);
   if (code == STEIF_OK)
     code = part[MASS]
              ? mechanical(ctx, path, part, E, F)
@@ -183,7 +181,7 @@ static int second_order(steif_context *ctx, const char *path, SUNMatrix *E, SUNM
 
 static int of_mat(steif_context *ctx, const char *path, SUNMatrix *E, SUNMatrix *F)
 {
-  STEIF_TRY(variable(ctx, path, "E", E));
+  STEIF_TRY(stf_input_variable(ctx, path, "E", E));
   return *E ? first_order(ctx, path, *E, F) : second_order(ctx, path, E, F);
 }
 
@@ -213,13 +211,13 @@ int steif_system_read(steif_context *ctx, const char *path_E, const char *path_F
 /* B in the rows of M q'' of the system in (q, v, l), where there is no E. */
 static int lift(steif_context *ctx, const char *path, SUNMatrix *part, SUNMatrix *B)
 {
-  STEIF_TRY(variable(ctx, path, "E", part + MASS));
+  STEIF_TRY(stf_input_variable(ctx, path, "E", part + MASS));
   if (part[MASS]) return STEIF_OK;
-  STEIF_TRY(variable(ctx, path, "M", part + MASS));
+  STEIF_TRY(stf_input_variable(ctx, path, "M", part + MASS));
   if (!part[MASS]) return STEIF_OK;
-  STEIF_TRY(variable(ctx, path, "G", part + CONSTRAINT));
+  STEIF_TRY(stf_input_variable(ctx, path, "G", part + CONSTRAINT));
   const sunindextype n = stf_input_rows(part[MASS]), columns = stf_input_columns(*B);
-  STEIF_TRY(sized(ctx, path, "B", *B, n, columns, "the rows of M"));
+  STEIF_TRY(stf_input_sized(ctx, path, "B", *B, n, columns, "the rows of M"));
   const sunindextype m = part[CONSTRAINT] ? stf_input_rows(part[CONSTRAINT]) : 0;
   part[INPUT] = *B;
   *B = build(ctx, blocks_of_B, part, 2 * n + m, columns);
@@ -230,7 +228,7 @@ int steif_input_read(steif_context *ctx, const char *path, SUNMatrix *B)
 {
   SUNMatrix part[PARTS + 1] = {NULL};
   STEIF_CHECK(B, ctx, STEIF_BAD_INPUT, "room for B is needed, got NULL");
-  STEIF_TRY(variable(ctx, path, "B", B));
+  STEIF_TRY(stf_input_variable(ctx, path, "B", B));
   if (!*B) return STEIF_OK;
   const int code = lift(ctx, path, part, B);
   for (int i = 0; i <= PARTS; i++)
