@@ -37,7 +37,7 @@ typedef struct steif_method_info {
   int order, stages;            /* 0: not one number (baselines) */
   unsigned claims;              /* enum steif_claim of table.h */
   unsigned forms;               /* enum steif_form accepted */
-  int adaptive;                 /* has an error estimate */
+  int adaptive;                 /* has an error estimate to choose steps by */
 } steif_method_info;
 
 /* Line i of the list: the parameter values that people use; STEIF_BAD_INPUT past the end leaves the

@@ -51,6 +51,7 @@ static const char *const fixed[] = {
   "rodas4p2",    "rodas5p",       "symeuler:first=q", "verlet:first=drift",
   "glm:ab,p=2",  "glm:ab,p=3",    "glm:ab,p=4",    "glm:am,p=2",    "glm:am,p=3", "glm:am,p=4",
   "glm:bdf,p=3", "glm:irks,p=1", "glm:irks,p=2", "glm:irks,p=3", "glm:irks,p=4",
+  "glm:dimsim1,p=3", "glm:dimsim1,p=4", "glm:dimsim2,p=3", "glm:dimsim2,p=4",
   "glm:nordsieck,of=bdf,p=2", "glm:nordsieck,of=bdf,p=4",
   "glm:nordsieck,of=am,p=3",  "glm:nordsieck,of=am,p=5",
 };

@@ -181,7 +181,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
               steif_form_name(form), p->name);
   step->adaptive = !o->mesh && !(o->h > 0);
   STEIF_CHECK(!step->adaptive || info.adaptive, s->ctx, STEIF_UNSUPPORTED,
-              "'%s' has no error estimate: give steps with h", s->method);
+              "'%s' has no error estimate to choose steps by: give steps with h", s->method);
   step->absolute = form == STEIF_DESCRIPTOR;
   if (!step->adaptive && !o->mesh) STEIF_TRY(equal_steps(s));
   const stf_space *space = &step->system.space;

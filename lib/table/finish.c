@@ -29,19 +29,17 @@ static void powers(const steif_glm *g, sunrealtype *M)
   }
 }
 
-/* The data where y' = lambda y, lambda = infinity: X_{n+1} = M(inf) X_n, h F = -C^{-1} U X_n. L
- * (rows x rows) with L L^T = Q Q^T + small, Q those data as functions of X_n; 1 where C is
- * singular. */
-static void weighting(const steif_glm *g, int rows, sunrealtype *L)
+/* The data where y' = lambda y, lambda = infinity, as functions of X_n: X_{n+1} = M(inf) X_n,
+ * h F = -C^{-1} U X_n. Q: (2 k + r) x k, 0 and false where C is singular. */
+static bool stiff_data(const steif_glm *g, sunrealtype *Q)
 {
   const int k = g->k, r = g->r;
-  const sunrealtype small = 1e-4;
   stf_complex C[STEIF_STAGES * STEIF_STAGES], F[STEIF_STAGES * STEIF_PAST];
-  sunrealtype Q[STF_LEAST * STEIF_PAST] = {0};
+  memset(Q, 0, (size_t)((2 * k + r) * k) * sizeof *Q);
   for (int i = 0; i < r * r; i++) C[i] = -g->C[i];
   for (int i = 0; i < r * k; i++) F[i] = g->U[i];
-  const bool regular = stf_solve(r, k, C, F, 0);
-  for (int j = 0; regular && j < k; j++) {
+  if (!stf_solve(r, k, C, F, 0)) return false;
+  for (int j = 0; j < k; j++) {
     for (int i = 0; i < k; i++) {
       Q[i * k + j] = g->V[i * k + j];
       for (int l = 0; l < r; l++)
@@ -50,6 +48,16 @@ static void weighting(const steif_glm *g, int rows, sunrealtype *L)
     }
     for (int l = 0; l < r; l++) Q[(k + l) * k + j] = (sunrealtype)creall(F[l * k + j]);
   }
+  return true;
+}
+
+/* L (rows x rows) with L L^T = Q Q^T + small, Q the stiff data; 1 where C is singular. */
+static void weighting(const steif_glm *g, int rows, sunrealtype *L)
+{
+  const int k = g->k;
+  const sunrealtype small = 1e-4;
+  sunrealtype Q[STF_LEAST * STEIF_PAST];
+  const bool regular = stiff_data(g, Q);
   for (int i = 0; i < rows; i++) /* Cholesky */
     for (int j = 0; j <= i; j++) {
       sunrealtype sum = i != j ? 0 : regular ? small : 1;
@@ -142,4 +150,41 @@ int stf_glm_powers(const steif_glm *g)
     for (int i = 0; i < g->k; i++)
       if (g->W[i * (g->order + 1) + highest] != 0) return highest;
   return 0;
+}
+
+static int radius(steif_context *ctx, int n, const sunrealtype *M, sunrealtype *most)
+{
+  long double copy[STEIF_PAST * STEIF_PAST];
+  stf_complex lambda[STEIF_STAGES];
+  int count;
+  for (int i = 0; i < n * n; i++) copy[i] = (long double)M[i];
+  STEIF_TRY(stf_eigen_values(ctx, n, copy, lambda, &count));
+  *most = 0;
+  for (int i = 0; i < count; i++) *most = fmax(*most, (sunrealtype)cabsl(lambda[i]));
+  return STEIF_OK;
+}
+
+/* X' = W z, z_j = d_j (X_{n+1}; h F; X_n), and the data are Q X_n. */
+int stf_glm_rescales(steif_context *ctx, const steif_glm *g, bool *damps)
+{
+  const int k = g->k, n = g->order + 1, data = 2 * k + g->r;
+  sunrealtype Q[STF_LEAST * STEIF_PAST], S[STEIF_PAST * STEIF_PAST] = {0}, d[STF_LEAST],
+    target[STEIF_PAST + 2] = {0}, step, change;
+  *damps = true;
+  if (!stiff_data(g, Q)) return STEIF_OK;
+  STEIF_TRY(radius(ctx, k, Q, &step));
+  for (int j = 0; j < n && step < 1; j++) {
+    bool found;
+    target[j] = 1;
+    STEIF_TRY(stf_glm_combination(ctx, g, target, false, d, &found));
+    target[j] = 0;
+    for (int m = 0; m < k && found; m++) {
+      sunrealtype sum = 0;
+      for (int i = 0; i < data; i++) sum += d[i] * Q[i * k + m];
+      for (int i = 0; i < k; i++) S[i * k + m] += g->W[i * n + j] * sum;
+    }
+  }
+  STEIF_TRY(radius(ctx, k, S, &change));
+  *damps = change < 1;
+  return STEIF_OK;
 }

@@ -33,6 +33,10 @@ void stf_glm_nordsieck(steif_glm *glm, int p);
 int stf_glm_combination(steif_context *ctx, const steif_glm *glm, const sunrealtype *target,
                         bool beyond, sunrealtype *d, bool *found);
 
+/* Does X <- W z, the history for another step, damp stiff components, rho < 1, where steps do, that
+ * is where rho(M(inf)) < 1? */
+int stf_glm_rescales(steif_context *ctx, const steif_glm *glm, bool *damps);
+
 /* The weights of the solution itself, with a sentence when there are none. */
 int stf_glm_solution(steif_context *ctx, const steif_glm *glm, sunrealtype *d);
 
@@ -42,6 +46,11 @@ int stf_glm_powers(const steif_glm *glm);
 /* X_0 from y(t_0 + i h / count), i = 0 .. count: weights k x (count + 1), stf_glm_powers <= count
  * <= order. */
 void stf_glm_first(const steif_glm *glm, int count, sunrealtype *weights);
+
+/* The DIMSIM of order and stage order p, p stages at i / (p - 1), U = 1, V = 1 v^T: W and D from
+ * lambda, the diagonal of C, and x, the rows of C below it and v_1 .. v_{p-1}; the v_i sum to 1.
+ * p <= 8. */
+void stf_glm_dimsim(steif_glm *glm, int p, long double lambda, const long double *x);
 
 /* Adams-Bashforth or Adams-Moulton of order p, X = (y_n, h f_n, h f_{n-1}, ..), with W. */
 void stf_glm_adams(steif_glm *glm, int p, bool implicit);

@@ -68,6 +68,9 @@ static void changing_steps_keep_the_order(void)
                                         "glm:nord22",
                                         "glm:dimsim1",
                                         "glm:dimsim2",
+                                        "glm:dimsim1,p=3",
+                                        "glm:dimsim1,p=4",
+                                        "glm:dimsim2,p=3",
                                         "glm:nordsieck,of=bdf,p=3",
                                         "glm:nordsieck,of=am,p=4",
                                         "glm:irks,p=1",
@@ -129,7 +132,8 @@ static void chosen_steps_meet_tolerances(void)
  * among them. */
 static void other_methods_choose_steps(void)
 {
-  static const char *const methods[] = {"glm:ab,p=3", "glm:ab,p=6", "glm:dimsim1", "glm:am,p=2",
+  static const char *const methods[] = {"glm:ab,p=3", "glm:ab,p=6", "glm:dimsim1", "glm:dimsim1,p=3",
+                                        "glm:dimsim1,p=4", "glm:am,p=2",
                                         "glm:am,p=3", "glm:am,p=4", "glm:am,p=6",  "glm:bdf,p=3",
                                         "glm:bdf,p=6"};
   steif_context *ctx = steif_context_new(NULL);
@@ -227,6 +231,7 @@ static void questions_without_sense_are_refused(void)
   implicit.f = NULL, implicit.F = residual, implicit.yp0 = y0;
   refuse(&implicit, "glm:ab,p=2", 0.1, STEIF_UNSUPPORTED, "has explicit stages");
   refuse(&rational, "rk4", 0, STEIF_UNSUPPORTED, "'rk4' has no error estimate");
+  refuse(&rational, "glm:dimsim2,p=3", 0, STEIF_UNSUPPORTED, "'glm:dimsim2,p=3' has no");
   refuse(&rational, "glm:bdf,p=7", 0.1, STEIF_BAD_INPUT, "not strictly stable");
   refuse(&rational, "glm:nord22,p=3", 0.1, STEIF_UNKNOWN_NAME, "no parameter 'p'");
   refuse(&rational, "glm:file=missing.glm", 0.1, STEIF_IO, "missing.glm");

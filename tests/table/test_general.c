@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "general.h"
 #include "suite.h"
+#include <complex.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,6 +48,10 @@ static const char *const all[] = {
   "nordsieck:of=am,p=6",
   "dimsim1",
   "dimsim2",
+  "dimsim1:p=3",
+  "dimsim1:p=4",
+  "dimsim2:p=3",
+  "dimsim2:p=4",
   "nord22",
   "irks:p=1",
   "irks:p=2",
@@ -285,6 +290,48 @@ static void runge_kutta_tables_are_general(void)
   steif_context_free(&ctx);
 }
 
+/* Butcher's tables of order 2 (Appl. Numer. Math. 11, 1993); M(z) of all has one eigenvalue besides 0:
+ * trace(M^j) = trace(M)^j, j = 1 .. k. */
+static void dimsims_have_one_eigenvalue(void)
+{
+  static const char *const names[] = {"dimsim1",     "dimsim2",     "dimsim1:p=3",
+                                      "dimsim2:p=3", "dimsim1:p=4", "dimsim2:p=4"};
+  const double r = sqrt(2), D[2][4] = {{1.25, .25, .75, -.25},
+                                       {(73 - 34 * r) / 28, (4 * r - 5) / 4, (87 - 48 * r) / 28,
+                                        (34 * r - 45) / 28}};
+  static const double points[][2] = {{-1.3, 0.7}, {0.2, -3.1}, {-40, 55}, {0.9, 0}};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int i = 0; i < 6; i++) {
+    steif_table *t = make(ctx, names[i]);
+    const steif_glm *g = t->general;
+    for (int e = 0; e < 4 && i < 2; e++) CLOSE(g->D[e], D[i][e], 1e-12);
+    for (int m = 0; m < 4; m++) {
+      double M[2 * 16];
+      double complex P[16], Q[16], one = 0, power = 1;
+      const int k = g->k;
+      CHECK(steif_glm_propagator(ctx, g, points[m], M) == STEIF_OK);
+      for (int e = 0; e < k * k; e++) P[e] = M[2 * e] + M[2 * e + 1] * I;
+      for (int e = 0; e < k; e++) one += P[e * (k + 1)];
+      double size = 0;
+      for (int e = 0; e < k * k; e++) size = fmax(size, cabs(P[e]));
+      for (int j = 1; j <= k; j++) {
+        double complex trace = 0;
+        for (int e = 0; e < k; e++) trace += P[e * (k + 1)];
+        power *= one;
+        CLOSE_FLOOR(cabs(trace - power), 0, 1e-11 * pow(k * size, j), 1);
+        for (int a = 0; a < k * k; a++) {
+          Q[a] = 0;
+          for (int b = 0; b < k; b++)
+            Q[a] += P[a / k * k + b] * (M[2 * (b * k + a % k)] + M[2 * (b * k + a % k) + 1] * I);
+        }
+        memcpy(P, Q, sizeof P);
+      }
+    }
+    steif_table_free(ctx, &t);
+  }
+  steif_context_free(&ctx);
+}
+
 static void refuse(steif_context *ctx, steif_glm *g, const char *words)
 {
   CHECK(steif_glm_complete(ctx, g) == STEIF_BAD_INPUT);
@@ -338,5 +385,6 @@ CU_TestInfo tests_of_general[] = {
   {"Gear's shorter vectors have their order", shorter_vectors_of_gear},
   {"Wright's formulas give nord22", formulas_of_wright_give_nord22},
   {"Runge-Kutta tables are general linear methods", runge_kutta_tables_are_general},
+  {"DIMSIMs have one eigenvalue", dimsims_have_one_eigenvalue},
   {"unstable and inconsistent ones are refused", unstable_and_inconsistent_ones_are_refused},
   CU_TEST_INFO_NULL};

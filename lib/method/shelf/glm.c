@@ -265,7 +265,7 @@ static int describe(steif_context *ctx, const steif_spec *spec, const steif_tabl
 {
   const steif_glm *g = table->general;
   sunrealtype target[POWERS + 1] = {0}, d[DATA];
-  bool estimates = false;
+  bool estimates = false, damps = true;
   (void)spec;
   info->family = "glm", info->about = table->about;
   info->order = g->order, info->stages = g->r, info->claims = table->claims;
@@ -274,8 +274,9 @@ static int describe(steif_context *ctx, const steif_spec *spec, const steif_tabl
     STEIF_TRY(stf_glm_combination(ctx, g, target, false, d, &estimates));
     target[g->order] = 0, target[g->order + 1] = g->error;
     if (!estimates) STEIF_TRY(stf_glm_combination(ctx, g, target, true, d, &estimates));
+    STEIF_TRY(stf_glm_rescales(ctx, g, &damps));
   }
-  info->adaptive = estimates && g->error != 0;
+  info->adaptive = estimates && damps && g->error != 0;
   return STEIF_OK;
 }
 
