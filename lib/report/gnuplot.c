@@ -76,6 +76,20 @@ static bool data(const steif_plot *plot, FILE *script)
   return any;
 }
 
+/* A frame as wide as it is high, around curves that may be a vertical line: the one of SVG. */
+static void frame(const steif_plot *plot, FILE *script)
+{
+  stf_axis x = {.p1 = 1}, y = {.p1 = 1};
+  char low[40], high[40];
+  stf_axis_range(&x, plot, false), stf_axis_range(&y, plot, true);
+  stf_axis_equal(&x, &y);
+  for (int k = 0; k < 2; k++) {
+    stf_report_number(low, sizeof low, 'g', 17, k ? y.lo : x.lo);
+    stf_report_number(high, sizeof high, 'g', 17, k ? y.hi : x.hi);
+    fprintf(script, "set %srange [%s:%s]\n", k ? "y" : "x", low, high);
+  }
+}
+
 static void script_of(const steif_plot *plot, FILE *script)
 {
   static const char *const style[] = {"lines", "linespoints", "points"};
@@ -86,6 +100,7 @@ static void script_of(const steif_plot *plot, FILE *script)
     fputs("plot NaN notitle\n", script);
     return;
   }
+  if (plot->equal) frame(plot, script);
   for (size_t k = 0; k < plot->count; k++) {
     const steif_curve *c = &plot->curve[k];
     fprintf(script, "%s $curve%zu using 1:2 with %s pt %zu lc rgb '%s' title ",

@@ -134,7 +134,8 @@ static int find(stf_growth *growth, steif_region *region)
   region->a_stable = alpha == right;
   region->alpha_deg = region->a_stable ? 90 : alpha * 90 / right;
   region->r_inf = stf_growth_at(growth, -INFINITY, 0) + 1;
-  region->l_stable = region->a_stable && region->r_inf < pow(DAMPED, 1.0 / growth->r);
+  if (region->r_inf < pow(DAMPED, 1.0 / growth->r)) region->r_inf = 0; /* nilpotent, rounded */
+  region->l_stable = region->a_stable && region->r_inf == 0;
   region->real_limit = alpha > 0 ? INFINITY : reach(growth, 0);
   region->imag_limit = region->a_stable ? INFINITY : reach(growth, right);
   return growth->code;
