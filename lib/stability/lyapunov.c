@@ -76,7 +76,7 @@ static int straighten(spectrum *s)
     "a direction of the variational equation of '%s' vanished or overflowed in the step "
     "of %s to t = %.12g: take a smaller h, or fewer exponents",
     v->problem->name, v->method, v->t);
-  stf_renormalise(v->g->k * v->d, v->m, s->R, v->X);
+  stf_renormalise(v->g->k * v->d, v->m, s->R, v->X, &v->algebra);
   return STEIF_OK;
 }
 

@@ -1,27 +1,30 @@
 /* qr.c: dense algebra by rows: LU, the R of Q R, right division.
  *
- * Plain loops beat calls of LAPACK for small orders. Above, an array by rows is the transpose by
- * columns: A X = B becomes X^T A^T = B^T, W = Q R becomes W^T = R^T Q^T, and X R^{-1} a solve with
- * R^T from the left.
+ * Loops along rows (rows.h) beat calls of LAPACK for small orders. Above, an array by rows is the
+ * transpose by columns: A X = B becomes X^T A^T = B^T, W = Q R becomes W^T = R^T Q^T, and X R^{-1}
+ * a solve with R^T from the left.
  *
- * Exponents do not ask for the R of an exact Q R: X <- X R^{-1} keeps the product of all steps equal to
- * X_n R_n ... R_1 whatever the triangles R_i are, and the triangle that X_n itself still hides enters
- * once, at the end, over the length of the run. So R comes from Cholesky's W^T W = R^T R, twice
- * as fast as reflections and wrong by eps cond(W)^2, while the diagonal of R shows W to be well
- * conditioned, and from Householder's reflections otherwise.
+ * Exponents do not ask for the R of an exact Q R: X <- X R^{-1} keeps the product of all steps
+ * equal to X_n R_n ... R_1 whatever the triangles R_i are, and the triangle that X_n itself still
+ * hides enters once, at the end, over the length of the run. So R comes from Cholesky's
+ * W^T W = R^T R, faster than reflections and wrong by eps cond(W)^2, while the diagonal of R shows
+ * W to be well conditioned, and from Householder's reflections otherwise.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "blas.h"
+#include "rows.h"
 #include "variation.h"
 #include <math.h>
 #include <string.h>
 
-enum { SMALL = 16, BLOCK = 64 }; /* orders of loops; LAPACK's columns at a time */
+enum { SMALL = 64, TINY = 16 }; /* orders of loops, of reflections in loops */
+enum { BLOCK = 64 };            /* LAPACK's columns at a time */
 /* Diagonal entries of R further apart than this are left to reflections: eps SPREAD^2 < 1e-12. */
 #define SPREAD 64.0
 
 int stf_algebra_open(stf_pool *pool, int n, int d, int m, stf_algebra *room)
 {
+  room->rows = stf_rows_best();
   const int most = n > d ? n : d, wide = most > BLOCK ? BLOCK : most;
   room->length = m + m * wide;
   room->pivot = stf_claim(pool, (size_t)most, sizeof *room->pivot);
@@ -37,14 +40,6 @@ static void swap_rows(int n, sunrealtype *a, sunrealtype *b)
     const sunrealtype kept = a[j];
     a[j] = b[j], b[j] = kept;
   }
-}
-
-static int pivot_row(int n, const sunrealtype *A, int k)
-{
-  int best = k;
-  for (int i = k + 1; i < n; i++)
-    if (fabs(A[i * n + k]) > fabs(A[best * n + k])) best = i;
-  return best;
 }
 
 /* The transpose by columns: A^T = P L U. */
@@ -70,73 +65,20 @@ static void large_substitute(int n, int m, const sunrealtype *A, sunrealtype *B,
   }
 }
 
-/* Multipliers below the diagonal, reciprocals of the pivots on it. */
 bool stf_factor(int n, sunrealtype *A, const stf_algebra *room)
 {
-  if (n > SMALL) return large_factor(n, A, room);
-  for (int k = 0; k < n; k++) {
-    const int p = room->pivot[k] = pivot_row(n, A, k);
-    if (p != k) swap_rows(n, A + p * n, A + k * n);
-    if (!(fabs(A[k * n + k]) > 0)) return false;
-    const sunrealtype r = A[k * n + k] = 1 / A[k * n + k];
-    for (int i = k + 1; i < n; i++) {
-      const sunrealtype q = A[i * n + k] *= r;
-      if (q == 0) continue;
-      for (int j = k + 1; j < n; j++) A[i * n + j] -= q * A[k * n + j];
-    }
-  }
-  return true;
+  return n > SMALL ? large_factor(n, A, room) : room->rows->factor(n, A, room->pivot);
 }
 
 void stf_substitute(int n, int m, const sunrealtype *A, sunrealtype *B, const stf_algebra *room)
 {
-  if (n > SMALL) {
+  if (n > SMALL)
     large_substitute(n, m, A, B, room);
-    return;
-  }
-  for (int k = 0; k < n; k++) {
-    const int p = room->pivot[k];
-    if (p != k) swap_rows(m, B + p * m, B + k * m);
-  }
-  for (int i = 1; i < n; i++)
-    for (int l = 0; l < i; l++) {
-      const sunrealtype q = A[i * n + l];
-      for (int j = 0; j < m && q != 0; j++) B[i * m + j] -= q * B[l * m + j];
-    }
-  for (int i = n; i-- > 0;) {
-    for (int l = i + 1; l < n; l++) {
-      const sunrealtype q = A[i * n + l];
-      for (int j = 0; j < m && q != 0; j++) B[i * m + j] -= q * B[l * m + j];
-    }
-    for (int j = 0; j < m; j++) B[i * m + j] *= A[i * n + i];
-  }
+  else
+    room->rows->substitute(n, m, A, room->pivot, B);
 }
 
 /* ---- R by W^T W ---- */
-
-/* The upper triangle of W^T W. */
-static void gram(int d, int m, const sunrealtype *W, sunrealtype *G)
-{
-  for (int a = 0; a < m; a++)
-    for (int b = a; b < m; b++) G[a * m + b] = 0;
-  for (int i = 0; i < d; i++, W += m)
-    for (int a = 0; a < m; a++)
-      for (int b = a; b < m; b++) G[a * m + b] += W[a] * W[b];
-}
-
-/* G = R^T R in place. */
-static bool cholesky(int m, sunrealtype *G)
-{
-  for (int j = 0; j < m; j++) {
-    if (!(G[j * m + j] > 0)) return false;
-    const sunrealtype size = sqrt(G[j * m + j]), r = 1 / size;
-    G[j * m + j] = size;
-    for (int k = j + 1; k < m; k++) G[j * m + k] *= r;
-    for (int i = j + 1; i < m; i++)
-      for (int k = i; k < m; k++) G[i * m + k] -= G[j * m + i] * G[j * m + k];
-  }
-  return true;
-}
 
 static bool large_squares(int d, int m, const sunrealtype *W, sunrealtype *R)
 {
@@ -148,14 +90,10 @@ static bool large_squares(int d, int m, const sunrealtype *W, sunrealtype *R)
 }
 
 /* False as well where W is too ill-conditioned, or its squares leave the range of numbers. */
-static bool by_squares(int d, int m, const sunrealtype *W, sunrealtype *R)
+static bool by_squares(int d, int m, const sunrealtype *W, sunrealtype *R,
+                       const stf_algebra *room)
 {
-  if (d > SMALL && m > 1) {
-    if (!large_squares(d, m, W, R)) return false;
-  } else {
-    gram(d, m, W, R);
-    if (!cholesky(m, R)) return false;
-  }
+  if (!(m > SMALL ? large_squares(d, m, W, R) : room->rows->squares(d, m, W, R))) return false;
   sunrealtype least = INFINITY, most = 0;
   for (size_t j = 0; j < (size_t)m; j++) {
     const sunrealtype r = R[j * (size_t)m + j];
@@ -211,7 +149,7 @@ static bool large_reflections(int d, int m, sunrealtype *W, sunrealtype *R,
 static bool by_reflections(int d, int m, sunrealtype *W, sunrealtype *R,
                            const stf_algebra *room)
 {
-  if (d > SMALL && m > 1) return large_reflections(d, m, W, R, room);
+  if (d > TINY && m > 1) return large_reflections(d, m, W, R, room);
   for (int j = 0; j < m; j++) {
     const sunrealtype size = length(d, m, W, j);
     if (!(size > 0) || isinf(size)) return false;
@@ -225,23 +163,17 @@ static bool by_reflections(int d, int m, sunrealtype *W, sunrealtype *R,
 bool stf_triangle(int d, int m, const sunrealtype *W, sunrealtype *spare, sunrealtype *R,
                   const stf_algebra *room)
 {
-  if (by_squares(d, m, W, R)) return true;
+  if (by_squares(d, m, W, R, room)) return true;
   if (spare != W) memcpy(spare, W, (size_t)d * (size_t)m * sizeof *W);
   return by_reflections(d, m, spare, R, room);
 }
 
-void stf_renormalise(int rows, int m, const sunrealtype *R, sunrealtype *X)
+void stf_renormalise(int rows, int m, const sunrealtype *R, sunrealtype *X,
+                     const stf_algebra *room)
 {
   const sunrealtype one = 1;
-  sunrealtype reciprocal[SMALL];
-  if (m > SMALL || (rows > SMALL && m > 1)) {
+  if (m > SMALL)
     dtrsm_("L", "L", "N", "N", &m, &rows, &one, R, &m, X, &m, 1, 1, 1, 1);
-    return;
-  }
-  for (int j = 0; j < m; j++) reciprocal[j] = 1 / R[j * m + j];
-  for (int i = 0; i < rows; i++, X += m)
-    for (int j = 0; j < m; j++) {
-      X[j] *= reciprocal[j];
-      for (int k = j + 1; k < m; k++) X[k] -= X[j] * R[j * m + k];
-    }
+  else
+    room->rows->divide(rows, m, R, X);
 }

@@ -57,7 +57,7 @@ static int burn(underlying *u, long steps)
       "a direction vanished or overflowed in the step of %s to t = %.12g: begin with other "
       "columns, or take a smaller h",
       v->method, v->t);
-    stf_renormalise(v->g->k * v->d, v->m, u->R, v->X);
+    stf_renormalise(v->g->k * v->d, v->m, u->R, v->X, &v->algebra);
   }
   return STEIF_OK;
 }

@@ -18,6 +18,7 @@
 typedef struct stf_algebra {
   int *pivot, length; /* of work */
   sunrealtype *work;
+  const struct stf_rows *rows;
 } stf_algebra;
 int stf_algebra_open(stf_pool *pool, int n, int d, int m, stf_algebra *room);
 
@@ -106,6 +107,7 @@ void stf_substitute(int n, int m, const sunrealtype *A, sunrealtype *B,
 bool stf_triangle(int d, int m, const sunrealtype *W, sunrealtype *spare, sunrealtype *R,
                   const stf_algebra *room);
 /* X := X R^{-1}, X (rows x m). */
-void stf_renormalise(int rows, int m, const sunrealtype *R, sunrealtype *X);
+void stf_renormalise(int rows, int m, const sunrealtype *R, sunrealtype *X,
+                     const stf_algebra *room);
 
 #endif
