@@ -39,6 +39,7 @@ static int allocate(const stf_pattern *u, const klu_l_numeric *f, stf_sequence *
   q->equation = stf_allocate(q->ctx, n, sizeof *q->equation);
   q->unknown = stf_allocate(q->ctx, n, sizeof *q->unknown);
   q->place = stf_allocate(q->ctx, n, sizeof *q->place);
+  q->run = stf_allocate(q->ctx, n, sizeof *q->run);
   q->lower = stf_allocate(q->ctx, n + 1, wide), q->upper = stf_allocate(q->ctx, n + 1, wide);
   q->below = stf_allocate(q->ctx, (size_t)f->lnz - n, sizeof *q->below);
   q->above = stf_allocate(q->ctx, (size_t)f->unz - n, sizeof *q->above);
@@ -48,7 +49,7 @@ static int allocate(const stf_pattern *u, const klu_l_numeric *f, stf_sequence *
   q->across = stf_allocate(q->ctx, nnz, sizeof *q->across);
   q->e = stf_allocate(q->ctx, 2 * nnz, sizeof *q->e), q->row_e = q->e ? q->e + nnz : NULL;
   q->a = stf_allocate(q->ctx, 2 * nnz, sizeof *q->a), q->row_a = q->a ? q->a + nnz : NULL;
-  return q->first && q->equation && q->unknown && q->place && q->lower && q->upper &&
+  return q->first && q->equation && q->unknown && q->place && q->run && q->lower && q->upper &&
              q->below && q->above && q->column && q->inner && q->row && q->entry && q->across &&
              q->e && q->a
            ? STEIF_OK
@@ -76,6 +77,20 @@ static void convert(const extract *x, stf_sequence *q)
     q->place[x->p[k]] = k;
   }
   for (int b = 0; b <= q->blocks; b++) q->first[b] = (int)x->r[b];
+}
+
+/* Column k of L has rows k + 1 and those of column k + 1. */
+static bool continues(const stf_sequence *q, int k)
+{
+  const SuiteSparse_long from = q->lower[k], next = q->lower[k + 1], end = q->lower[k + 2];
+  return next - from == end - next + 1 && q->below[from] == k + 1 &&
+         !memcmp(q->below + from + 1, q->below + next, (size_t)(end - next) * sizeof *q->below);
+}
+
+static void find_runs(stf_sequence *q)
+{
+  q->run[q->n - 1] = 1;
+  for (int k = q->n - 2; k >= 0; k--) q->run[k] = continues(q, k) ? q->run[k + 1] + 1 : 1;
 }
 
 /* Where columns and rows begin; entries above the block of their column stand behind the others. */
@@ -135,9 +150,12 @@ static int build(steif_pencil *p, int slot, stf_pool *pool, stf_sequence *q)
   STEIF_TRY(claim(pool, f, symbolic, &x));
   STEIF_TRY(allocate(stf_sparse_pattern(p), f, q));
   klu_l_defaults(&common);
+  STEIF_CHECK(klu_zl_sort(symbolic, f, &common), q->ctx, STEIF_NO_MEMORY,
+              "no memory to sort factors of %d unknowns", q->n);
   klu_zl_extract(f, symbolic, x.lp, x.li, x.values, x.values, x.up, x.ui, x.values, x.values,
                  NULL, NULL, NULL, NULL, x.p, x.q, NULL, x.r, &common);
   convert(&x, q);
+  find_runs(q);
   arrange(stf_sparse_pattern(p), q);
   stf_sequence_fill(p, q);
   q->growth = stf_sparse_growth(p, slot);
@@ -162,9 +180,9 @@ void stf_sequence_close(stf_sequence **sequence)
 {
   stf_sequence *q = *sequence;
   if (!q) return;
-  void *const block[] = {q->first, q->equation, q->unknown, q->place,  q->lower,
-                         q->upper, q->below,    q->above,   q->column, q->inner,
-                         q->entry, q->row,      q->across,  q->e,      q->a};
+  void *const block[] = {q->first, q->equation, q->unknown, q->place,  q->run,   q->lower,
+                         q->upper, q->below,    q->above,   q->column, q->inner, q->entry,
+                         q->row,   q->across,   q->e,       q->a};
   steif_context *ctx = q->ctx;
   for (size_t i = 0; i < sizeof block / sizeof *block; i++) stf_release(ctx, block[i]);
   stf_release(ctx, q);

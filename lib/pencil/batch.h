@@ -22,9 +22,11 @@ typedef struct stf_sequence {
   int *equation, *unknown;         /* at each place */
   int *place;                      /* of each equation */
   SuiteSparse_long *lower, *upper; /* column k of L below, of U above the diagonal */
-  int *below, *above;              /* their rows */
+  int *below, *above;              /* their rows, ascending */
+  int *
+    run; /* so many columns of L from k on have the rows of the last of them, and those between */
   SuiteSparse_long *column,
-    *inner;                      /* of s E - A: entries of column k, first those of its block */
+    *inner;                      /* of s E - A: entries of column k, those of its block first */
   int *entry;                    /* their rows */
   SuiteSparse_long *row;         /* the same matrix by rows */
   int *across;                   /* their columns */
@@ -52,7 +54,8 @@ typedef struct stf_batch {
   double *l, *u, *pivot; /* factors; pivot: reciprocal diagonal of U */
   double *x, *r;         /* n each: the solution; scratch, in the end the residual */
   bool good[STF_LANES];  /* pivots were finite, not 0, and as large as was asked for */
-  double growth[STF_LANES], log_det[STF_LANES]; /* growth: reciprocal, 1 unless asked for; 0: none */
+  double growth[STF_LANES],
+    log_det[STF_LANES]; /* growth: reciprocal, 1 unless asked for; 0: none */
   double
     error[STF_LANES]; /* root mean square of the rows' backward errors, when last looked at */
   int solves[STF_LANES]; /* of the last right-hand side */

@@ -9,6 +9,9 @@
 #include <math.h>
 #include <stdint.h>
 
+/* Columns of L that are taken together, at most. */
+enum { RUN = 4 };
+
 /* Of a double. */
 enum { BIAS = 1023, EXPONENT = 2047, MANTISSA = 52 };
 
@@ -36,17 +39,60 @@ INLINE void size(const v4 *z, v4 *size)
   *size = (v4)((i4)z[0] & sign) + (v4)((i4)z[1] & sign);
 }
 
-/* x_i -= a_i z for the rows of a list. */
-INLINE void minus(SuiteSparse_long count, const int *row, const double *a, const v4 *z,
-                  double *x)
+/* x_i -= sum_t a[t]_i z_t over `run` columns for the rows of a list. */
+INLINE void minus(const int run, SuiteSparse_long count, const int *row, const double *const *a,
+                  const v4 *z, double *x)
 {
-  const v4 re = z[0], im = z[1];
+  v4 re[RUN], im[RUN];
+  for (int t = 0; t < run; t++) re[t] = z[2 * t], im[t] = z[2 * t + 1];
   for (SuiteSparse_long p = 0; p < count; p++) {
-    const v4 *from = at(a, p);
-    v4 *to = at(x, row[p]);
-    to[0] = to[0] - from[0] * re + from[1] * im;
-    to[1] = to[1] - from[0] * im - from[1] * re;
+    v4 *to = at(x, row[p]), sum[2] = {to[0], to[1]};
+    for (int t = 0; t < run; t++) {
+      const v4 *from = at(a[t], p);
+      sum[0] = sum[0] - from[0] * re[t] + from[1] * im[t];
+      sum[1] = sum[1] - from[0] * im[t] - from[1] * re[t];
+    }
+    to[0] = sum[0], to[1] = sum[1];
   }
+}
+
+INLINE void minus_one(SuiteSparse_long count, const int *row, const double *a, const v4 *z,
+                      double *x)
+{
+  minus(1, count, row, &a, z, x);
+}
+
+/* x -= L z for columns j .. j + run - 1 of L, which have the same rows below: z are those entries of
+ * x itself, each after the columns before it. */
+INLINE void columns(const int run, const stf_batch *b, int j, double *x, v4 *z)
+{
+  const stf_sequence *q = b->sequence;
+  const double *a[RUN];
+  for (int t = 0; t < run; t++) {
+    const v4 *from = at(x, j + t);
+    z[2 * t] = from[0], z[2 * t + 1] = from[1];
+    a[t] = (const double *)at(b->l, q->lower[j + t]);
+    minus_one(run - 1 - t, q->below + q->lower[j + t], a[t], z + 2 * t, x);
+    a[t] = (const double *)at(a[t], run - 1 - t);
+  }
+  const int last = j + run - 1;
+  minus(run, q->lower[last + 1] - q->lower[last], q->below + q->lower[last], a, z, x);
+}
+
+/* As many columns from j on as may go together, of those that are left; returns how many went. */
+INLINE int together(const stf_batch *b, int j, SuiteSparse_long left, double *x, v4 *z)
+{
+  const SuiteSparse_long run = left < b->sequence->run[j] ? left : b->sequence->run[j];
+  if (run >= 4) {
+    columns(4, b, j, x, z);
+    return 4;
+  }
+  if (run >= 2) {
+    columns(2, b, j, x, z);
+    return 2;
+  }
+  columns(1, b, j, x, z);
+  return 1;
 }
 
 /* ---- factors --------------------------------------------------------------------------------- */
@@ -107,13 +153,8 @@ INLINE void column(stf_batch *b, int k, const v4 *s, const bool watched, record 
   const stf_sequence *q = b->sequence;
   double *x = b->r;
   assemble(q, k, s, x);
-  for (SuiteSparse_long p = q->upper[k]; p < q->upper[k + 1]; p++) {
-    const int j = q->above[p];
-    v4 *u = at(b->u, p), *from = at(x, j);
-    u[0] = from[0], u[1] = from[1];
-    minus(q->lower[j + 1] - q->lower[j], q->below + q->lower[j],
-          (const double *)at(b->l, q->lower[j]), u, x);
-  }
+  for (SuiteSparse_long p = q->upper[k]; p < q->upper[k + 1];)
+    p += together(b, q->above[p], q->upper[k + 1] - p, x, at(b->u, p));
   const v4 *z = at(x, k), square = z[0] * z[0] + z[1] * z[1];
   const v4 re = z[0] / square, im = -z[1] / square;
   v4 *pivot = at(b->pivot, k);
@@ -173,10 +214,8 @@ INLINE void load(const stf_batch *b, const stf_polynomial *g, double *x)
 
 INLINE void forward(const stf_batch *b, int first, int end, double *x)
 {
-  const stf_sequence *q = b->sequence;
-  for (int k = first; k < end; k++)
-    minus(q->lower[k + 1] - q->lower[k], q->below + q->lower[k],
-          (const double *)at(b->l, q->lower[k]), at(x, k), x);
+  v4 z[2 * RUN];
+  for (int k = first; k < end;) k += together(b, k, end - k, x, z);
 }
 
 /* Back through U, and what the unknowns of a block give to equations before it. */
@@ -188,8 +227,8 @@ INLINE void backward(const stf_batch *b, int first, int end, const v4 *s, double
     const v4 *d = at(b->pivot, k), re = here[0] * d[0] - here[1] * d[1];
     const v4 im = here[0] * d[1] + here[1] * d[0];
     here[0] = re, here[1] = im;
-    minus(q->upper[k + 1] - q->upper[k], q->above + q->upper[k],
-          (const double *)at(b->u, q->upper[k]), here, x);
+    minus_one(q->upper[k + 1] - q->upper[k], q->above + q->upper[k],
+              (const double *)at(b->u, q->upper[k]), here, x);
     for (SuiteSparse_long p = q->inner[k]; p < q->column[k + 1]; p++) {
       const v4 m[2] = {s[0] * q->e[p] - q->a[p], s[1] * q->e[p]};
       v4 *to = at(x, q->entry[p]);
