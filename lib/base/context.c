@@ -28,7 +28,7 @@ static void widen(void *block, size_t bytes)
   enum { HUGE = 1 << 21 };
   const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), from = (uintptr_t)block;
   const uintptr_t first = (from + page - 1) / page * page, end = (from + bytes) / page * page;
-  if (bytes >= 2 * HUGE) madvise((void *)first, end - first, MADV_HUGEPAGE);
+  if (bytes >= HUGE) madvise((void *)first, end - first, MADV_HUGEPAGE);
 }
 #else
 static void widen(void *block, size_t bytes) { (void)block, (void)bytes; }

@@ -281,8 +281,8 @@ static void work(void *task, int i)
   const int from = now->done + i * STF_LANES;
   for (int q = 0; q < STF_LANES; q++) /* lanes that are left over repeat the last node */
     b->s[q] = node(c, now->visit[from + q < now->count ? from + q : now->count - 1]);
-  stf_batch_factor(b, c->careful ? c->sequence->growth : 0);
-  if (now->g) stf_batch_solve(b, now->g, c->careful ? c->refinements : 0, STF_STEADY);
+  stf_batch_factor(b, c->careful ? c->sequence->growth : 0, now->g);
+  if (now->g) stf_batch_refine(b, now->g, c->careful ? c->refinements : 0, STF_STEADY);
 }
 
 static void join(pass *now, const stf_batch *b, int from, bool first)

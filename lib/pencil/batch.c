@@ -210,15 +210,15 @@ void stf_batch_close(stf_batch *b)
   b->memory = NULL;
 }
 
-void stf_batch_factor(stf_batch *b, double growth)
+void stf_batch_factor(stf_batch *b, double growth, const stf_polynomial *g)
 {
-  stf_sweeps_here()->factor(b, growth > 0);
-  for (int q = 0; q < STF_LANES; q++) b->good[q] &= !(b->growth[q] < growth);
-}
-
-void stf_batch_load(const stf_batch *b, const stf_polynomial *g, double *x)
-{
-  stf_sweeps_here()->load(b, g, x);
+  const stf_sweeps *with = stf_sweeps_here();
+  if (g) with->load(b, g, b->x);
+  with->factor(b, growth > 0, g != NULL);
+  for (int q = 0; q < STF_LANES; q++) {
+    b->good[q] &= !(b->growth[q] < growth);
+    b->solves[q] = g != NULL;
+  }
 }
 
 /* Lanes decide each for itself, so that they do not depend on their neighbours. */
@@ -233,13 +233,10 @@ static bool unsteady(stf_batch *b, bool anyway, double steady, bool *again)
   return any;
 }
 
-void stf_batch_solve(stf_batch *b, const stf_polynomial *g, int sweeps, double steady)
+void stf_batch_refine(stf_batch *b, const stf_polynomial *g, int sweeps, double steady)
 {
   const stf_sweeps *with = stf_sweeps_here();
   bool again[STF_LANES];
-  with->load(b, g, b->x);
-  with->solve(b, b->x);
-  for (int q = 0; q < STF_LANES; q++) b->solves[q] = 1;
   if (!sweeps) with->residual(b, g);
   for (int sweep = 0; sweep < sweeps; sweep++) {
     with->load(b, g, b->r);

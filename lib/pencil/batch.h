@@ -65,14 +65,12 @@ typedef struct stf_batch {
 int stf_batch_open(const stf_sequence *sequence, stf_batch *batch);
 void stf_batch_close(stf_batch *batch);
 
-/* Factor at the shifts s, all lanes of them. Pivots below `growth` times the largest of their column
- * make a lane bad; 0: anything but 0 and overflow serves. */
-void stf_batch_factor(stf_batch *batch, double growth);
-/* Right-hand sides of all lanes. */
-void stf_batch_load(const stf_batch *batch, const stf_polynomial *b, double *x);
-/* x from b. Up to `sweeps` steps of refinement while the backward error is above `steady`; one
- * anyway. */
-void stf_batch_solve(stf_batch *batch, const stf_polynomial *b, int sweeps, double steady);
+/* Factor at the shifts s, all lanes of them, and x from g, unless it is NULL. Pivots below `growth`
+ * times the largest of their column make a lane bad; 0: anything but 0 and overflow serves. */
+void stf_batch_factor(stf_batch *batch, double growth, const stf_polynomial *g);
+/* Up to `sweeps` steps of refinement of x while the backward error is above `steady`, one anyway;
+ * sweeps 0: the error alone. */
+void stf_batch_refine(stf_batch *batch, const stf_polynomial *g, int sweeps, double steady);
 
 /* residual.c: r, which comes as b, becomes b - (s E - A) x, and error: E x and A x in twice the
  * precision, so that refinement finds x to rounding where the pencil is ill conditioned. */
@@ -80,7 +78,7 @@ void stf_batch_residual(stf_batch *batch);
 
 /* The loops for the processor that is there (sweep.c). */
 typedef struct stf_sweeps {
-  void (*factor)(stf_batch *b, bool watch);
+  void (*factor)(stf_batch *b, bool watched, bool solving);
   void (*load)(const stf_batch *b, const stf_polynomial *g, double *x);
   void (*solve)(const stf_batch *b, double *x);
   void (*residual)(stf_batch *b, const stf_polynomial *g);

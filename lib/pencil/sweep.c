@@ -148,7 +148,7 @@ INLINE void multiply(record *now, const v4 *square)
   now->product = (v4)((bits & ((INT64_C(1) << MANTISSA) - 1)) | (i4)((v4){0} + 1));
 }
 
-INLINE void column(stf_batch *b, int k, const v4 *s, const bool watched, record *now)
+INLINE void column(stf_batch *b, int k, const v4 *s, bool watched, record *now)
 {
   const stf_sequence *q = b->sequence;
   double *x = b->r;
@@ -164,20 +164,6 @@ INLINE void column(stf_batch *b, int k, const v4 *s, const bool watched, record 
   for (SuiteSparse_long p = q->lower[k]; p < q->lower[k + 1]; p++) {
     v4 *l = at(b->l, p), *from = at(x, q->below[p]);
     l[0] = from[0] * re - from[1] * im, l[1] = from[0] * im + from[1] * re;
-  }
-}
-
-INLINE void factor(stf_batch *b, const bool watched)
-{
-  const v4 one = (v4){0} + 1;
-  record now = {one, one, {0}, {0}};
-  v4 s[2];
-  shifts(b, s);
-  for (int k = 0; k < b->sequence->n; k++) column(b, k, s, watched, &now);
-  for (int q = 0; q < STF_LANES; q++) {
-    b->good[q] = !now.bad[q];
-    b->growth[q] = now.bad[q] ? 0 : sqrt(now.least[q]);
-    b->log_det[q] = 0.5 * (log(now.product[q]) + (double)now.exponent[q] * log(2));
   }
 }
 
@@ -249,6 +235,28 @@ INLINE void solve(const stf_batch *b, double *x)
   }
 }
 
+/* Factors, and the solution while they are in the cache. */
+INLINE void factor(stf_batch *b, bool watched, bool solving)
+{
+  const stf_sequence *q = b->sequence;
+  const v4 one = (v4){0} + 1;
+  record now = {one, one, {0}, {0}};
+  v4 s[2];
+  shifts(b, s);
+  for (int i = q->blocks - 1; i >= 0; i--) {
+    for (int k = q->first[i]; k < q->first[i + 1]; k++) {
+      column(b, k, s, watched, &now);
+      if (solving) columns(1, b, k, b->x, (v4[2]){{0}});
+    }
+    if (solving) backward(b, q->first[i], q->first[i + 1], s, b->x);
+  }
+  for (int k = 0; k < STF_LANES; k++) {
+    b->good[k] = !now.bad[k];
+    b->growth[k] = now.bad[k] ? 0 : sqrt(now.least[k]);
+    b->log_det[k] = 0.5 * (log(now.product[k]) + (double)now.exponent[k] * log(2));
+  }
+}
+
 /* r = b - M x by rows, beside the sizes of their terms. */
 INLINE void residual(stf_batch *b, const stf_polynomial *g)
 {
@@ -290,12 +298,9 @@ INLINE void correct(const stf_batch *b, const bool *lanes)
 /* ---- instruction sets ------------------------------------------------------------------------ */
 
 #define SWEEPS(isa, attribute)                                                                 \
-  attribute static void factor_##isa(stf_batch *b, bool watched)                               \
+  attribute static void factor_##isa(stf_batch *b, bool watched, bool solving)                 \
   {                                                                                            \
-    if (watched)                                                                               \
-      factor(b, true);                                                                         \
-    else                                                                                       \
-      factor(b, false);                                                                        \
+    factor(b, watched, solving);                                                               \
   }                                                                                            \
   attribute static void load_##isa(const stf_batch *b, const stf_polynomial *g, double *x)     \
   {                                                                                            \

@@ -123,7 +123,7 @@ static void factors(void)
     begin(NULL, seed);
     CU_ASSERT_FATAL(open() == STEIF_OK);
     CHECK(q->blocks >= BLOCKS / 2 && q->column[N] == q->row[N]);
-    stf_batch_factor(&batch, 1e-12);
+    stf_batch_factor(&batch, 1e-12, NULL);
     for (int lane = 0; lane < LANES; lane++) {
       double off = 0, size = 0, log_det = 0;
       dense(shifts[lane], M);
@@ -150,8 +150,8 @@ static void solutions(void)
     begin(NULL, 77);
     CU_ASSERT_FATAL(open() == STEIF_OK);
     CU_ASSERT_FATAL(steif_pencil_factor(p, LANES, shifts) == STEIF_OK);
-    stf_batch_factor(&batch, 0);
-    stf_batch_solve(&batch, &b, refined ? 2 : 0, 0);
+    stf_batch_factor(&batch, 0, &b);
+    stf_batch_refine(&batch, &b, refined ? 2 : 0, 0);
     for (int lane = 0; lane < LANES; lane++) {
       const number z = 1 / (shifts[lane].re + I * shifts[lane].im);
       double off = 0, size = 0, log_det;
@@ -182,16 +182,16 @@ static void lanes_alone(void)
   for (int i = 0; i < N; i++) x[1][i] = cos(2.3 * i);
   begin(NULL, 9);
   CU_ASSERT_FATAL(open() == STEIF_OK);
-  stf_batch_factor(&batch, 1e-12);
-  stf_batch_solve(&batch, &b, 2, STF_EPS);
+  stf_batch_factor(&batch, 1e-12, &b);
+  stf_batch_refine(&batch, &b, 2, STF_EPS);
   memcpy(x[0], batch.x, sizeof x[0]);
   for (int lane = 0; lane < LANES; lane++)
     other[lane] = lane == 1 ? shifts[3] : (steif_shift){NAN, lane};
   const double log_det = batch.log_det[3], error = batch.error[3];
   const int solves = batch.solves[3];
   memcpy(batch.s, other, sizeof other);
-  stf_batch_factor(&batch, 1e-12);
-  stf_batch_solve(&batch, &b, 2, STF_EPS);
+  stf_batch_factor(&batch, 1e-12, &b);
+  stf_batch_refine(&batch, &b, 2, STF_EPS);
   for (int k = 0; k < N; k++) CHECK(at(batch.x, k, 1) == at(x[0], k, 3));
   CHECK(batch.log_det[1] == log_det && batch.error[1] == error && batch.solves[1] == solves);
   for (int lane = 0; lane < LANES; lane++) CHECK(batch.good[lane] == (lane == 1));
@@ -211,16 +211,17 @@ static void bad_pivots(void)
   CU_ASSERT_FATAL(open() == STEIF_OK);
   batch.s[1] = (steif_shift){2, 1}, batch.s[2] = (steif_shift){2, 1 + 1e-9};
   batch.s[3] = (steif_shift){1e200, 1e200};
-  stf_batch_factor(&batch, 0);
+  const stf_polynomial b = {.constant = g};
+  stf_batch_factor(&batch, 0, &b);
   static const bool loose[LANES] = {true, false, true, false};
   for (int lane = 0; lane < LANES; lane++) CHECK(batch.good[lane] == loose[lane]);
-  stf_batch_solve(&batch, &(stf_polynomial){.constant = g}, 2, STF_EPS);
+  stf_batch_refine(&batch, &b, 2, STF_EPS);
   for (int k = 0; k < 3; k++)
     if (q->unknown[k] == 2) {
       const number x = g[2] / (shifts[0].re - 3 + I * shifts[0].im);
       CHECK(cabs(at(batch.x, k, 0) - x) < 1e-15);
     }
-  stf_batch_factor(&batch, 3);
+  stf_batch_factor(&batch, 3, NULL);
   for (int lane = 0; lane < LANES; lane++) CHECK(!batch.good[lane]);
   end();
 }
@@ -236,8 +237,8 @@ static void ill_conditioned(void)
   A = gear_matrix(a, 2, SUNMATRIX_SPARSE, steif_sundials(ctx));
   p = steif_pencil_new(ctx, E, A);
   CU_ASSERT_FATAL(open() == STEIF_OK);
-  stf_batch_factor(&batch, 0);
-  stf_batch_solve(&batch, &(stf_polynomial){.constant = g}, 3, STF_EPS);
+  stf_batch_factor(&batch, 0, &(stf_polynomial){.constant = g});
+  stf_batch_refine(&batch, &(stf_polynomial){.constant = g}, 3, STF_EPS);
   for (int lane = 0; lane < LANES; lane++)
     for (int k = 0; k < 2; k++) {
       const long double x1 = ((long double)g[1] - g[0]) / d, x0 = (long double)g[0] - x1;
@@ -257,7 +258,7 @@ static void refilled(void)
   for (int k = 0; k < SM_INDEXPTRS_S(E)[N]; k++) SM_DATA_S(E)[k] *= 1 + 0.1 * sin(k);
   CHECK(steif_pencil_update(p) == STEIF_OK);
   stf_sequence_fill(p, q);
-  stf_batch_factor(&batch, 0);
+  stf_batch_factor(&batch, 0, NULL);
   for (int lane = 0; lane < LANES; lane++) {
     double off = 0;
     dense(shifts[lane], M);
