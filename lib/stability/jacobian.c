@@ -3,7 +3,6 @@
 #include "jacobian.h"
 #include "blas.h"
 #include <math.h>
-#include <steif/problem.h>
 #include <string.h>
 
 enum { SMALL = 16 }; /* order up to which loops beat BLAS */
@@ -33,8 +32,9 @@ stf_entries stf_jacobian_column(SUNMatrix M, sunindextype j)
 
 static void destroy(void *M) { SUNMatDestroy(M); }
 
-SUNMatrix stf_jacobian_new(stf_pool *pool, steif_context *ctx, int storage, sunindextype n,
-                           sunindextype lower, sunindextype upper, sunindextype entries)
+SUNMatrix stf_jacobian_new(stf_pool *pool, steif_context *ctx, enum steif_storage storage,
+                           sunindextype n, sunindextype lower, sunindextype upper,
+                           sunindextype entries)
 {
   SUNContext sun = steif_sundials(ctx);
   SUNMatrix M = storage == STEIF_DENSE  ? SUNDenseMatrix(n, n, sun)

@@ -4,6 +4,7 @@
 #define STF_JACOBIAN_H
 
 #include "base.h"
+#include <steif/problem.h>
 #include <sunmatrix/sunmatrix_band.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
@@ -30,8 +31,9 @@ static inline stf_entries stf_sparse_column(SUNMatrix M, sunindextype j)
 
 stf_entries stf_jacobian_column(SUNMatrix M, sunindextype j);
 /* A square matrix of order n for at most `entries` nonzeros where it is sparse, owned by the pool. */
-SUNMatrix stf_jacobian_new(stf_pool *pool, steif_context *ctx, int storage, sunindextype n,
-                           sunindextype lower, sunindextype upper, sunindextype entries);
+SUNMatrix stf_jacobian_new(stf_pool *pool, steif_context *ctx, enum steif_storage storage,
+                           sunindextype n, sunindextype lower, sunindextype upper,
+                           sunindextype entries);
 /* 0 where a callback only adds; a sparse matrix is written from its start. */
 void stf_jacobian_clear(SUNMatrix M);
 /* K := h M B, K and B n x m by rows. */

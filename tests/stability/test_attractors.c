@@ -159,6 +159,7 @@ static void a_dae_has_the_exponents_of_its_ode(void)
     CHECK(code == STEIF_OK && isnan(f.trace));
     for (int j = 0; j < 3; j++) CLOSE_FLOOR(b[j], a[j], 0.04, 1);
     CLOSE(f.sum, a[0] + a[1] + a[2], 2e-3);
+    CLOSE(f.dimension, 2 + (b[0] + b[1]) / -b[2], 1e-12);
   }
   steif_lyapunov_options o = {.h = 0.005, .t1 = 3};
   double x[4];
