@@ -19,8 +19,8 @@ void impulse_fill(steif_report *r, const steif_impulse *i)
   steif_report_text(r, "message", i->message);
 }
 
-static void row(steif_report *r, const char *sheet, const char *kind, double t, size_t n,
-                const double *x)
+void impulse_row(steif_report *r, const char *sheet, const char *kind, double t, size_t n,
+                 const double *x)
 {
   char name[64];
   steif_report_row(r, sheet);
@@ -34,12 +34,12 @@ void impulse_rows(steif_report *r, const char *sheet, double t, const double *be
 {
   const size_t n = (size_t)i->n;
   char kind[16];
-  row(r, sheet, "x-", t, n, before);
+  impulse_row(r, sheet, "x-", t, n, before);
   for (int q = 0; q < i->count; q++) {
     snprintf(kind, sizeof kind, "c%d", q);
-    row(r, sheet, kind, t, n, i->c + (size_t)q * n);
+    impulse_row(r, sheet, kind, t, n, i->c + (size_t)q * n);
   }
-  row(r, sheet, "x+", t, n, i->x_plus);
+  impulse_row(r, sheet, "x+", t, n, i->x_plus);
 }
 
 int impulse_verdict(const struct call *call, const steif_impulse *i)

@@ -10,6 +10,9 @@
 void impulse_fill(steif_report *r, const steif_impulse *i);
 /* Under "derivatives_accuracy", orders 1, 2, ...: that of samples. */
 void impulse_accuracy(steif_report *r, const struct linear *l, const steif_impulse *i);
+/* One row of a sheet with columns t, kind, x. */
+void impulse_row(steif_report *r, const char *sheet, const char *kind, double t, size_t n,
+                 const double *x);
 /* The rows of a sheet with columns t, kind, x: x-, c0, c1, ..., x+ of one jump. */
 void impulse_rows(steif_report *r, const char *sheet, double t, const double *before,
                   const steif_impulse *i);

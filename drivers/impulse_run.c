@@ -2,8 +2,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "impulse.h"
 #include <nvector/nvector_serial.h>
+#include <stdlib.h>
 
-enum { BREAKS = 256, TITLE = 160 };
+enum { BREAKS = 256, TITLE = 160, KNOWN = 100 };
 
 /* What a run leaves: its start and end on stdout, everything in the sheet of --csv. */
 struct record {
@@ -14,6 +15,8 @@ struct record {
   size_t n;
   int verdict;
   long jumps, steps;
+  size_t break_count;
+  double breaks[BREAKS];
 };
 
 static int jump(double t, const double *before, const steif_impulse *i, void *user)
@@ -35,17 +38,37 @@ static int step(double t, N_Vector x, void *user)
   const double *value = N_VGetArrayPointer(x);
   k->steps++;
   if (k->call->csv) {
-    steif_report_row(k->sheet, "rows");
-    steif_report_real(k->sheet, "rows.t", t);
-    steif_report_text(k->sheet, "rows.kind", "x");
-    steif_report_list(k->sheet, "rows.x", k->n, value);
+    impulse_row(k->sheet, "rows", "x", t, k->n, value);
   }
   if (t >= k->path.t1) {
     steif_report_real(k->shown, "t", t);
     steif_report_list(k->shown, "x", k->n, value);
     impulse_output(k->shown, "y", k->linear, t, value);
   }
-  return k->call->plot ? trajectory_keep(&k->path, t, x) : 0;
+  return k->call->plot || k->n <= KNOWN ? trajectory_keep(&k->path, t, x) : 0;
+}
+
+/* The exact smooth solution at the same times, where f has the derivatives for it. */
+static void exact(struct record *k)
+{
+  const struct linear *l = k->linear;
+  const trajectory *p = &k->path;
+  const steif_analysis a = linear_analysis(k->call);
+  steif_linear_truth truth;
+  double *x = p->count ? malloc(p->count * k->n * sizeof *x) : NULL;
+  if (x && !steif_linear_exact(k->call->ctx, &l->system, l->x0, l->t0, &a, k->break_count,
+                               k->breaks, p->count, p->t, p->y, x, &truth)) {
+    steif_report_list(k->shown, "exact", k->n, x + (p->count - 1) * k->n);
+    steif_report_real(k->shown, "exact_accuracy", truth.accuracy);
+    steif_report_real(k->shown, "error", truth.end);
+    steif_report_real(k->shown, "error_most", truth.most);
+    for (size_t i = 0; i < p->count && k->call->csv; i++)
+      impulse_row(k->sheet, "rows", "exact", p->t[i], k->n, x + i * k->n);
+  } else {
+    steif_report_text(k->shown, "exact", NULL);
+  }
+  steif_forget(k->call->ctx);
+  free(x);
 }
 
 static int output(struct record *k, const char *method)
@@ -53,6 +76,7 @@ static int output(struct record *k, const char *method)
   char title[TITLE];
   snprintf(title, sizeof title, "%s by %s", k->call->word[0], method);
   steif_report_whole(k->shown, "steps", k->steps);
+  if (k->n <= KNOWN) exact(k);
   if (given(k->call, "--vs"))
     impulse_against(k->call, k->linear, word_of(k->call, "--vs", NULL), k->shown);
   int code = show(k->call, k->shown);
@@ -63,18 +87,18 @@ static int output(struct record *k, const char *method)
 
 static int integrate_on(struct call *call, const struct linear *l, struct record *k)
 {
-  double breaks[BREAKS];
   steif_options o = steif_defaults();
   o.t1 = k->path.t1, o.h = real_of(call, "--h", 0), o.rtol = real_of(call, "--rtol", o.rtol);
   const char *method = word_of(call, "--method", NULL);
   const size_t count =
-    l->function ? steif_function_breaks(l->function, l->t0, o.t1, BREAKS, breaks) : 0;
+    l->function ? steif_function_breaks(l->function, l->t0, o.t1, BREAKS, k->breaks) : 0;
+  k->break_count = count;
   if (count > BREAKS)
     return refuse(call, "f has %zu breaks up to t = %g, %d are the most; end earlier", count,
                   o.t1, BREAKS);
   const steif_analysis a = linear_analysis(call);
   const steif_linear_output out = {jump, step, k};
-  return steif_linear_run(call->ctx, &l->system, l->x0, l->t0, method, &o, &a, count, breaks,
+  return steif_linear_run(call->ctx, &l->system, l->x0, l->t0, method, &o, &a, count, k->breaks,
                           &out)
            ? linear_fail(call)
            : output(k, method);

@@ -163,6 +163,21 @@ if(NOT said MATCHES "without matio")
   expect(2 pencil system.mat --state-space ERR "tells by the name")
 endif()
 
+# The exact smooth solution beside a run, and its error; none where f has too few derivatives.
+expect(0 impulse ut5 --method radau:s=3 --t1 1 --json)
+begins(-9.8399049362 exact 0) # 40 digits: -9.83990493625282
+begins(3.08069506977 exact 4)
+string(JSON off GET "${out}" error)
+if(NOT off MATCHES "e-0[789]$")
+  message(SEND_ERROR "error ${off} of radau:s=3 with rtol 1e-6")
+endif()
+expect(0 impulse ut5 --method radau:s=3 --t1 1 --csv exact.csv)
+file(STRINGS ${FOLDER}/exact.csv rows REGEX "^1,exact,-9.8399049362")
+list(LENGTH rows count)
+if(NOT count EQUAL 1)
+  message(SEND_ERROR "no exact row at t = 1: ${rows}")
+endif()
+
 # Forcing: derivatives by Taylor arithmetic or from samples. x(0+) = (f_1 - f_2' + f_3'', ...).
 forcing(f.txt "cos(3*t)   # 1 at 0" "2*sin(t)" "exp(-2*t)")
 expect(0 impulse E.mtx F.mtx --x0 x0.mtx --forcing f.txt --json)

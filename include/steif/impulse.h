@@ -161,6 +161,24 @@ STEIF_EXPORT int steif_linear_run(steif_context *ctx, const steif_linear *linear
                                   size_t break_count, const sunrealtype *breaks,
                                   const steif_linear_output *output);
 
+typedef struct steif_linear_truth {
+  sunrealtype accuracy; /* relative difference at the last time to half as many parts */
+  sunrealtype end, most; /* errors of the rows given, relative to max |x| over all times: at the
+                           last time, at any */
+} steif_linear_truth;
+
+/* The smooth parts of the solution that starts as there, at the times t_0 < t_1 < ... after t0 (rows
+ * of n into x; at a break its left limit): radau:s=5 in small parts of the steps between them, on a
+ * system of index 1 where there is one (dense and small ones), else with the fast part from the
+ * Laurent coefficients. f is asked for derivatives up to k - 1. made: rows of a run to be compared;
+ * NULL: none. */
+STEIF_EXPORT int steif_linear_exact(steif_context *ctx, const steif_linear *linear,
+                                    const sunrealtype *x0, sunrealtype t0,
+                                    const steif_analysis *analysis, size_t break_count,
+                                    const sunrealtype *breaks, size_t count, const sunrealtype *t,
+                                    const sunrealtype *made, sunrealtype *x,
+                                    steif_linear_truth *truth);
+
 #ifdef __cplusplus
 }
 #endif

@@ -50,5 +50,50 @@ static void multipliers_are_right_at_the_end(void)
   steif_context_free(&ctx);
 }
 
+/* f = (0, 0, g, 0), g = t^4 before t = 1/2 and 3 - t^3 from there on, in N x' + x = f with N of order 3
+ * beside x_4' + 2 x_4 = 0. */
+static int broken(sunrealtype t, int q, N_Vector f, void *user)
+{
+  static const double fourth[] = {1, 4, 12, 24}, third[] = {-1, -3, -6, -6};
+  (void)user;
+  N_VConst(0, f);
+  if (q > 3) return 1;
+  N_VGetArrayPointer(f)[2] =
+    t < 0.5 ? fourth[q] * pow(t, 4 - q) : (q ? 0 : 3) + third[q] * pow(t, 3 - q);
+  return 0;
+}
+
+/* x = (g'', -g', g, e^{-2 t}), left limits at the break. */
+static void exact_solutions_through_a_break(void)
+{
+  static const double t[] = {0.2, 0.5, 0.6, 1.25}, breaks[] = {0.5}, x0[4] = {9, 8, 7, 1};
+  static const double wanted[4][3] = {{12 * 0.04, -4 * 0.008, 0.0016},
+                                      {12 * 0.25, -4 * 0.125, 0.0625},
+                                      {-6 * 0.6, 3 * 0.36, 3 - 0.216},
+                                      {-6 * 1.25, 3 * 1.5625, 3 - 1.953125}};
+  double x[16], made[16] = {0};
+  steif_context *ctx = steif_context_new(NULL);
+  SUNMatrix E = SUNDenseMatrix(4, 4, steif_sundials(ctx)), F = SUNMatClone(E);
+  SUNMatZero(E), SUNMatZero(F);
+  for (int i = 0; i < 4; i++) SM_ELEMENT_D(F, i, i) = i < 3 ? 1 : 2;
+  SM_ELEMENT_D(E, 0, 1) = SM_ELEMENT_D(E, 1, 2) = SM_ELEMENT_D(E, 3, 3) = 1;
+  const steif_linear l = {E, F, broken, NULL};
+  steif_linear_truth truth;
+  CHECK(steif_linear_exact(ctx, &l, x0, 0, NULL, 1, breaks, 4, t, made, x, &truth) == STEIF_OK);
+  for (int k = 0; k < 4; k++) {
+    for (int i = 0; i < 3; i++) CLOSE_FLOOR(x[4 * k + i], wanted[k][i], 1e-11, 1);
+    CLOSE(x[4 * k + 3], exp(-2 * t[k]), 1e-11);
+  }
+  CHECK(truth.accuracy < 1e-11);
+  CLOSE(truth.most, 1, 1e-12);
+  CLOSE(truth.end, 1, 1e-12); /* of zeros */
+  CHECK(steif_linear_exact(ctx, &l, x0, 0.2, NULL, 1, breaks, 4, t, NULL, x, &truth) ==
+        STEIF_BAD_INPUT);
+  SUNMatDestroy(E), SUNMatDestroy(F);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_ends[] = {
-  {"multipliers are right at the end", multipliers_are_right_at_the_end}, CU_TEST_INFO_NULL};
+  {"multipliers are right at the end", multipliers_are_right_at_the_end},
+  {"exact solutions through a break", exact_solutions_through_a_break},
+  CU_TEST_INFO_NULL};

@@ -316,37 +316,6 @@ static void without_matio_it_is_said(void)
   steif_context_free(&ctx);
 }
 
-/* C and D of y = C x + D u, checked against E and B; beside M the name D is the damping's. */
-static void outputs_are_found_beside_systems(void)
-{
-  const variable E = {"E", 'd', 2, 2, {1, 0, 0, 1}}, M = {"M", 'd', 2, 2, {3.5, 0, 0, 4.5}},
-                 B = {"B", 'd', 2, 1, {-1.5, 6.25}}, C = {"C", 's', 1, 2, {2.5, -3}},
-                 D = {"D", 'd', 1, 1, {0.75}}, wide = {"C", 'd', 1, 3, {1, 2, 3}},
-                 square = {"D", 'd', 1, 2, {7, 8}};
-  const double x[2] = {4, 5}, u[1] = {8};
-  double y[1];
-  steif_context *ctx = steif_context_new(NULL);
-  SUNMatrix c, d;
-  CHECK(!steif_output_read(ctx, mat_file(4, (const variable[]){E, B, C, D}), &c, &d));
-  CU_ASSERT_FATAL(c && d);
-  steif_output_value(c, d, x, u, y);
-  CHECK(y[0] == 2.5 * 4 - 3 * 5 + 0.75 * 8);
-  steif_output_value(c, NULL, x, NULL, y);
-  CHECK(y[0] == -5);
-  SUNMatDestroy(c), SUNMatDestroy(d);
-  CHECK(!steif_output_read(ctx, mat_file(2, (const variable[]){M, C}), &c, &d) && c && !d);
-  SUNMatDestroy(c);
-  CHECK(!steif_output_read(ctx, mat_file(2, (const variable[]){E, B}), &c, &d) && !c && !d);
-  CHECK(steif_output_read(ctx, mat_file(2, (const variable[]){E, wide}), &c, &d));
-  SAYS(ctx, "C is 1 x 3 and should be 1 x 2, a column for each of E");
-  CHECK(steif_output_read(ctx, mat_file(2, (const variable[]){M, wide}), &c, &d));
-  SAYS(ctx, "should be 1 x 4, a column for each of q, or of q, v and the multipliers");
-  CHECK(steif_output_read(ctx, mat_file(4, (const variable[]){E, B, C, square}), &c, &d));
-  SAYS(ctx, "D is 1 x 2 and should be 1 x 1, the rows of C and the columns of B");
-  CHECK(!c && !d);
-  steif_context_free(&ctx);
-}
-
 CU_TestInfo tests_of_mat[] = {
   {"two Matrix Market files are a system", two_matrix_market_files_are_a_system},
   {"without matio its absence is said", without_matio_it_is_said},
