@@ -8,7 +8,7 @@ extern CU_TestInfo tests_of_region[], tests_of_boundary[], tests_of_order[],
   tests_of_attractors[];
 
 extern CU_TestInfo tests_of_underlying[], tests_of_general_regions[], tests_of_laws[],
-  tests_of_supervised_forms[], tests_of_leading[], tests_of_errors[];
+  tests_of_supervised_forms[], tests_of_leading[], tests_of_errors[], tests_of_algebra[];
 
 SUITE_MAIN({.pName = "underlying", .pTests = tests_of_underlying},
            {.pName = "general regions", .pTests = tests_of_general_regions},
@@ -18,6 +18,7 @@ SUITE_MAIN({.pName = "underlying", .pTests = tests_of_underlying},
            {.pName = "lyapunov", .pTests = tests_of_lyapunov},
            {.pName = "leading exponents", .pTests = tests_of_leading},
            {.pName = "errors of exponents", .pTests = tests_of_errors},
+           {.pName = "algebra of exponents", .pTests = tests_of_algebra},
            {.pName = "laws of exponents", .pTests = tests_of_laws},
            {.pName = "growth", .pTests = tests_of_growth},
            {.pName = "energy", .pTests = tests_of_energy},
