@@ -5,7 +5,7 @@
  *     n <= 5                                      rodas5p down to rtol 1e-2
  *     y' = f(y), n <= 24                          rodas4 down to rtol 1e-3
  *     others, n <= 8                              rodas4p2 down to rtol 1e-2
- *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-3 or index above 1, else s=7,
+ *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-3, else s=7,
  *                                                 but s=5 for M y' = f below 5e-11: the split of s=7 has
  *                                                 fourteen times its condition
  *   dense systems up to n = 300                   radau:s=5: oscillations defeat BDF there
@@ -98,7 +98,7 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
     method = "radau:s=3", reason = "steps are given: order 5, stiffly accurate";
   else if (small(p, o, form) && (method = linearly(p, o)))
     reason = "few unknowns, few digits: no iteration";
-  else if (small(p, o, form) && (high || o->rtol >= 0.9e-3))
+  else if (small(p, o, form) && o->rtol >= 0.9e-3)
     method = "radau:s=5", reason = "small and dense: all shifts in vector registers";
   else if (small(p, o, form) && form == STEIF_MASS && o->rtol < 5e-11)
     method = "radau:s=5",
