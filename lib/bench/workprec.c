@@ -12,8 +12,9 @@ static const char *const problems[] = {"vdpol",   "rober",        "orego",      
                                        "caraxis", "bruss2d:n=16", "bruss2d:n=32"};
 
 static const char *const methods[] = {
-  "auto",    "radau:s=3", "radau:s=5", "radau:s=7", "bdf", "rodas4",         "rodas4p2",
-  "rodas5p", "gauss:s=3", "gauss:s=5", "cvode",     "ida", "arkode:order=4", "arkode:order=5"};
+  "auto",    "radau:s=3", "radau:s=5", "radau:s=7",      "bdf",
+  "rodas4",  "rodas4p2",  "rodas5p",   "gauss:s=3",      "gauss:s=5",
+  "dopri87", "cvode",     "ida",       "arkode:order=4", "arkode:order=5"};
 
 const char *steif_bench_problem(size_t i)
 {

@@ -74,8 +74,10 @@ static void linear_problem(void)
   for (size_t i = 0; steif_method_at(ctx, i, &info) == STEIF_OK; i++) {
     if (info.order == 0 || law_exponential(&info)) continue;
     const double order = measure(ctx, &harmonic, info.name, 6, 3, ROWS);
-    /* R(z) of a Rosenbrock method may be of higher order than the method. */
-    const double excess = strcmp(info.family, "rosenbrock") ? 0.2 : 1.2;
+    /* R(z) may be of higher order than the method: of Rosenbrock methods, and nearly of dopri87, whose
+     * b A^8 1 is 0.9987 / 9!. */
+    const int higher = !strcmp(info.family, "rosenbrock") || !strcmp(info.name, "dopri87");
+    const double excess = higher ? 1.2 : 0.2;
     const int good = order >= info.order - 0.2 && order <= info.order + excess;
     if (!good) printf("\n  %s: order %.3f", info.name, order);
     CHECK(good);
