@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "impulse.h"
 #include <stdlib.h>
+#include <string.h>
 
 enum { LEVELS = 16, SHOWN = 400 };
 
@@ -145,6 +146,7 @@ static int run(struct call *call)
   if (!given(call, "--method") &&
       (given(call, "--h") || (given(call, "--rtol") && !ends) || call->plot))
     return refuse(call, "--h, --rtol and --plot belong to a run; add --method and --t1");
+  if (!strcmp(call->word[0], "all")) return impulse_all(call);
   int code = linear_open(call, &l, 0, true);
   if (!code) code = linear_started(call, &l);
   if (!code && given(call, "--t1") && real_of(call, "--t1", 0) <= l.t0)
@@ -163,7 +165,7 @@ static const struct option options[] = {
   {"--h", POSITIVE, "H", "its equal steps (default: chosen)"},
   {"--rtol", POSITIVE, "R", "its tolerance (default 1e-6)"},
   {"--projectors", FLAG, NULL, "show the spectral projectors (n > 400: of x(0-)), too"},
-  {"--vs", CHOICE, "ida|cvode|arkode", "run that, too, from the same x(0-) to --t1"},
+  {"--vs", CHOICE, "ida|cvode|arkode", "run that, too, from the same x(0-) (all: of each system) to --t1"},
   ANALYSIS_ROWS,
   {NULL, FLAG, NULL, NULL},
 };
@@ -174,7 +176,7 @@ static const char *const clash[][2] = {
 const struct verb verb_impulse = {
   "impulse",
   "Find x(0+) and the impulses of E x' + F x = f from any x(0-)",
-  "E.mtx F.mtx --x0 X.mtx | PROBLEM [--forcing FILE] [--method METHOD --t1 T --csv FILE]",
+  "E.mtx F.mtx --x0 X.mtx | PROBLEM | all [--forcing FILE] [--method METHOD --t1 T --csv FILE]",
   1,
   2,
   options,

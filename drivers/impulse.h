@@ -26,6 +26,8 @@ void impulse_output(steif_report *r, const char *name, const struct linear *l, d
 /* EXIT_UNCERTIFIED after a sentence, or EXIT_OK. */
 int impulse_verdict(const struct call *call, const steif_impulse *i);
 
+/* Every descriptor system of the collection beside --vs; an exit code. */
+int impulse_all(struct call *call);
 /* Trajectory, jumps and impulses up to --t1 by --method; an exit code. */
 int impulse_run(struct call *call, struct linear *l);
 

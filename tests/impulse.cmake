@@ -178,6 +178,23 @@ if(NOT count EQUAL 1)
   message(SEND_ERROR "no exact row at t = 1: ${rows}")
 endif()
 
+# All generated systems, consistent and not, beside IDA, which is made for index 1.
+expect(0 impulse all --vs ida --json)
+string(JSON count LENGTH "${out}" rows)
+foreach(i RANGE 29)
+  member(ON rows ${i} certified)
+endforeach()
+member(stops rows 0 vs)
+member(solves rows 1 vs)
+member("jordan:k=6,case=N-inc" rows 10 system)
+member(6 rows 10 index)
+member(stops rows 10 vs)
+string(JSON why GET "${out}" rows 10 message)
+if(NOT count EQUAL 30 OR NOT why MATCHES "IDA stopped at t = 0 ")
+  message(SEND_ERROR "${count} systems beside IDA, ${why}")
+endif()
+expect(2 impulse all ERR "add --vs ida")
+
 # Forcing: derivatives by Taylor arithmetic or from samples. x(0+) = (f_1 - f_2' + f_3'', ...).
 forcing(f.txt "cos(3*t)   # 1 at 0" "2*sin(t)" "exp(-2*t)")
 expect(0 impulse E.mtx F.mtx --x0 x0.mtx --forcing f.txt --json)
