@@ -17,8 +17,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { SMALL = 64, TINY = 16 }; /* orders of loops, of reflections in loops */
-enum { BLOCK = 64 };            /* LAPACK's columns at a time */
+/* Orders of loops: systems, squares and division, reflections. */
+enum { SYSTEM = 128, SMALL = 64, TINY = 16 };
+enum { BLOCK = 64 }; /* LAPACK's columns at a time */
 /* Diagonal entries of R further apart than this are left to reflections: eps SPREAD^2 < 1e-12. */
 #define SPREAD 64.0
 
@@ -67,12 +68,12 @@ static void large_substitute(int n, int m, const sunrealtype *A, sunrealtype *B,
 
 bool stf_factor(int n, sunrealtype *A, const stf_algebra *room)
 {
-  return n > SMALL ? large_factor(n, A, room) : room->rows->factor(n, A, room->pivot);
+  return n > SYSTEM ? large_factor(n, A, room) : room->rows->factor(n, A, room->pivot);
 }
 
 void stf_substitute(int n, int m, const sunrealtype *A, sunrealtype *B, const stf_algebra *room)
 {
-  if (n > SMALL)
+  if (n > SYSTEM)
     large_substitute(n, m, A, B, room);
   else
     room->rows->substitute(n, m, A, room->pivot, B);
