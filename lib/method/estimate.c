@@ -57,8 +57,9 @@ void stf_trust_open(stf_trust *trust, const steif_table *T, const stf_split *spl
   for (int k = s + 1; k <= T->order + 1; k++) trust->gain /= k;
   trust->legendre = 1;
   for (int k = 1; k <= s; k++) trust->legendre *= (sunrealtype)k / (s + k);
-  trust->loosest =
-    0.05 * pow(anchor, (s + 1.0) / (2 * s)) * pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
+  const sunrealtype part = fmin(0.05, 0.002 * s * s);
+  trust->loosest = part * pow(anchor, (s + 1.0) / (2 * s)) *
+                   pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
 }
 
 void stf_trust_set(stf_step *s, const stf_trust *trust, sunrealtype top, sunrealtype below)

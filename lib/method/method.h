@@ -106,7 +106,8 @@ int stf_share_open(stf_step *s, const char *name, int q, int p);
  * below: then the error is as large as the estimate, unless they are
  * below the tolerance themselves. Never more than a bound
  * that makes the sum of the errors of all steps proportional to rtol where y is smooth, est^(p/(s+1))
- * ~ rtol, and is half of the 0.1 rtol^((s+1)/(2s)) of Hairer and Wanner (II, IV.8) at rtol = 1e-3. */
+ * ~ rtol, and at rtol = 1e-3 is half of the 0.1 rtol^((s+1)/(2s)) of Hairer and Wanner (II, IV.8), less
+ * below s = 5: the more steps, the more errors add. */
 typedef struct stf_trust {
   int s, beyond;                                        /* beyond: p - s */
   sunrealtype gain, loosest;                            /* s! / (gamma_0 (p + 1)!) */

@@ -4,7 +4,7 @@
 
 extern CU_TestInfo tests_of_verdicts[], tests_of_starts[], tests_of_causes[],
   tests_of_jacobians[], tests_of_scales[], tests_of_shelf[], tests_of_misuse[],
-  tests_of_failure[];
+  tests_of_failure[], tests_of_drift[];
 
 SUITE_MAIN({.pName = "verdicts", .pTests = tests_of_verdicts},
            {.pName = "starts", .pTests = tests_of_starts},
@@ -13,4 +13,5 @@ SUITE_MAIN({.pName = "verdicts", .pTests = tests_of_verdicts},
            {.pName = "scales", .pTests = tests_of_scales},
            {.pName = "shelf", .pTests = tests_of_shelf},
            {.pName = "misuse", .pTests = tests_of_misuse},
-           {.pName = "failure", .pTests = tests_of_failure})
+           {.pName = "failure", .pTests = tests_of_failure},
+           {.pName = "drift", .pTests = tests_of_drift})
