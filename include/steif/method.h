@@ -1,9 +1,10 @@
 /* steif/method.h: the methods there are; how they are named and what they claim.
  *
  * A method is a family with parameters: be, bdf:p=1..6, dirk:TABLE, gauss:s=, radau:s=, radau1a:s=,
- * lobatto3c:s=, euler, rk4; general linear methods glm:TABLE (glm:nord22, glm:ab,p=3, glm:file=PATH: glm.h);
- * the baselines cvode, ida, arkode; and auto, which chooses by size, storage,
- * index and tolerance (steif_method_used tells what and why).
+ * lobatto3c:s=, euler, rk4, dopri87 (explicit, of order 8, for what is not stiff: chooses its steps);
+ * general linear methods glm:TABLE (glm:nord22, glm:ab,p=3, glm:file=PATH: glm.h); the baselines cvode,
+ * ida, arkode; and auto, which chooses by size, storage, index and tolerance (steif_method_used tells
+ * what and why).
  *
  * Splitting methods, symplectic, with equal steps, for separable problems (.positions of problem.h):
  * symeuler:first=p|q, verlet:first=kick|drift, yoshida4, suzuki4, yoshida6, kahanli6, suzuki6, suzuki8,

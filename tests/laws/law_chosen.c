@@ -4,10 +4,10 @@
 #include "laws.h"
 #include "march.h"
 
-static const char *const chosen[] = {
-  "auto",   "radau:s=3", "radau:s=5",   "radau:s=7",     "gauss:s=3",   "gauss:s=4",
-  "bdf",    "bdf:p=2",   "dirk:hw43",   "dirk:esdirk43", "dirk:trbdf2", "rodas4",
-  "rodas5p", "exprb43"};
+static const char *const chosen[] = {"auto",      "radau:s=3",     "radau:s=5",   "radau:s=7",
+                                     "gauss:s=3", "gauss:s=4",     "bdf",         "bdf:p=2",
+                                     "dirk:hw43", "dirk:esdirk43", "dirk:trbdf2", "rodas4",
+                                     "rodas5p",   "exprb43",       "dopri87"};
 enum { CHOSEN = sizeof chosen / sizeof *chosen, ACCEPTED = 7 };
 
 /* With weights for a step of length h, after ACCEPTED steps. */
@@ -20,10 +20,7 @@ static steif_solver *part_way(steif_context *ctx, const char *method)
   return s;
 }
 
-static void attempt(steif_solver *s, double h)
-{
-  CHECK(!s->step.method->attempt(&s->step, h));
-}
+static void attempt(steif_solver *s, double h) { CHECK(!s->step.method->attempt(&s->step, h)); }
 
 /* attempt(h), attempt(h/2) is what a fresh attempt(h/2) is, but for what Newton's iteration leaves, and
  * the accepted solution stays. */
@@ -115,7 +112,8 @@ static void mirrored_runs_come_home(void)
     p.y0 = N_VGetArrayPointer(away), p.user = &mirrored;
     N_Vector home = law_run(ctx, &p, chosen[m], &o);
     CU_ASSERT_FATAL(home != NULL);
-    const bool low = !strcmp(chosen[m], "bdf:p=2"); /* keeps a tenth of the tolerance in each step */
+    const bool low =
+      !strcmp(chosen[m], "bdf:p=2"); /* keeps a tenth of the tolerance in each step */
     for (int i = 0; i < 2; i++)
       CLOSE_FLOOR(NV_Ith_S(home, i), start[i], (low ? 1000 : 20) * o.rtol, 1);
     N_VDestroy(away), N_VDestroy(home);

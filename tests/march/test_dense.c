@@ -74,10 +74,10 @@ static void dense_output_has_its_order(void)
 static void dense_output_meets_both_ends(void)
 {
   static const char *const methods[] = {
-    "radau:s=3",       "gauss:s=2", "lobatto3c:s=3", "bdf:p=4", "dirk:hw43",
-    "dirk:crouzeix23", "rk4",       "dirk:trbdf2",   "rodas4",  "rodas5p"};
+    "radau:s=3", "gauss:s=2",   "lobatto3c:s=3", "bdf:p=4", "dirk:hw43", "dirk:crouzeix23",
+    "rk4",       "dirk:trbdf2", "rodas4",        "rodas5p", "dopri87"};
   steif_context *ctx = steif_context_new(NULL);
-  for (int m = 0; m < 10; m++)
+  for (int m = 0; m < 11; m++)
     for (int chosen = 0; chosen < 2; chosen++) {
       steif_method_info info;
       steif_options o = steif_defaults();

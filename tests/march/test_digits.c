@@ -89,6 +89,12 @@ static void more_orders_reach_more(void)
   for (int m = 0; m < 4; m++) at_least("hires", methods[m], 1e-7, floor[m]);
 }
 
+/* Seven bodies are not stiff: digits follow the tolerance, close encounters or not. */
+static void explicit_steps_follow_the_tolerance(void)
+{
+  for (int k = 2; k <= 8; k += 2) at_least("plei", "dopri87", pow(10, -k), k);
+}
+
 /* What Newton leaves in the past values must not hold the step of BDF down: a few thousand
  * steps. */
 static void smooth_tails_take_few_steps(void)
@@ -114,5 +120,6 @@ CU_TestInfo tests_of_digits[] = {
   {"the ring modulator is fast", the_ring_modulator_is_fast},
   {"BDF follows the tolerance", bdf_follows_the_tolerance},
   {"more orders reach more", more_orders_reach_more},
+  {"explicit steps follow the tolerance", explicit_steps_follow_the_tolerance},
   {"smooth tails take few steps", smooth_tails_take_few_steps},
   CU_TEST_INFO_NULL};
