@@ -29,7 +29,8 @@ int linear_fail(const struct call *call)
   bool file = given(call, "--x0") || given(call, "--forcing");
   for (int i = 0; i < call->words; i++) file = file || linear_is_file(call->word[i]);
   const bool blamed =
-    (code == STEIF_BAD_INPUT && !given(call, "--f")) || code == STEIF_NOT_FINITE;
+    (code == STEIF_BAD_INPUT && !given(call, "--f") && !given(call, "--points")) ||
+    code == STEIF_NOT_FINITE;
   return blamed && file ? bad_file(call) : fail(call);
 }
 

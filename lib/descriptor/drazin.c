@@ -18,6 +18,10 @@
 enum { MOST = 40, PATIENCE = 3, INDEX = 64, WIDE = MOST + INDEX + 1 };
 #define NEAR 3.0
 
+/* A slow part left over that needs no other sigma; how often sigma is halved. */
+#define ENOUGH 1e-13
+enum { SMALLER = 6 };
+
 /* Vectors are in scaled coordinates, x = column x^. */
 typedef struct drazin {
   stf_scaled scaled;
@@ -251,6 +255,43 @@ static int analyse(drazin *z, const sunrealtype *x0)
   return STEIF_OK;
 }
 
+/* One factorisation at sigma; *impulse is new. */
+static int attempt(steif_context *ctx, SUNMatrix E, SUNMatrix F, int refinements, int index,
+                   sunrealtype sigma, const sunrealtype *x0, const stf_sources *sources,
+                   steif_impulse *impulse)
+{
+  STEIF_TRY(stf_impulse_claim(ctx, sources->n, index, impulse));
+  impulse->method = "drazin";
+  drazin *z = stf_allocate(ctx, 1, sizeof *z);
+  if (!z) return STEIF_NO_MEMORY;
+  *z = (drazin){.sources = sources, .impulse = impulse, .index = index};
+  z->refinements = refinements, z->sigma = sigma;
+  int code = stf_scaled_open(ctx, E, F, &z->scaled);
+  if (!code) code = analyse(z, x0);
+  stf_scaled_close(&z->scaled);
+  stf_release(ctx, z);
+  return code;
+}
+
+/* Rounding that spares no zeros makes an error of size eps (sigma nu)^(2k-1), nu the size of the fast
+ * part, and the slow part that is left over shows it: a smaller sigma is tried where it is large. */
+static int lower(steif_context *ctx, SUNMatrix E, SUNMatrix F, int refinements, int index,
+                 sunrealtype sigma, const sunrealtype *x0, const stf_sources *sources,
+                 steif_impulse *impulse)
+{
+  for (int k = 0; k < SMALLER && impulse->estimate > ENOUGH; k++) {
+    steif_impulse next = {0};
+    sigma /= 2;
+    const int code = attempt(ctx, E, F, refinements, index, sigma, x0, sources, &next);
+    const bool better = !code && next.estimate < impulse->estimate;
+    steif_impulse_clear(ctx, better ? impulse : &next);
+    if (better) *impulse = next;
+    if (code == STEIF_SINGULAR) steif_forget(ctx);
+    if (!better) return code == STEIF_SINGULAR ? STEIF_OK : code;
+  }
+  return STEIF_OK;
+}
+
 int stf_drazin_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                        const steif_analysis *analysis, const sunrealtype *x0,
                        const stf_sources *sources, steif_structure *structure,
@@ -264,16 +305,8 @@ int stf_drazin_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
               "index %d asks for derivatives of the forcing up to order %d, %d is known: give "
               "them in the forcing function",
               index, index - 1, sources->derivatives);
-  STEIF_TRY(stf_impulse_claim(ctx, sources->n, index, impulse));
-  impulse->method = "drazin";
-  drazin *z = stf_allocate(ctx, 1, sizeof *z);
-  if (!z) return STEIF_NO_MEMORY;
-  *z = (drazin){.sources = sources, .impulse = impulse, .index = index};
-  z->refinements = a.refinements;
-  z->sigma = stf_radius(E, F, analysis, structure);
-  int code = stf_scaled_open(ctx, E, F, &z->scaled);
-  if (!code) code = analyse(z, x0);
-  stf_scaled_close(&z->scaled);
-  stf_release(ctx, z);
-  return code;
+  const sunrealtype sigma = stf_radius(E, F, analysis, structure);
+  STEIF_TRY(attempt(ctx, E, F, a.refinements, index, sigma, x0, sources, impulse));
+  if (a.radius > 0) return STEIF_OK;
+  return lower(ctx, E, F, a.refinements, index, sigma, x0, sources, impulse);
 }

@@ -150,7 +150,13 @@ static const char *verdict(pairing *p, char *room, size_t length)
   if (p->torn >= 0)
     return "small entries decide, in other units of equations and unknowns the index is "
            "another one: set those to 0 that are rounding";
-  if (b->index < 0) return b->message;
+  if (b->index < 0 && a->index > 1)
+    snprintf(
+      room, length,
+      "%.80s; rounding of the entries alone brings eigenvalues of a chain of %d from infinity "
+      "down to some eps^(-1/%d) = %.1e",
+      b->message, a->index, a->index, pow(STF_EPS, -1.0 / a->index));
+  if (b->index < 0) return a->index > 1 ? room : b->message;
   if (p->carried > 0) {
     snprintf(
       room, length,
@@ -233,7 +239,7 @@ static void doubt(steif_structure *s, int other, int torn)
 
 static int judge(pairing *p)
 {
-  char room[200];
+  char room[240];
   steif_structure *s = &p->stairs;
   STEIF_TRY(second(p));
   const char *reason = verdict(p, room, sizeof room);
@@ -287,7 +293,7 @@ static void unscale(const pairing *p, steif_impulse *impulse)
 
 static int impulse_of(pairing *p, steif_impulse *impulse)
 {
-  char room[200];
+  char room[240];
   STEIF_TRY(staircase(p, true));
   STEIF_CHECK(
     p->stairs.regular, p->ctx, STEIF_SINGULAR,

@@ -241,7 +241,8 @@ static void undecided_index_is_not_certified(void)
 }
 
 /* The same question to the sparse algorithms, in dense matrices: circle of radius 30, 32
- * points. The Krylov space keeps fewer digits of a pencil this full. */
+ * points. The Krylov space goes down from there to a sigma at which a pencil this full keeps its
+ * digits. */
 static void sparse_algorithms_answer_too(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -249,14 +250,16 @@ static void sparse_algorithms_answer_too(void)
   for (int a = STEIF_CONTOUR; a <= STEIF_DRAZIN; a++) {
     const steif_analysis analysis = {
       .algorithm = (enum steif_algorithm)a, .radius = 30, .points = 32};
-    const double tolerance = a == STEIF_DRAZIN ? 1e-6 : 1e-9;
+    const steif_analysis open = {.algorithm = STEIF_DRAZIN, .points = 32};
+    const double tolerance = 1e-9;
     steif_structure s;
     steif_impulse impulse;
     CHECK(steif_structure_find(ctx, E, F, &analysis, &s) == STEIF_OK);
     CHECK(s.index == 3 && s.finite == 2 && !strcmp(s.method, "contour"));
     for (int given = 0; given < 2; given++) {
-      CHECK(steif_impulse_find(ctx, E, F, before, 0, force, NULL, &analysis, given ? &s : NULL,
-                               &impulse) == STEIF_OK);
+      CHECK(steif_impulse_find(ctx, E, F, before, 0, force, NULL,
+                               a == STEIF_DRAZIN ? &open : &analysis,
+                               given || a == STEIF_DRAZIN ? &s : NULL, &impulse) == STEIF_OK);
       CHECK(!strcmp(impulse.method, a == STEIF_DRAZIN ? "drazin" : "contour"));
       exact_to(&impulse, tolerance);
       CHECK(fmax(impulse.last, fmax(impulse.chain, impulse.first)) < tolerance);
