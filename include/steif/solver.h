@@ -65,9 +65,10 @@ typedef struct steif_options {
                                NULL: that of the spec, else ramp */
   int suppress_algebraic;   /* IDA: leave algebraic components out of the error test */
   int consistent;           /* IDA: 1 IDACalcIC(YA_YDP_INIT), 2 IDACalcIC(Y_INIT) first */
-  /* Called after every accepted step with the step just made; nonzero stops the run. Before an
-   * event is reacted to, t is the event and y the side before it; when the run begins anew there,
-   * once more with the side behind it. */
+  /* Called after every accepted step with the step just made; nonzero stops the run: with the code
+   * and sentence of a function of the library that has failed in it, else STEIF_CALLBACK. Before
+   * an event is reacted to, t is the event and y the side before it; when the run begins anew
+   * there, once more with the side behind it. */
   int (*observe)(steif_solver *s, sunrealtype t, N_Vector y, void *user);
   /* Called at every event before problem.react, which explains `fired`; nonzero stops the run. */
   int (*notice)(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, void *user);

@@ -33,6 +33,8 @@ int stf_recover(steif_context *ctx, int cause, const char *where, const char *fo
 /* While hushed, recoverable failures store their cause but make no sentence: for attempts whose refusal
  * is part of normal work. Returns what it was. */
 bool stf_hush(steif_context *ctx, bool hushed);
+/* How many failures there have been: a callback's own is told by it, and not replaced. */
+long stf_failures(const steif_context *ctx);
 
 /* Single blocks, zeroed; NULL with the message set when memory is short. */
 void *stf_allocate(steif_context *ctx, size_t count, size_t size);

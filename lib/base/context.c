@@ -18,6 +18,7 @@ struct steif_context {
   SUNContext sundials;
   int code;
   bool hushed;
+  long failures; /* told by stf_fail */
   char message[MESSAGE];
 };
 
@@ -100,6 +101,8 @@ SUNContext steif_sundials(steif_context *ctx) { return ctx ? ctx->sundials : NUL
 
 int stf_threads(const steif_context *ctx) { return ctx->setup.threads; }
 
+long stf_failures(const steif_context *ctx) { return ctx->failures; }
+
 bool stf_hush(steif_context *ctx, bool hushed)
 {
   const bool before = ctx->hushed;
@@ -120,6 +123,7 @@ static void keep(steif_context *ctx, int code, const char *where, const char *fo
 int stf_fail(steif_context *ctx, int code, const char *where, const char *format, ...)
 {
   if (!ctx) return code;
+  ctx->failures++;
   va_list arguments;
   va_start(arguments, format);
   keep(ctx, code, where, format, arguments);

@@ -22,7 +22,7 @@ struct steif_solver {
   stf_watch *watch;           /* of events; NULL: none */
   bool attended;              /* stf_attended */
   bool finished;              /* by an event */
-  bool asked;                 /* the observer wishes to stop */
+  bool asked, explained;      /* the observer wishes to stop, and has failed itself */
   stf_step step;              /* a method of ours ... */
   const steif_engine *engine; /* ... or a baseline */
   void *engine_state;

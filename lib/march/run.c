@@ -24,8 +24,10 @@ static sunrealtype stepped(const steif_solver *s) { return s->engine ? s->run.t 
 
 void stf_observe(steif_solver *s, sunrealtype t, N_Vector y)
 {
+  const long failures = stf_failures(s->ctx);
   s->shown = y, s->t_shown = t;
-  if (s->options.observe && s->options.observe(s, t, y, s->options.observer)) s->asked = true;
+  if (!s->options.observe || !s->options.observe(s, t, y, s->options.observer)) return;
+  s->asked = true, s->explained = stf_failures(s->ctx) > failures;
 }
 
 /* The solution at the end of what is known. */
@@ -91,8 +93,9 @@ static int step_once(steif_solver *s, sunrealtype begun)
   STEIF_TRY(within_limits(s, begun));
   STEIF_TRY(s->watch ? watched(s) : advance(s));
   if (!(s->finished && s->watch->silent)) stf_observe(s, s->end, last(s));
-  const bool asked = s->asked;
-  s->asked = false;
+  const bool asked = s->asked, explained = s->explained;
+  s->asked = s->explained = false;
+  if (asked && explained) return steif_status(s->ctx);
   STEIF_CHECK(!asked, s->ctx, STEIF_CALLBACK, "the observer stopped the run at t = %.12g",
               s->end);
   return STEIF_OK;

@@ -36,6 +36,27 @@ static void an_observer_sees_every_step_and_may_stop(void)
   }
 }
 
+static int stumble(steif_solver *s, sunrealtype t, N_Vector y, void *user)
+{
+  (void)t;
+  return steif_dense(s, 77, y) && *(int *)user;
+}
+
+/* A failure within the observer is told, not replaced; where it goes on, the run does. */
+static void a_failure_of_the_observer_is_kept(void)
+{
+  for (int stops = 0; stops < 2; stops++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_options o = steif_defaults();
+    o.observe = stumble, o.observer = &stops;
+    steif_solver *s = smooth_open(ctx, &smooth, "radau:s=3", &o);
+    CHECK(steif_solve_to(s, 2) == (stops ? STEIF_BAD_INPUT : STEIF_OK));
+    CHECK(!stops || strstr(steif_message(ctx), "77") != NULL);
+    steif_solver_free(&s);
+    steif_context_free(&ctx);
+  }
+}
+
 static void the_limit_of_steps_is_kept(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -133,6 +154,7 @@ static void asking_does_not_move_the_steps(void)
 
 CU_TestInfo tests_of_run[] = {
   {"an observer sees every step and may stop", an_observer_sees_every_step_and_may_stop},
+  {"a failure of the observer is kept", a_failure_of_the_observer_is_kept},
   {"the limit of steps is kept", the_limit_of_steps_is_kept},
   {"a failure is final and keeps its sentence", a_failure_is_final},
   {"times outside the interval are refused", times_outside_are_refused},
