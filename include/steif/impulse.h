@@ -61,8 +61,8 @@ typedef struct steif_structure {
   sunrealtype gap;          /* ratio of the singular values or moments that decide the index */
   sunrealtype rcond;        /* best reciprocal condition of equilibrated s E + F tried */
   sunrealtype radius;       /* estimate of the largest finite |eigenvalue|, or the radius used */
-  int certified;            /* of a regular pencil: for all within rounding of the entries given; of a
-                               singular one: det(s E + F) = 0 exactly as given */
+  int certified;            /* of a regular pencil: what is below rounding of the entries given is taken
+                               for 0; of a singular one: det(s E + F) = 0 exactly as given */
   const char *method;       /* "staircase", "qz", "contour", "drazin" */
   sunindextype equations_count, unknowns_count; /* offenders, 0-based, when singular or index > 1 */
   sunindextype *equations, *unknowns;

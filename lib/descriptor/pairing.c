@@ -213,7 +213,7 @@ static void announce(steif_structure *s, const char *reason, const char *by)
   if (!s->regular)
     snprintf(text, length,
              "singular%s: det(s E + F) = 0 for all s %s (reciprocal condition %.1e at best), "
-             "%lld equation%s and %lld unknown%s depend on each other",
+             "%lld equation%s and %lld unknown%s to blame",
              s->certified ? "" : " to rounding",
              s->certified ? "exactly" : "after relative changes of entries by rounding",
              s->rcond, (long long)s->equations_count, s->equations_count == 1 ? "" : "s",
