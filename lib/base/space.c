@@ -70,6 +70,20 @@ static void block_sum(int count, const sunrealtype *c, N_Vector *x, sunindextype
   }
 }
 
+/* Few components: one after another in a register; terms in the same order, so the same bits. */
+enum { FEW = 8 };
+
+static void few_sums(sunindextype n, int count, const sunrealtype *c, N_Vector *x,
+                     sunrealtype *out)
+{
+  for (sunindextype i = 0; i < n; i++) {
+    sunrealtype sum = 0;
+    for (int j = 0; j < count; j++)
+      if (c[j] != 0) sum += c[j] * STF_ARRAY(x[j])[i];
+    out[i] = sum;
+  }
+}
+
 static sunindextype block_size(sunindextype n, sunindextype from)
 {
   return n - from < BLOCK ? n - from : BLOCK;
@@ -86,6 +100,10 @@ void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vect
     return;
   }
   sunrealtype sum[BLOCK], *out = STF_ARRAY(z);
+  if (space->n <= FEW) {
+    few_sums(space->n, count, c, x, out);
+    return;
+  }
   for (sunindextype from = 0; from < space->n; from += BLOCK) {
     const sunindextype size = block_size(space->n, from);
     block_sum(count, c, x, from, size, sum);
