@@ -2,14 +2,16 @@
 # takes its minute, is left to itself.
 #   cmake -DPROGRAM= -DREADME= -P commands.cmake
 file(STRINGS ${README} lines REGEX "^    steif [a-z]")
-list(FILTER lines EXCLUDE REGEX "^    steif demo")
 list(LENGTH lines count)
 if(count LESS 5)
   message(FATAL_ERROR "README.md shows ${count} commands only")
 endif()
 file(REMOVE_RECURSE commands)
 file(MAKE_DIRECTORY commands)
-foreach(line IN LISTS lines)
+foreach(line IN LISTS lines) # list(FILTER) would split a line at its semicolons
+  if(line MATCHES "^    steif demo")
+    continue()
+  endif()
   string(REGEX REPLACE "^    steif (.*[^ ])   +.*$" "\\1" words "${line}")
   separate_arguments(words UNIX_COMMAND "${words}")
   execute_process(COMMAND ${PROGRAM} ${words} WORKING_DIRECTORY commands
