@@ -11,8 +11,9 @@
  * Dense pencils: singular-value staircase at infinity with tolerances that grow with what was
  * divided by, checked by a generalised Schur form with exactly as many infinite eigenvalues split
  * off. Sparse pencils: Cauchy integrals over a circle of radius R beyond the finite eigenvalues,
- * complex KLU with one symbolic analysis, equilibrated and refined; certified when the number of
- * finite eigenvalues counted inside the circle (Jensen's formula) equals the structural degree.
+ * equilibrated, four nodes at a time in vector registers with the pivots of one complex
+ * factorisation by KLU, refined where residuals ask; certified when the number of finite
+ * eigenvalues counted inside the circle (Jensen's formula) equals the structural degree.
  * What double precision does not decide is reported as undecided with a lower bound, never guessed.
  * Units of equations and unknowns decide nothing, whatever their sizes: rows and columns are scaled
  * by powers of two so that all entries come near to one size, where that is possible.

@@ -1,7 +1,7 @@
 /* circle.c: Laurent coefficients by the trapezoidal rule on |s| = R,
  *   R^i x_i = (1/m) sum_j e^{-i theta_j} x(s_j),  s_j = R e^{i theta_j}, theta_j = 2 pi (j+1/2)/m,
- * which is exact up to x_{i +- m}, x_{i +- 2m}, ...; the mean of log |det(s_j E + F)| comes along.
- * L. N. Trefethen and J. A. C. Weideman, SIAM Review 56 (2014).
+ * which is exact up to x_{i +- m}, x_{i +- 2m}, ...; the mean of log |det(s_j E + F)| comes
+ * along. L. N. Trefethen and J. A. C. Weideman, SIAM Review 56 (2014).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "circle.h"
@@ -23,8 +23,8 @@ enum { SUMS = STF_INDEX_MOST + 2 };
 /* Unknowns that are summed over together, in the first cache. */
 enum { BLOCK = 128 };
 
-/* The backward error of a plain solve, by rows, that is let pass. Where rounding fills zero blocks
- * it is larger by orders of magnitude. */
+/* The backward error of a plain solve, by rows, that is let pass. Where rounding fills zero
+ * blocks it is larger by orders of magnitude. */
 #define GOOD (256 * STF_EPS)
 
 /* A radius over max |F| / max |E| where nothing is known. */
@@ -128,10 +128,10 @@ bool stf_circle_adopt(stf_circle *c, SUNMatrix E, SUNMatrix F, const steif_analy
   return true;
 }
 
-/* ---- sums over the nodes ------------------------------------------------------------------ */
+/* ---- sums over the nodes ----------------------------------------------------------------- */
 
-/* Nodes are visited in pairs that mirror each other in the imaginary axis, theta and pi - theta:
- * e^{-i k theta} of both differ by signs alone. Without a partner: i R. */
+/* Nodes are visited in pairs that mirror each other in the imaginary axis, theta and pi -
+ * theta: e^{-i k theta} of both differ by signs alone. Without a partner: i R. */
 static sunrealtype angle_of(const stf_circle *c, int visit)
 {
   const int half = c->points / 2, j = visit % 2 ? half - 1 - visit / 2 : visit / 2;
@@ -222,7 +222,7 @@ static void measure(stf_circle *c)
   }
 }
 
-/* ---- pivots -------------------------------------------------------------------------------- */
+/* ---- pivots ------------------------------------------------------------------------------ */
 
 static int fill_batches(stf_circle *c)
 {
@@ -237,8 +237,8 @@ static steif_shift node(const stf_circle *c, int visit)
   return (steif_shift){c->radius * cos(angle), c->radius * sin(angle)};
 }
 
-/* Pivots by KLU at a node, for all batches. The order of the unknowns is that of its analysis and
- * stays. */
+/* Pivots by KLU at a node, for all batches. The order of the unknowns is that of its analysis
+ * and stays. */
 static int pivot(stf_circle *c, int visit)
 {
   steif_pencil *p = c->scaled.pencil;
@@ -262,7 +262,7 @@ static int prepare(stf_circle *c)
   return STEIF_OK;
 }
 
-/* ---- around the circle ------------------------------------------------------------------------- */
+/* ---- around the circle ------------------------------------------------------------------- */
 
 /* Nodes for one pass, and what becomes of them. */
 typedef struct pass {

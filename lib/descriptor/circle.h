@@ -8,8 +8,8 @@
 #include <nvector/nvector_serial.h>
 #include <steif/pencil.h>
 
-/* E and F scaled: rows and columns multiplied by powers of two that bring the largest entries of
- * size |E| + |F| near one, so that scaling rounds nothing. */
+/* E and F scaled: rows and columns multiplied by powers of two that bring the largest entries
+ * of size |E| + |F| near one, so that scaling rounds nothing. */
 typedef struct stf_scaled {
   steif_context *ctx;
   stf_pool *pool;
@@ -24,25 +24,26 @@ typedef struct stf_scaled {
   steif_pencil *pencil;
 } stf_scaled;
 
-/* A backward error by rows that refinement does not lessen: that of the rounding of residuals. */
+/* A backward error by rows that refinement does not lessen: that of the rounding of
+ * residuals. */
 #define STF_STEADY (2 * STF_EPS)
 
 int stf_scaled_open(steif_context *ctx, SUNMatrix E, SUNMatrix F, stf_scaled *s);
 void stf_scaled_close(stf_scaled *s);
-/* Equilibrate size |E| + |F|, unless scales of a size near are there, and hand the values to the
- * pencil. */
+/* Equilibrate size |E| + |F|, unless scales of a size near are there, and hand the values to
+ * the pencil. */
 int stf_scaled_set(stf_scaled *s, sunrealtype size);
 /* Whether it holds these matrices, entry for entry; they are the given ones from now on. */
 bool stf_scaled_adopt(stf_scaled *s, SUNMatrix E, SUNMatrix F);
-/* b <- M^{-1} b in scaled coordinates, M = s E + F as factored in slot k; for complex s all vectors
- * are interleaved, 2 n. */
+/* b <- M^{-1} b in scaled coordinates, M = s E + F as factored in slot k; for complex s all
+ * vectors are interleaved, 2 n. */
 void stf_scaled_direct(stf_scaled *s, int k, sunrealtype *b);
-/* One step of refinement of M x = b where it is needed, or anyway: r comes as b and is overwritten.
- * False: none was made, as the backward error of x is STF_STEADY or less. */
+/* One step of refinement of M x = b where it is needed, or anyway: r comes as b and is
+ * overwritten. False: none was made, as the backward error of x is STF_STEADY or less. */
 bool stf_scaled_refine(stf_scaled *s, int k, bool anyway, sunrealtype *x, sunrealtype *r);
 
-/* The quadrature with `points` nodes R e^{2 pi i (j + 1/2) / points}, of which half are factored,
- * the data being real: a batch of them at a time on each thread. */
+/* The quadrature with `points` nodes R e^{2 pi i (j + 1/2) / points}, of which half are
+ * factored, the data being real: a batch of them at a time on each thread. */
 typedef struct stf_circle {
   stf_scaled scaled;
   int points, refinements, threads, batches, room, count;
@@ -64,12 +65,12 @@ enum { STF_INDEX_MOST = 64 };
 int stf_circle_open(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                     const steif_analysis *analysis, int room, stf_circle **circle);
 void stf_circle_close(steif_context *ctx, stf_circle **circle);
-/* Whether an open circle serves these matrices, this analysis and so many coefficients, which are
- * counted from now on. */
+/* Whether an open circle serves these matrices, this analysis and so many coefficients, which
+ * are counted from now on. */
 bool stf_circle_adopt(stf_circle *circle, SUNMatrix E, SUNMatrix F,
                       const steif_analysis *analysis, int room);
-/* Factor around the circle of radius R; right-hand sides g in scaled coordinates, NULL: determinant
- * only. */
+/* Factor around the circle of radius R; right-hand sides g in scaled coordinates, NULL:
+ * determinant only. */
 int stf_circle_run(stf_circle *circle, sunrealtype R, const stf_polynomial *g);
 
 /* The analysis with its defaults. */

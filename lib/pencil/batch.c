@@ -1,5 +1,5 @@
-/* batch.c: what batch.h keeps: the sequence of pivots out of KLU's factors, memory for all lanes, and
- * the order of work on it.
+/* batch.c: what batch.h keeps: the sequence of pivots out of KLU's factors, memory for all
+ * lanes, and the order of work on it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "batch.h"
 #include <limits.h>
@@ -10,7 +10,7 @@
 /* Bytes of a line of cache, which is an entry of a batch. */
 enum { ALIGNED = 64 };
 
-/* ---- the sequence -------------------------------------------------------------------------- */
+/* ---- the sequence ------------------------------------------------------------------------ */
 
 /* What klu_zl_extract writes. */
 typedef struct extract {
@@ -93,7 +93,8 @@ static void find_runs(stf_sequence *q)
   for (int k = q->n - 2; k >= 0; k--) q->run[k] = continues(q, k) ? q->run[k + 1] + 1 : 1;
 }
 
-/* Where columns and rows begin; entries above the block of their column stand behind the others. */
+/* Where columns and rows begin; entries above the block of their column stand behind the
+ * others. */
 static void arrange(const stf_pattern *u, stf_sequence *q)
 {
   SuiteSparse_long next = 0;
@@ -189,7 +190,7 @@ void stf_sequence_close(stf_sequence **sequence)
   *sequence = NULL;
 }
 
-/* ---- the batch --------------------------------------------------------------------------------- */
+/* ---- the batch --------------------------------------------------------------------------- */
 
 int stf_batch_open(const stf_sequence *q, stf_batch *b)
 {

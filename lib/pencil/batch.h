@@ -1,10 +1,10 @@
 /* batch.h: s E - A at several complex shifts side by side, in the lanes of vector registers.
  *
- * The shifts share one pattern, one order and one sequence of pivots, those of a factorisation by KLU:
- * an entry is the real parts of all lanes and then their imaginary parts, so that indices are read
- * once for all of them. Vectors stand in the order of the pivots: equation `equation[k]` of a
- * right-hand side, unknown `unknown[k]` of a solution at place k. A lane's results do
- * not depend on what stands in the others.
+ * The shifts share one pattern, one order and one sequence of pivots, those of a factorisation
+ * by KLU: an entry is the real parts of all lanes and then their imaginary parts, so that
+ * indices are read once for all of them. Vectors stand in the order of the pivots: equation
+ * `equation[k]` of a right-hand side, unknown `unknown[k]` of a solution at place k. A lane's
+ * results do not depend on what stands in the others.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_BATCH_H
@@ -14,7 +14,8 @@
 
 enum { STF_LANES = 4 }; /* an entry fills a line of cache */
 
-/* Symbolic: P (s E - A) Q = L U + F, block upper triangular, all numbers places in that order. */
+/* Symbolic: P (s E - A) Q = L U + F, block upper triangular, all numbers places in that
+ * order. */
 typedef struct stf_sequence {
   steif_context *ctx;
   int n, blocks;
@@ -23,8 +24,7 @@ typedef struct stf_sequence {
   int *place;                      /* of each equation */
   SuiteSparse_long *lower, *upper; /* column k of L below, of U above the diagonal */
   int *below, *above;              /* their rows, ascending */
-  int *
-    run; /* so many columns of L from k on have the rows of the last of them, and those between */
+  int *run; /* so many columns of L from k on differ in nothing but their first rows */
   SuiteSparse_long *column,
     *inner;                      /* of s E - A: entries of column k, those of its block first */
   int *entry;                    /* their rows */
@@ -40,7 +40,8 @@ void stf_sequence_close(stf_sequence **sequence);
 /* The values of E and A, after an update of p that kept the pattern. */
 void stf_sequence_fill(const steif_pencil *p, stf_sequence *sequence);
 
-/* Right-hand sides g_0 + z g_1 + z^2 g_2 + ..., z = 1 / s, rows of n, times `scale` by equations. */
+/* Right-hand sides g_0 + z g_1 + z^2 g_2 + ..., z = 1 / s, rows of n, times `scale` by
+ * equations. */
 typedef struct stf_polynomial {
   int powers;             /* beside the constant */
   const double *constant; /* n */
@@ -65,11 +66,12 @@ typedef struct stf_batch {
 int stf_batch_open(const stf_sequence *sequence, stf_batch *batch);
 void stf_batch_close(stf_batch *batch);
 
-/* Factor at the shifts s, all lanes of them, and x from g, unless it is NULL. Pivots below `growth`
- * times the largest of their column make a lane bad; 0: anything but 0 and overflow serves. */
+/* Factor at the shifts s, all lanes of them, and x from g, unless it is NULL. A lane is bad
+ * where a column of U exceeds that of s E - A more than 1 / growth times, by largest entries;
+ * growth 0: where a pivot is 0 or not finite. */
 void stf_batch_factor(stf_batch *batch, double growth, const stf_polynomial *g);
-/* Up to `sweeps` steps of refinement of x while the backward error is above `steady`, one anyway;
- * sweeps 0: the error alone. */
+/* Up to `sweeps` steps of refinement of x while the backward error is above `steady`, one
+ * anyway; sweeps 0: the error alone. */
 void stf_batch_refine(stf_batch *batch, const stf_polynomial *g, int sweeps, double steady);
 
 /* residual.c: r, which comes as b, becomes b - (s E - A) x, and error: E x and A x in twice the

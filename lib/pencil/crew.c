@@ -1,5 +1,5 @@
-/* crew.c: independent pieces of work side by side on the cores that the context allows: what comes out
- * does not depend on the number of threads.
+/* crew.c: independent pieces of work side by side on the cores that the context allows: what
+ * comes out does not depend on the number of threads.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "pencil.h"
 #include <pthread.h>

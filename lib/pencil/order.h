@@ -6,20 +6,21 @@
 #include <SuiteSparse_config.h>
 #include <sundials/sundials_types.h>
 
-/* An order for the symmetric pattern (ptr, row) without its diagonal: nested dissection of large ones
- * where CHOLMOD has METIS, else approximate minimum degree. STEIF_OK or STEIF_NO_MEMORY. */
+/* An order for the symmetric pattern (ptr, row) without its diagonal: nested dissection of
+ * large ones where CHOLMOD has METIS, else approximate minimum degree. STEIF_OK or
+ * STEIF_NO_MEMORY. */
 int stf_order(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row,
               SuiteSparse_long *order);
 
-/* The order of a diagonal block that KLU asks for, any pattern: nested dissection of the symmetric
- * closure. 1, or 0 where it is not to be had. */
+/* The order of a diagonal block that KLU asks for, any pattern: nested dissection of the
+ * symmetric closure. 1, or 0 where it is not to be had. */
 struct klu_l_common_struct;
 SuiteSparse_long stf_order_block(SuiteSparse_long n, SuiteSparse_long *ptr,
                                  SuiteSparse_long *row, SuiteSparse_long *order,
                                  struct klu_l_common_struct *common);
 
-/* Flops of an LU per entry of its factors, by minimum degree on any pattern: how many solves one
- * factorisation costs, up to a factor. Negative: not known. */
+/* Flops of an LU per entry of its factors, by minimum degree on any pattern: how many solves
+ * one factorisation costs, up to a factor. Negative: not known. */
 double stf_order_work(sunindextype n, const sunindextype *column, const sunindextype *row);
 
 #endif

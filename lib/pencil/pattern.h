@@ -16,7 +16,8 @@ typedef struct stf_pattern {
   double most_e, most_a;         /* their largest sizes */
 } stf_pattern;
 
-/* Build for p->E and p->A, after checking their index arrays; p->E NULL counts as the diagonal. */
+/* Build for p->E and p->A, after checking their index arrays; p->E NULL counts as the
+ * diagonal. */
 int stf_pattern_build(steif_pencil *p, stf_pattern *u);
 bool stf_pattern_same(const steif_pencil *p, const stf_pattern *u);
 void stf_pattern_free(steif_pencil *p, stf_pattern *u);
@@ -30,8 +31,8 @@ void stf_pattern_assemble(const steif_pencil *p, const stf_pattern *u, steif_shi
 /* No entry of s E - A can overflow. */
 bool stf_pattern_moderate(const stf_pattern *u, steif_shift s);
 
-/* sparse.c: the pattern of a sparse pencil and KLU's analysis of it; of a factored slot s E - A on
- * it, and its factors. */
+/* sparse.c: the pattern of a sparse pencil and KLU's analysis of it; of a factored slot s E - A
+ * on it, and its factors. */
 const stf_pattern *stf_sparse_pattern(const steif_pencil *p);
 klu_l_symbolic *stf_sparse_symbolic(const steif_pencil *p);
 const double *stf_sparse_values(const steif_pencil *p, int slot);

@@ -48,10 +48,10 @@ double stf_sparse_residual(const steif_pencil *p, int slot, const double *x, dou
   return sqrt(sum / (double)u->n);
 }
 
-/* ---- in twice the precision ------------------------------------------------------------------ */
+/* ---- in twice the precision -------------------------------------------------------------- */
 
-/* Sums of products as high + low without their roundings (T. Ogita, S. M. Rump & S. Oishi, SIAM J.
- * Sci. Comput. 26, 2005); complex ones by lanes. */
+/* Sums of products as high + low without their roundings (T. Ogita, S. M. Rump & S. Oishi, SIAM
+ * J. Sci. Comput. 26, 2005); complex ones by lanes. */
 typedef struct twofold {
   double high[2][STF_LANES], low[2][STF_LANES];
 } twofold;

@@ -1,7 +1,8 @@
-/* sweep.c: the loops of batch.h over columns of L and U and rows of s E - A, once for each instruction
- * set. Left-looking: column k of s E - A is scattered, less the columns of L that its part of U
- * names, in the order in which KLU has found them (J. R. Gilbert & T. Peierls, SIAM J. Sci. Stat.
- * Comput. 9, 1988).
+/* sweep.c: the loops of batch.h over columns of L and U and rows of s E - A, once for each
+ * instruction set. Left-looking: column k of s E - A is scattered, less the columns of L that
+ * its part of U names (J. R. Gilbert & T. Peierls, SIAM J. Sci. Stat. Comput. 9, 1988), those
+ * with the same rows together as in supernodes (J. W. Demmel et al., SIAM J. Matrix Anal. Appl.
+ * 20, 1999).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "batch.h"
 #include "simd.h"
@@ -62,8 +63,8 @@ INLINE void minus_one(SuiteSparse_long count, const int *row, const double *a, c
   minus(1, count, row, &a, z, x);
 }
 
-/* x -= L z for columns j .. j + run - 1 of L, which have the same rows below: z are those entries of
- * x itself, each after the columns before it. */
+/* x -= L z for columns j .. j + run - 1 of L, which have the same rows below: z are those
+ * entries of x itself, each after the columns before it. */
 INLINE void columns(const int run, const stf_batch *b, int j, double *x, v4 *z)
 {
   const stf_sequence *q = b->sequence;
@@ -79,7 +80,8 @@ INLINE void columns(const int run, const stf_batch *b, int j, double *x, v4 *z)
   minus(run, q->lower[last + 1] - q->lower[last], q->below + q->lower[last], a, z, x);
 }
 
-/* As many columns from j on as may go together, of those that are left; returns how many went. */
+/* As many columns from j on as may go together, of those that are left; returns how many
+ * went. */
 INLINE int together(const stf_batch *b, int j, SuiteSparse_long left, double *x, v4 *z)
 {
   const SuiteSparse_long run = left < b->sequence->run[j] ? left : b->sequence->run[j];
@@ -95,7 +97,7 @@ INLINE int together(const stf_batch *b, int j, SuiteSparse_long left, double *x,
   return 1;
 }
 
-/* ---- factors --------------------------------------------------------------------------------- */
+/* ---- factors ----------------------------------------------------------------------------- */
 
 /* Of the pivots so far |det|^2 = product 2^exponent, 1 <= product < 2; bad: one was zero or not
  * finite. least: of the squared ratios of largest entries of columns of s E - A and of U. */
@@ -167,7 +169,7 @@ INLINE void column(stf_batch *b, int k, const v4 *s, bool watched, record *now)
   }
 }
 
-/* ---- solutions ------------------------------------------------------------------------------- */
+/* ---- solutions --------------------------------------------------------------------------- */
 
 /* The right-hand side of place k by Horner's rule in z. */
 INLINE void horner(const stf_polynomial *g, SuiteSparse_long n, int i, const v4 *z, v4 *b)
@@ -295,7 +297,7 @@ INLINE void correct(const stf_batch *b, const bool *lanes)
   }
 }
 
-/* ---- instruction sets ------------------------------------------------------------------------ */
+/* ---- instruction sets -------------------------------------------------------------------- */
 
 #define SWEEPS(isa, attribute)                                                                 \
   attribute static void factor_##isa(stf_batch *b, bool watched, bool solving)                 \

@@ -39,8 +39,8 @@ static void threads_agree(void)
 
 enum { PAIRS = 3, N = 2 * PAIRS + 1 };
 
-/* Pairs [s - c, -d; d, s - c] under one constraint w . x = 0 with its multiplier, which are eliminated
- * last: at c + d i the second pivot of a pair vanishes, not the determinant. */
+/* Pairs [s - c, -d; d, s - c] under one constraint w . x = 0 with its multiplier, which are
+ * eliminated last: at c + d i the second pivot of a pair vanishes, not the determinant. */
 static void constrained(system_ *s, const steif_shift *pair)
 {
   memset(s, 0, sizeof *s);
@@ -92,7 +92,8 @@ static void quadrature(const system_ *s, double R, int points, double *x_plus, d
   SUNMatDestroy(E), SUNMatDestroy(A);
 }
 
-/* A pivot that vanishes, one that is small, and none of these; twice, as what was found serves again. */
+/* A pivot that vanishes, one that is small, and none of these; twice, as what was found serves
+ * again. */
 static void pivots_fail(void)
 {
   const double R = 12, angle = 2 * 3.14159265358979323846 * 1.5 / 16;

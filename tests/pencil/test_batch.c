@@ -1,5 +1,5 @@
-/* test_batch.c: shifts side by side against dense products of their factors, against KLU, and with
- * pivots and memory that fail.
+/* test_batch.c: shifts side by side against dense products of their factors, against KLU, and
+ * with pivots and memory that fail.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "base/failing.h"
 #include "batch.h"
@@ -21,7 +21,8 @@ static stf_batch batch;
 
 static const steif_shift shifts[LANES] = {{1.3, 0.7}, {-0.4, 2.1}, {3.7, -1.9}, {0.2, 0.35}};
 
-/* Random, block upper triangular before rows and columns are mixed; E has a third of the entries. */
+/* Random, block upper triangular before rows and columns are mixed; E has a third of the
+ * entries. */
 static void begin(const steif_setup *setup, unsigned seed)
 {
   static double e[N * N], a[N * N];
@@ -198,8 +199,8 @@ static void lanes_alone(void)
   end();
 }
 
-/* [s - 2, 1; -1, s - 2] beside a loose unknown: singular at 2 + i, where i + 1/i = 0 is exact; near
- * to it a pivot is small, and good for those who ask for nothing but that it is not 0. */
+/* [s - 2, 1; -1, s - 2] beside a loose unknown: singular at 2 + i, where i + 1/i = 0 is exact;
+ * near to it a pivot is small, and good for those who ask for nothing but that it is not 0. */
 static void bad_pivots(void)
 {
   static const double e[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, a[9] = {2, 1, 0, -1, 2, 0, 0, 0, 3};
@@ -226,8 +227,8 @@ static void bad_pivots(void)
   end();
 }
 
-/* Rows 1, 1 + d: x = (b_1 (1 + d) - b_2, b_2 - b_1) / d, of condition 4 / d. Ordinary residuals leave
- * an error of rounding times that. */
+/* Rows 1, 1 + d: x = (b_1 (1 + d) - b_2, b_2 - b_1) / d, of condition 4 / d. Ordinary residuals
+ * leave an error of rounding times that. */
 static void ill_conditioned(void)
 {
   static const double d = 0x1p-30, e[4] = {0, 0, 0, 0}, a[4] = {-1, -1, -1, -1 - 0x1p-30};
