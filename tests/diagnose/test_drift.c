@@ -90,7 +90,8 @@ static void tiny_steps_at_index_three_converge(void)
     const steif_options o = {.h = h[k], .t1 = h[k]};
     steif_solver *s = steif_solver_new(ctx, &p, "be", &o);
     CHECK(s && !steif_solve_to(s, h[k]));
-    CHECK(steif_statistics(s)->newton <= 3); /* the last one sees that the one before was enough */
+    CHECK(steif_statistics(s)->newton <=
+          3); /* the last one sees that the one before was enough */
     const double *y = N_VGetArrayPointer(steif_solution(s));
     double moved = 0;
     for (int j = 7; j < 14; j++) moved = fmax(moved, fabs(y[j] - p.y0[j]));
@@ -105,9 +106,9 @@ static void tiny_steps_at_index_three_converge(void)
  * round with it, 51.338775, -24.9757667, -10.00564453, are off by 1e-5 to 5e-4. */
 static void the_amplifier_has_its_slopes(void)
 {
-  static const double slope[] = {51.3392765171807206,  51.3392765171807206,  -166.666666666666667,
-                                 -24.9703285154063289, -24.9703285154063289, -83.3333333333333333,
-                                 -10.0002764024563387, -10.0002764024563387};
+  static const double slope[] = {
+    51.3392765171807206,  51.3392765171807206,  -166.666666666666667, -24.9703285154063289,
+    -24.9703285154063289, -83.3333333333333333, -10.0002764024563387, -10.0002764024563387};
   steif_context *ctx = steif_context_new(NULL);
   steif_problem p;
   steif_start start;

@@ -5,12 +5,22 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-static const char *const methods[] = {"auto",      "radau:s=3",  "gauss:s=4",
-                                      "dirk:hw43", "rodas4", "bdf"};
+static const char *const methods[] = {"auto",      "radau:s=3", "gauss:s=4",
+                                      "dirk:hw43", "rodas4",    "bdf"};
 enum { METHODS = sizeof methods / sizeof *methods };
 
 /* What is wrong with the callbacks. */
-enum fault { NONE, F_NAN, F_REFUSES, F_STOPS, F_RESIZES, JAC_NAN, JAC_STOPS, JAC_GROWS, JAC_OVERFLOWS };
+enum fault {
+  NONE,
+  F_NAN,
+  F_REFUSES,
+  F_STOPS,
+  F_RESIZES,
+  JAC_NAN,
+  JAC_STOPS,
+  JAC_GROWS,
+  JAC_OVERFLOWS
+};
 
 typedef struct wrong {
   enum fault fault;
@@ -98,7 +108,8 @@ static void callbacks_that_fail_are_named(void)
     fails(F_STOPS, methods[m], STEIF_CALLBACK, "(it returned -3)");
     fails(F_RESIZES, methods[m], STEIF_BAD_INPUT,
           "gave a vector back with 1 components, it had 2: callbacks fill vectors and never");
-    fails(JAC_STOPS, methods[m], STEIF_CALLBACK, "jac of problem 'wrong' stopped the run at t = 1");
+    fails(JAC_STOPS, methods[m], STEIF_CALLBACK,
+          "jac of problem 'wrong' stopped the run at t = 1");
     if (m != 3) /* which keeps the Jacobian of the start */
       fails(JAC_OVERFLOWS, methods[m], STEIF_BAD_INPUT,
             "jac of problem 'wrong' filled 9 entries into room for 3: correct .nnz");
@@ -143,7 +154,8 @@ static void times_before_are_refused(void)
     CHECK(!steif_solve_to(s, 1) && NV_Ith_S(steif_solution(s), 0) == start[0]);
     for (int i = 0; i < 5; i++) {
       CHECK(steif_solve_to(s, bad[i]) == STEIF_BAD_INPUT);
-      CHECK(strstr(steif_message(ctx), "outside the interval [1, 2] of the run: set options.t1"));
+      CHECK(
+        strstr(steif_message(ctx), "outside the interval [1, 2] of the run: set options.t1"));
     }
     CHECK(!steif_solve_to(s, 1.9));
     CHECK(steif_solve_to(s, 1) == STEIF_BAD_INPUT);
