@@ -54,7 +54,9 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
     stf_rodas_small_open(&e->kernel, (int)s->problem->n,
                          s->system.E ? SM_DATA_D(s->system.E) : NULL);
   s->newton.fresh = false;
-  return stf_share_open(s, spec->name, e->r->order - 1, e->r->order);
+  STEIF_TRY(stf_share_open(s, spec->name, e->r->order - 1, e->r->order));
+  s->error_tolerance = fmin(0.1, 10 * s->error_tolerance); /* the estimate of Rodas is generous */
+  return STEIF_OK;
 }
 
 /* f at the accepted point and its slope in t. */
