@@ -1,6 +1,8 @@
 /* pencil.c: regularity, index and structure of a pencil s E + F.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "linear.h"
+#include "run.h"
+#include <math.h>
 #include <stdlib.h>
 
 static void numbers(steif_report *r, const char *name, long count, const sunindextype *value)
@@ -30,7 +32,7 @@ static void fill(steif_report *r, const steif_structure *s)
   count(r, "finite", (long)s->finite);
   count(r, "infinite", (long)s->infinite);
   count(r, "degree_bound", (long)s->degree);
-  steif_report_real(r, "count", s->count);
+  report_maybe(r, "", "count", !isnan(s->count), s->count);
   numbers(r, "weyr", s->weyr_count, s->weyr);
   steif_report_real(r, "gap", s->gap);
   steif_report_real(r, "rcond", s->rcond);
