@@ -1,5 +1,6 @@
 /* test_public.c: the baselines through the public interface, as a user calls them.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/failing.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
 #include <steif/steif.h>
@@ -117,37 +118,20 @@ static void equal_steps_of_arkode_are_those_of_our_engine(void)
   }
 }
 
-/* An allocator whose request number `fatal` fails. */
-typedef struct tap {
-  int seen, fatal;
-} tap;
-
-static void *allocate(size_t bytes, void *user)
-{
-  tap *t = user;
-  return ++t->seen == t->fatal ? NULL : malloc(bytes);
-}
-
-static void release(void *block, void *user)
-{
-  (void)user;
-  free(block);
-}
-
 /* Open, run and free; the number of requests. */
-static int starve(const steif_problem *p, const char *method, int fatal)
+static long starve(const steif_problem *p, const char *method, long fatal)
 {
-  tap t = {0, fatal};
-  const steif_setup setup = {.allocate = allocate, .release = release, .user = &t};
+  failing memory = {.refuse_at = fatal};
+  const steif_setup setup = failing_setup(&memory);
   steif_context *ctx = steif_context_new(&setup);
-  if (!ctx) return t.seen;
+  if (!ctx) return memory.served;
   steif_solver *s = steif_solver_new(ctx, p, method, NULL);
-  if (fatal && t.seen >= fatal) CHECK(!s && steif_status(ctx) == STEIF_NO_MEMORY);
-  const int opened = t.seen;
-  if (s) CHECK(steif_solve_to(s, 0.4) == STEIF_OK && t.seen == opened);
+  if (fatal && memory.served >= fatal) CHECK(!s && steif_status(ctx) == STEIF_NO_MEMORY);
+  const long opened = memory.served;
+  if (s) CHECK(steif_solve_to(s, 0.4) == STEIF_OK && memory.served == opened);
   steif_solver_free(&s);
   steif_context_free(&ctx);
-  return t.seen;
+  return memory.served;
 }
 
 static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
@@ -165,9 +149,9 @@ static void memory_may_end_anywhere(void)
   for (int e = 0; e < 3; e++)
     for (int form = e == 0 ? 1 : 0; form < 2; form++) {
       const steif_problem *which = e == 0 ? &p[0] : &p[form];
-      const int total = starve(which, all[e], 0);
+      const long total = starve(which, all[e], 0);
       CHECK(total > 8);
-      for (int k = 1; k <= total; k++) starve(which, all[e], k);
+      for (long k = 1; k <= total; k++) starve(which, all[e], k);
     }
 }
 

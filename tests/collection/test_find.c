@@ -1,5 +1,6 @@
 /* test_find.c: specs become problems, wrong specs become sentences, nothing leaks.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/failing.h"
 #include "fixture.h"
 #include <stdbool.h>
 #include <stdlib.h>
@@ -99,42 +100,23 @@ static void no_place_for_the_problem_is_refused(void)
   steif_context_free(&ctx);
 }
 
-/* An allocator that fails once `left` is used up and counts what is alive. */
-typedef struct hunger {
-  int left, alive;
-} hunger;
-
-static void *starve(size_t bytes, void *user)
-{
-  hunger *h = user;
-  if (h->left-- <= 0) return NULL;
-  h->alive++;
-  return malloc(bytes);
-}
-
-static void feed(void *block, void *user)
-{
-  if (block) ((hunger *)user)->alive--;
-  free(block);
-}
-
-/* Find `spec` with memory for `budget` blocks; true when that was enough. */
+/* Find `spec`, refused its block number budget + 1; true when it asks for less. */
 static bool starved(const char *spec, int budget)
 {
-  hunger h = {.left = 1};
-  steif_context *ctx = steif_context_new(&(steif_setup){starve, feed, &h, 1});
-  const int before = h.alive;
+  failing memory = {0};
+  const steif_setup setup = failing_setup(&memory);
+  steif_context *ctx = steif_context_new(&setup);
+  const long before = memory.alive;
   steif_problem p;
-  h.left = budget;
+  memory.refuse_at = memory.served + budget + 1;
   const int code = steif_problem_find(ctx, spec, &p);
   CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
-  if (code) CHECK(!p.name && !p.user && h.alive == before);
+  if (code) CHECK(!p.name && !p.user && memory.alive == before);
   if (code) CHECK(steif_status(ctx) == STEIF_NO_MEMORY);
   steif_problem_clear(ctx, &p);
-  CHECK(h.alive == before);
-  h.left = 1;
+  CHECK(memory.alive == before);
   steif_context_free(&ctx);
-  CU_ASSERT_EQUAL(h.alive, 0);
+  CU_ASSERT_EQUAL(memory.alive, 0);
   return code == STEIF_OK;
 }
 

@@ -2,6 +2,7 @@
  * every k, through the context's allocator and, where the C library can be replaced, in SUNDIALS and
  * KLU too.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/failing.h"
 #include "laws.h"
 #include <stdlib.h>
 
@@ -92,25 +93,6 @@ static void events_allocate_nothing(void)
 #endif
 }
 
-typedef struct meal {
-  long asked, fail_at, live;
-} meal;
-
-static void *allocate(size_t bytes, void *user)
-{
-  meal *m = user;
-  if (++m->asked == m->fail_at) return NULL;
-  m->live++;
-  return malloc(bytes);
-}
-
-static void release(void *block, void *user)
-{
-  meal *m = user;
-  if (block) m->live--;
-  free(block);
-}
-
 /* Find, open, run and close; the code of the first failure. */
 static int life(steif_context *ctx, const char *problem, const char *method)
 {
@@ -170,12 +152,14 @@ static void the_allocator_may_fail_anywhere(void)
 {
   for (int i = 0; i < LIVES; i++)
     for (long k = 1;; k++) {
-      meal m = {.fail_at = k};
-      steif_context *ctx = steif_context_new(&(steif_setup){allocate, release, &m, 1});
+      failing memory = {.refuse_at = k};
+      steif_setup setup = failing_setup(&memory);
+      setup.threads = 1;
+      steif_context *ctx = steif_context_new(&setup);
       const int code = ctx ? life(ctx, lives[i][0], lives[i][1]) : STEIF_NO_MEMORY;
       steif_context_free(&ctx);
-      CHECK(m.live == 0);
-      if (m.asked < k) {
+      CHECK(memory.alive == 0);
+      if (memory.served < k) {
         if (code) printf("\n  %s %s: %d after %ld", lives[i][0], lives[i][1], code, k);
         CHECK(code == STEIF_OK && k > 20);
         break;

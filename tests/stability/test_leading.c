@@ -1,5 +1,6 @@
 /* test_leading.c: the first exponents of problems with band and sparse Jacobians.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/failing.h"
 #include "stability.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
@@ -208,25 +209,6 @@ static void singular_stages_are_named(void)
   steif_context_free(&ctx);
 }
 
-/* An allocator that fails at the k-th call. */
-typedef struct meter {
-  long calls, fail_at, open;
-} meter;
-
-static void *allocate(size_t bytes, void *user)
-{
-  meter *m = user;
-  if (++m->calls == m->fail_at) return NULL;
-  m->open++;
-  return malloc(bytes);
-}
-
-static void release(void *block, void *user)
-{
-  if (block) ((meter *)user)->open--;
-  free(block);
-}
-
 static void hunger_is_reported(void)
 {
   const steif_problem dae = {.name = "sparse3",
@@ -244,15 +226,17 @@ static void hunger_is_reported(void)
   int code = STEIF_NO_MEMORY;
   long k = 0, failures = 0;
   while (code != STEIF_OK && k < 1000) {
-    meter m = {0};
-    steif_context *ctx = steif_context_new(&(steif_setup){allocate, release, &m, 1});
-    m.fail_at = m.calls + ++k;
+    failing memory = {0};
+    steif_setup setup = failing_setup(&memory);
+    setup.threads = 1;
+    steif_context *ctx = steif_context_new(&setup);
+    memory.refuse_at = memory.served + ++k;
     code = steif_lyapunov(ctx, &dae, "radau:s=2", &o, x, NULL, NULL);
     CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
     CHECK(code == STEIF_OK || strlen(steif_message(ctx)) > 10);
     failures += code == STEIF_NO_MEMORY;
     steif_context_free(&ctx);
-    CHECK(m.open == 0);
+    CHECK(memory.alive == 0);
   }
   CHECK(code == STEIF_OK && failures > 20);
 }

@@ -1,5 +1,6 @@
 /* test_read.c: tableaux in text files: what is read, and what is refused with its line.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/failing.h"
 #include "suite.h"
 #include "table.h"
 #include <stdlib.h>
@@ -96,25 +97,6 @@ static void files_are_tables(void)
   steif_context_free(&ctx);
 }
 
-struct hunger {
-  int left, blocks;
-};
-
-static void *starve(size_t bytes, void *user)
-{
-  struct hunger *h = user;
-  if (h->left-- <= 0) return NULL;
-  h->blocks++;
-  return malloc(bytes);
-}
-
-static void feed(void *block, void *user)
-{
-  struct hunger *h = user;
-  if (block) h->blocks--;
-  free(block);
-}
-
 /* The text, its matrices, the table: three allocations, each may fail. */
 static void short_memory_is_reported(void)
 {
@@ -124,15 +106,16 @@ static void short_memory_is_reported(void)
   close(file);
   snprintf(spec, sizeof spec, "glm:file=%s", path);
   for (int k = 0; k <= 3; k++) {
-    struct hunger h = {.left = 1000};
-    steif_context *ctx = steif_context_new(&(steif_setup){starve, feed, &h, 1});
+    failing memory = {0};
+    const steif_setup setup = failing_setup(&memory);
+    steif_context *ctx = steif_context_new(&setup);
     CU_ASSERT_FATAL(ctx != NULL);
-    const int own = h.blocks;
-    h.left = k;
+    const long own = memory.alive;
+    memory.refuse_at = memory.served + k + 1;
     steif_table *t = steif_table_new(ctx, spec);
     CHECK((t != NULL) == (k == 3) && (t || steif_status(ctx) == STEIF_NO_MEMORY));
     steif_table_free(ctx, &t);
-    CHECK(h.blocks == own);
+    CHECK(memory.alive == own);
     steif_context_free(&ctx);
   }
   unlink(path);

@@ -1,5 +1,6 @@
 /* test_shelf.c: looking tables up, parameters, ownership, known coefficients.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/failing.h"
 #include "suite.h"
 #include "table.h"
 #include <stdlib.h>
@@ -184,35 +185,17 @@ static void wrong_specs_are_refused(void)
   steif_context_free(&ctx);
 }
 
-struct hunger {
-  int left, blocks;
-};
-
-static void *starve(size_t bytes, void *user)
-{
-  struct hunger *h = user;
-  if (h->left-- <= 0) return NULL;
-  h->blocks++;
-  return malloc(bytes);
-}
-
-static void feed(void *block, void *user)
-{
-  struct hunger *h = user;
-  if (block) h->blocks--;
-  free(block);
-}
-
 /* The k-th allocation fails for every k until all succeed. */
 static void short_memory_is_reported(void)
 {
   int successes = 0;
   for (int k = 0; k < 40 && !successes; k++) {
-    struct hunger h = {.left = 1000};
-    steif_context *ctx = steif_context_new(&(steif_setup){starve, feed, &h, 1});
+    failing memory = {0};
+    const steif_setup setup = failing_setup(&memory);
+    steif_context *ctx = steif_context_new(&setup);
     CU_ASSERT_FATAL(ctx != NULL);
-    const int own = h.blocks;
-    h.left = k;
+    const long own = memory.alive;
+    memory.refuse_at = memory.served + k + 1;
     steif_table *t = steif_table_new(ctx, "radau:s=13");
     stf_pool *pool = t ? stf_pool_new(ctx) : NULL;
     stf_split split;
@@ -223,9 +206,9 @@ static void short_memory_is_reported(void)
     CHECK((code == STEIF_OK) == (k >= 7)); /* table, pool, work, B, T, Tinv, coupling */
     stf_pool_free(&pool);
     steif_table_free(ctx, &t);
-    CHECK(h.blocks == own);
+    CHECK(memory.alive == own);
     steif_context_free(&ctx);
-    CHECK(h.blocks == 0);
+    CHECK(memory.alive == 0);
   }
   CHECK(successes == 1);
 }
