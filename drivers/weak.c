@@ -2,27 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak.h"
 
-struct weak weak_asked(const struct call *call)
-{
-  struct weak w = {.k = whole_of(call, "--index", 0),
-                   .kind = word_of(call, "--case", "N-inc"),
-                   .convention = word_of(call, "--convention", NULL),
-                   .query = {.method = call->word[0],
-                             .start = word_of(call, "--start", NULL),
-                             .h = real_of(call, "--h", 1.0 / 64),
-                             .component = (int)whole_of(call, "--component", 0)}};
-  w.query.rows = (size_t)whole_of(call, "--halvings", given(call, "--h") ? 0 : 4) + 1;
-  return w;
-}
-
-int weak_plot(const struct call *call, size_t rows, const steif_weak_row *row)
-{
-  error_curves errors = {.title = call->word[0], .y_label = "weak error"};
-  errors_open(&errors, call->word[0]);
-  for (size_t i = 0; i < rows; i++) errors_add(&errors, row[i].h, row[i].error);
-  return errors_plot(call, &errors, call->plot);
-}
-
 static void fill(steif_report *r, const struct weak *w)
 {
   steif_report_text(r, "method", w->query.method);

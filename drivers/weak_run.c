@@ -1,4 +1,4 @@
-/* weak_run.c: ask the library about weak convergence.
+/* weak_run.c: from the words of a call to the question, the measure and its picture.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak.h"
 #include <string.h>
@@ -6,6 +6,19 @@
 static const char *const name[] = {"P", "R", "C", "stage"}; /* enum steif_convention */
 
 const char *convention_name(enum steif_convention convention) { return name[convention]; }
+
+struct weak weak_asked(const struct call *call)
+{
+  struct weak w = {.k = whole_of(call, "--index", 0),
+                   .kind = word_of(call, "--case", "N-inc"),
+                   .convention = word_of(call, "--convention", NULL),
+                   .query = {.method = call->word[0],
+                             .start = word_of(call, "--start", NULL),
+                             .h = real_of(call, "--h", 1.0 / 64),
+                             .component = (int)whole_of(call, "--component", 0)}};
+  w.query.rows = (size_t)whole_of(call, "--halvings", given(call, "--h") ? 0 : 4) + 1;
+  return w;
+}
 
 /* Stages for Runge-Kutta methods with more than one, the comb for convolution quadrature. */
 static enum steif_convention usual(const char *method, const char *start,
@@ -28,4 +41,12 @@ int weak_measure(steif_context *ctx, struct weak *w)
   for (int i = 0; w->convention && i < 4; i++)
     if (!strcmp(w->convention, name[i])) w->query.convention = (enum steif_convention)i;
   return steif_weak_measure(ctx, &w->query, w->row, &w->result);
+}
+
+int weak_plot(const struct call *call, size_t rows, const steif_weak_row *row)
+{
+  error_curves errors = {.title = call->word[0], .y_label = "weak error"};
+  errors_open(&errors, call->word[0]);
+  for (size_t i = 0; i < rows; i++) errors_add(&errors, row[i].h, row[i].error);
+  return errors_plot(call, &errors, call->plot);
 }
