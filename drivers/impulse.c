@@ -86,6 +86,10 @@ static int analyse(struct call *call, struct linear *l)
 static int run(struct call *call)
 {
   struct linear l;
+  steif_problem nonlinear;
+  if (impulse_is_nonlinear(call, &nonlinear)) return impulse_jump(call, &nonlinear);
+  if (given(call, "--restitution") || given(call, "--stages"))
+    return refuse(call, "--restitution and --stages are for nonlinear problems; leave them out");
   const bool vs = given(call, "--vs"), ends = given(call, "--t1") || vs;
   if (given(call, "--method") ? !given(call, "--t1") : given(call, "--t1") && !vs)
     return refuse(call, "--method and --t1 go together: the run after the jump and its end");
@@ -110,6 +114,8 @@ static const struct option options[] = {
   {"--t1", REAL, "T", "end of that run"},
   {"--h", POSITIVE, "H", "its equal steps (default: chosen)"},
   {"--rtol", POSITIVE, "R", "its tolerance (default 1e-6)"},
+  {"--restitution", REAL, "E", "of an impact of a nonlinear problem (default 0)"},
+  {"--stages", FLAG, NULL, "where its jump is not unique: positions first, then velocities"},
   {"--projectors", FLAG, NULL, "show the spectral projectors (n > 400: of x(0-)), too"},
   {"--vs", CHOICE, "ida|cvode|arkode", "run that, too, from the same x(0-) (all: of each system) to --t1"},
   ANALYSIS_ROWS,
@@ -121,7 +127,7 @@ static const char *const clash[][2] = {
 
 const struct verb verb_impulse = {
   "impulse",
-  "Find x(0+) and the impulses of E x' + F x = f from any x(0-)",
+  "Find x(0+) and the impulses of E x' + F x = f or of a nonlinear problem from any x(0-)",
   "E.mtx F.mtx --x0 X.mtx | PROBLEM | all [--forcing FILE] [--method METHOD --t1 T --csv FILE]",
   1,
   2,

@@ -28,6 +28,10 @@ int impulse_verdict(const struct call *call, const steif_impulse *i);
 
 /* Every descriptor system of the collection beside --vs; an exit code. */
 int impulse_all(struct call *call);
+/* Is the word a problem without a pencil of its own? Then it is opened, and impulse_jump closes it. */
+bool impulse_is_nonlinear(struct call *call, steif_problem *problem);
+/* Its jump; an exit code. */
+int impulse_jump(struct call *call, steif_problem *problem);
 /* Trajectory, jumps and impulses up to --t1 by --method; an exit code. */
 int impulse_run(struct call *call, struct linear *l);
 

@@ -126,7 +126,7 @@ static void column_of(SUNMatrix X, long n, double *x)
     x[SUNSparseMatrix_IndexValues(X)[p]] += SUNSparseMatrix_Data(X)[p];
 }
 
-static int read_x0(struct call *call, struct linear *l)
+int linear_read_x0(struct call *call, struct linear *l)
 {
   const char *path = word_of(call, "--x0", NULL);
   if (!path) return EXIT_OK;
@@ -184,7 +184,7 @@ int linear_open(struct call *call, struct linear *l, int from, bool start)
   *l = (struct linear){0};
   int code = linear_is_file(call->word[from]) ? from_files(call, l, from)
                                               : from_collection(call, l, from);
-  if (!code && start) code = read_x0(call, l);
+  if (!code && start) code = linear_read_x0(call, l);
   if (!code && start) code = read_forcing(call, l);
   if (!code && start) code = read_output(call, l, call->word[from]);
   l->t0 = real_of(call, "--t0", l->t0);

@@ -37,6 +37,8 @@ struct linear {
 /* The system of words `from` and, of files, from + 1: EXIT_OK, or the exit code after a sentence;
  * close it in any case. start: x(0-) and f too. */
 int linear_open(struct call *call, struct linear *l, int from, bool start);
+/* l->x0 of l->n values from --x0, where it is given. */
+int linear_read_x0(struct call *call, struct linear *l);
 /* EXIT_OK when there is an x(0-), else a sentence and EXIT_USAGE. */
 int linear_started(const struct call *call, const struct linear *l);
 /* Has the collection its own x(0-) and f here, unchanged? */

@@ -164,6 +164,21 @@ if(NOT said MATCHES "without matio")
 endif()
 
 # The exact smooth solution beside a run, and its error; none where f has too few derivatives.
+# Nonlinear problems: a blow along the rod (Lambda = 0.3, v+ = (0, -2), lambda+ = 4), a longer rod.
+column(hit.mtx 1 0 .3 -2 0)
+column(longer.mtx 1.05 0 .3 -2 0)
+expect(0 impulse pendulum3 --x0 hit.mtx --json)
+near(2 x_plus 3)
+near(4 x_plus 4)
+near(3 impulses 0 4)
+expect(0 impulse pendulum3 --x0 hit.mtx --restitution 0.5 --json)
+near(15 x_plus 2) # -0.15
+near(45 impulses 0 4)
+expect(5 impulse pendulum3 --x0 longer.mtx ERR "position jump")
+expect(0 impulse pendulum3 --x0 longer.mtx --stages ERR "kept tangentially")
+expect(2 impulse pendulum3 --x0 hit.mtx --restitution 0.5 --method bdf --t1 1 ERR "--method is for systems")
+expect(2 impulse ut5 --stages ERR "for nonlinear problems")
+
 expect(0 impulse ut5 --method radau:s=3 --t1 1 --json)
 begins(-9.8399049362 exact 0) # 40 digits: -9.83990493625282
 begins(3.08069506977 exact 4)

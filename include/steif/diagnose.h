@@ -110,9 +110,6 @@ STEIF_EXPORT int steif_consistent(steif_context *ctx, const steif_problem *probl
                                   const steif_inquiry *inquiry, const steif_request *request,
                                   steif_start *start);
 STEIF_EXPORT void steif_start_clear(steif_start *start);
-/* The same in place, for options.settle: y and y' behind an event. */
-STEIF_EXPORT int steif_settle(steif_context *ctx, const steif_problem *problem, sunrealtype t,
-                              N_Vector y, N_Vector yp);
 
 /* Causes of a failure in the order in which they are looked for. */
 enum steif_cause_kind {

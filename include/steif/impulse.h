@@ -108,10 +108,6 @@ STEIF_EXPORT int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F
                                     void *user, const steif_analysis *analysis,
                                     const steif_structure *structure, steif_impulse *impulse);
 STEIF_EXPORT void steif_impulse_clear(steif_context *ctx, steif_impulse *impulse);
-/* y becomes x(t+) of a problem of the descriptor form that arrives with x(t-) = y, for
- * options.settle; a reaction that wants the impulses calls steif_impulse_find itself. */
-STEIF_EXPORT int steif_settle_jump(steif_context *ctx, const steif_problem *problem,
-                                   sunrealtype t, N_Vector y, N_Vector yp);
 
 /* slow = Pi_s x with Pi_s = Phi_{-1} E, n values each, by any algorithm; Pi_f x = x - Pi_s x. structure
  * as above. */

@@ -73,11 +73,12 @@ typedef struct steif_options {
   /* Called at every event before problem.react, which explains `fired`; nonzero stops the run. */
   int (*notice)(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, void *user);
   void *observer;                     /* user of both */
-  /* Called before the run begins anew behind problem.react: make y consistent and find y' (yp holds
-   * 0 and may stay so); returns a code. steif_settle (diagnose.h) and steif_settle_jump (impulse.h)
-   * fit. NULL: y stays; algebraic components that are then wrong may stop the run. */
-  int (*settle)(steif_context *ctx, const steif_problem *problem, sunrealtype t, N_Vector y,
-                N_Vector yp);
+  /* Called before the run begins anew behind problem.react, and behind a break of the problem where
+   * steps of our own methods are chosen, with rtol: make y(t+) of y and find its slope (yp holds 0
+   * and may stay so); returns a code. steif_settle (jump.h) fits. NULL: y stays; algebraic
+   * components that are then wrong may stop the run. */
+  int (*settle)(steif_context *ctx, const steif_problem *problem, sunrealtype t, sunrealtype rtol,
+                N_Vector y, N_Vector yp);
   sunrealtype max_seconds;            /* limit on the time of a call by the clock; 0: none */
   const volatile int *stop;           /* set to nonzero, by a signal handler for example, it lets
                                          the call return STEIF_STOPPED after the step at hand */

@@ -17,6 +17,7 @@
 #include <steif/glm.h>
 #include <steif/impulse.h>
 #include <steif/input.h>
+#include <steif/jump.h>
 #include <steif/lyapunov.h>
 #include <steif/method.h>
 #include <steif/pencil.h>

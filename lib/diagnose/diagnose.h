@@ -244,6 +244,9 @@ int stf_evidence_gather(stf_lens *lens, stf_evidence *evidence);
 void stf_evidence_free(stf_evidence *evidence);
 bool stf_evidence_certified(const stf_evidence *evidence);
 int stf_verdict(const stf_evidence *evidence, steif_diagnosis *d);
+/* The consistent start from the point of the lens, which may have moved since the evidence was
+ * gathered. */
+int stf_start_from(stf_evidence *evidence, const steif_request *request, steif_start *start);
 int stf_diagnosis_claim(steif_context *ctx, size_t n, steif_diagnosis *d);
 
 /* -- causes of a failure ----------------------------------------------------------------- */

@@ -152,21 +152,28 @@ static int choose(stf_task *task, stf_evidence *e)
   return stf_evidence_certified(e) ? stf_start_stages(task, &e->structure) : by_array(task, e);
 }
 
-int stf_diagnose_start(stf_lens *s, const steif_request *request, steif_start *start)
+int stf_start_from(stf_evidence *e, const steif_request *request, steif_start *start)
 {
   static const steif_request none = {0};
-  stf_evidence evidence;
+  stf_lens *s = e->lens;
   stf_task task = {.lens = s, .request = request ? request : &none, .start = start};
   task.most = task.request->iterations > 0 ? task.request->iterations : 60;
   sunrealtype *residual = stf_claim(s->pool, s->n, sizeof *residual);
   if (!residual) return STEIF_NO_MEMORY;
-  int code = stf_evidence_gather(s, &evidence);
-  if (!code) code = stf_start_claim(s->ctx, s->n, start);
-  if (!code) code = choose(&task, &evidence);
+  STEIF_TRY(stf_start_claim(s->ctx, s->n, start));
+  int code = choose(&task, e);
   if (!code) code = stf_diagnose_residual(s, s->t, s->y0, s->yp0, residual);
   if (!code) report(&task, residual);
-  stf_evidence_free(&evidence);
   if (code) steif_start_clear(start);
+  return code;
+}
+
+static int find(stf_lens *s, const steif_request *request, steif_start *start)
+{
+  stf_evidence evidence;
+  int code = stf_evidence_gather(s, &evidence);
+  if (!code) code = stf_start_from(&evidence, request, start);
+  stf_evidence_free(&evidence);
   return code;
 }
 
@@ -193,7 +200,7 @@ int steif_consistent(steif_context *ctx, const steif_problem *problem,
                       "'%s' has %zu unknowns: a consistent start is computed for at most %d",
                       problem->name, lens.n, STEIF_DIAGNOSE_LARGEST);
   if (!code) code = check_request(ctx, problem, request);
-  if (!code) code = stf_diagnose_start(&lens, request, start);
+  if (!code) code = find(&lens, request, start);
   stf_diagnose_close(&lens);
   if (!code) steif_forget(ctx);
   return code;

@@ -198,13 +198,31 @@ static bool passed(const steif_solver *s, sunrealtype at)
   return before(at) - s->step.t <= 8 * STF_EPS * fabs(s->step.t);
 }
 
+static bool at_break(const steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  return s->next_break < p->break_count && s->step.t == p->breaks[s->next_break];
+}
+
+/* The state behind a break, as behind an event. */
+static int settle(steif_solver *s)
+{
+  stf_step *step = &s->step;
+  N_VConst(0, step->yp);
+  STEIF_TRY(s->options.settle(s->ctx, s->problem, step->t, s->options.rtol, step->y, step->yp));
+  step->yp_known = N_VMaxNorm(step->yp) > 0;
+  return STEIF_OK;
+}
+
 /* Slopes from before a break or an event are of no use; the ode form tells the new ones. */
 static int begin_anew(steif_solver *s)
 {
   stf_step *step = &s->step;
+  const bool broken = at_break(s);
   step->t = nextafter(step->t, INFINITY);
   step->yp_known = s->watch && s->watch->settled;
   if (s->watch) s->watch->settled = false;
+  if (broken && s->options.settle) STEIF_TRY(settle(s));
   if (!step->yp_known && step->system.form == STEIF_ODE) {
     const int code = stf_system_rhs(&step->system, step->t, step->y, step->yp);
     if (code < 0) return code;

@@ -73,7 +73,7 @@ static int settle(steif_solver *s, sunrealtype t)
   stf_watch *w = s->watch;
   if (!s->options.settle) return STEIF_OK;
   N_VConst(0, w->slope);
-  STEIF_TRY(s->options.settle(s->ctx, s->problem, t, w->after, w->slope));
+  STEIF_TRY(s->options.settle(s->ctx, s->problem, t, s->options.rtol, w->after, w->slope));
   w->settled = N_VMaxNorm(w->slope) > 0;
   return STEIF_OK;
 }

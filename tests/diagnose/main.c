@@ -4,7 +4,7 @@
 
 extern CU_TestInfo tests_of_verdicts[], tests_of_starts[], tests_of_causes[],
   tests_of_jacobians[], tests_of_scales[], tests_of_shelf[], tests_of_misuse[],
-  tests_of_failure[], tests_of_drift[];
+  tests_of_failure[], tests_of_drift[], tests_of_jumps[];
 
 SUITE_MAIN({.pName = "verdicts", .pTests = tests_of_verdicts},
            {.pName = "starts", .pTests = tests_of_starts},
@@ -14,4 +14,5 @@ SUITE_MAIN({.pName = "verdicts", .pTests = tests_of_verdicts},
            {.pName = "shelf", .pTests = tests_of_shelf},
            {.pName = "misuse", .pTests = tests_of_misuse},
            {.pName = "failure", .pTests = tests_of_failure},
-           {.pName = "drift", .pTests = tests_of_drift})
+           {.pName = "drift", .pTests = tests_of_drift},
+           {.pName = "jumps", .pTests = tests_of_jumps})
