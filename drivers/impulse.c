@@ -10,7 +10,7 @@ enum { SHOWN = 400 };
 static int projectors(struct call *call, const struct linear *l, steif_report *r)
 {
   const size_t n = (size_t)l->n;
-  const steif_analysis a = linear_analysis(call);
+  const steif_analysis a = linear_analysis(call, l);
   double *P = malloc(2 * n * n * sizeof *P), *rows = P ? P + n * n : NULL;
   if (!P) return linear_no_memory(call, "projectors");
   const int code = steif_projector_find(call->ctx, l->system.E, l->system.F, &a, P);
@@ -27,7 +27,7 @@ static int projected(struct call *call, const struct linear *l, const steif_stru
                      steif_report *r)
 {
   const size_t n = (size_t)l->n;
-  const steif_analysis a = linear_analysis(call);
+  const steif_analysis a = linear_analysis(call, l);
   double *x = malloc(n * sizeof *x);
   if (!x) return linear_no_memory(call, "projected start");
   const int code = steif_projector_apply(call->ctx, l->system.E, l->system.F, &a, s, l->x0, x);
@@ -43,13 +43,13 @@ static int tell(struct call *call, const struct linear *l, const steif_structure
 {
   steif_report *r = steif_report_new(call->ctx), *sheet = steif_report_new(call->ctx);
   int code = r && sheet ? EXIT_OK : fail(call);
-  if (!code) impulse_fill(r, i), impulse_accuracy(r, l, i), impulse_outputs(r, l, i);
+  if (!code) impulse_fill(r, l, i), impulse_accuracy(r, l, i), impulse_outputs(r, l, i);
   if (!code && given(call, "--projectors"))
     code = l->n > SHOWN ? projected(call, l, s, r) : projectors(call, l, r);
   if (!code && given(call, "--vs")) impulse_against(call, l, word_of(call, "--vs", NULL), r);
   if (!code) code = show(call, r);
   if (!code && call->csv) {
-    impulse_rows(sheet, "rows", l->t0, l->x0, i);
+    impulse_rows(sheet, "rows", impulse_columns(l), l->t0, l->x0, i);
     code = save_csv(call, sheet);
   }
   steif_report_free(&sheet);
@@ -61,7 +61,7 @@ static int start(struct call *call, const struct linear *l, const steif_structur
 {
   steif_impulse i = {0};
   const steif_linear *q = &l->system;
-  const steif_analysis a = linear_analysis(call);
+  const steif_analysis a = linear_analysis(call, l);
   if (steif_impulse_find(call->ctx, q->E, q->F, l->x0, l->t0, q->f, q->user, &a, s, &i))
     return linear_fail(call);
   const int code = tell(call, l, s, &i);
@@ -72,11 +72,11 @@ static int start(struct call *call, const struct linear *l, const steif_structur
 static int analyse(struct call *call, struct linear *l)
 {
   steif_structure s = {0};
-  const steif_analysis a = linear_analysis(call);
+  const steif_analysis a = linear_analysis(call, l);
   progress(call, "%ld equations", (long)l->n);
   if (steif_structure_find(call->ctx, l->system.E, l->system.F, &a, &s))
     return linear_fail(call);
-  const int code = !s.regular                ? linear_singular(call, &s)
+  const int code = !s.regular                ? linear_singular(call, l, &s)
                    : given(call, "--method") ? impulse_run(call, l)
                                              : start(call, l, &s);
   steif_structure_clear(call->ctx, &s);

@@ -7,15 +7,17 @@
 #include "run.h"
 
 /* The start as fields of a report. */
-void impulse_fill(steif_report *r, const steif_impulse *i);
+void impulse_fill(steif_report *r, const struct linear *l, const steif_impulse *i);
 /* Under "derivatives_accuracy", orders 1, 2, ...: that of samples. */
 void impulse_accuracy(steif_report *r, const struct linear *l, const steif_impulse *i);
-/* One row of a sheet with columns t, kind, x. */
-void impulse_row(steif_report *r, const char *sheet, const char *kind, double t, size_t n,
-                 const double *x);
-/* The rows of a sheet with columns t, kind, x: x-, c0, c1, ..., x+ of one jump. */
-void impulse_rows(steif_report *r, const char *sheet, double t, const double *before,
-                  const steif_impulse *i);
+/* One row of a sheet with columns t, kind and x, or instead of x one for each name. */
+void impulse_row(steif_report *r, const char *sheet, const char *const *name, const char *kind,
+                 double t, size_t n, const double *x);
+/* The rows of such a sheet: x-, c0, c1, ..., x+ of one jump. */
+void impulse_rows(steif_report *r, const char *sheet, const char *const *name, double t,
+                  const double *before, const steif_impulse *i);
+/* The names of unknowns fit for columns beside t and kind; NULL: none. */
+const char *const *impulse_columns(const struct linear *l);
 /* Under "vs.": how far `method` comes from the same x(0-). */
 void impulse_against(const struct call *call, const struct linear *l, const char *method,
                      steif_report *r);

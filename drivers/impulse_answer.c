@@ -1,12 +1,15 @@
 /* impulse_answer.c: a jump with its impulses, as fields of a report and as rows of a sheet.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "impulse.h"
+#include <string.h>
 
 enum { LEVELS = 16 };
 
-void impulse_fill(steif_report *r, const steif_impulse *i)
+void impulse_fill(steif_report *r, const struct linear *l, const steif_impulse *i)
 {
   steif_report_whole(r, "index", i->index);
+  if (l->names && l->names->unknown)
+    steif_report_texts(r, "unknowns", (size_t)i->n, l->names->unknown);
   steif_report_list(r, "x_plus", (size_t)i->n, i->x_plus);
   steif_report_matrix(r, "impulses", (size_t)i->count, (size_t)i->n, i->c);
   steif_report_real(r, "residuals.last", i->last);
@@ -18,27 +21,40 @@ void impulse_fill(steif_report *r, const steif_impulse *i)
   steif_report_text(r, "message", i->message);
 }
 
-void impulse_row(steif_report *r, const char *sheet, const char *kind, double t, size_t n,
-                 const double *x)
+const char *const *impulse_columns(const struct linear *l)
 {
-  char name[64];
-  steif_report_row(r, sheet);
-  snprintf(name, sizeof name, "%s.t", sheet), steif_report_real(r, name, t);
-  snprintf(name, sizeof name, "%s.kind", sheet), steif_report_text(r, name, kind);
-  snprintf(name, sizeof name, "%s.x", sheet), steif_report_list(r, name, n, x);
+  const char *const *name = l->names ? l->names->unknown : NULL;
+  for (sunindextype i = 0; name && i < l->n; i++)
+    if (!strcmp(name[i], "t") || !strcmp(name[i], "kind")) return NULL;
+  return name;
 }
 
-void impulse_rows(steif_report *r, const char *sheet, double t, const double *before,
-                  const steif_impulse *i)
+void impulse_row(steif_report *r, const char *sheet, const char *const *name, const char *kind,
+                 double t, size_t n, const double *x)
+{
+  char cell[256];
+  steif_report_row(r, sheet);
+  snprintf(cell, sizeof cell, "%s.t", sheet), steif_report_real(r, cell, t);
+  snprintf(cell, sizeof cell, "%s.kind", sheet), steif_report_text(r, cell, kind);
+  snprintf(cell, sizeof cell, "%s.x", sheet);
+  if (!name) steif_report_list(r, cell, n, x);
+  for (size_t i = 0; name && i < n; i++) {
+    snprintf(cell, sizeof cell, "%s.%s", sheet, name[i]);
+    steif_report_real(r, cell, x[i]);
+  }
+}
+
+void impulse_rows(steif_report *r, const char *sheet, const char *const *name, double t,
+                  const double *before, const steif_impulse *i)
 {
   const size_t n = (size_t)i->n;
   char kind[16];
-  impulse_row(r, sheet, "x-", t, n, before);
+  impulse_row(r, sheet, name, "x-", t, n, before);
   for (int q = 0; q < i->count; q++) {
     snprintf(kind, sizeof kind, "c%d", q);
-    impulse_row(r, sheet, kind, t, n, i->c + (size_t)q * n);
+    impulse_row(r, sheet, name, kind, t, n, i->c + (size_t)q * n);
   }
-  impulse_row(r, sheet, "x+", t, n, i->x_plus);
+  impulse_row(r, sheet, name, "x+", t, n, i->x_plus);
 }
 
 int impulse_verdict(const struct call *call, const steif_impulse *i)

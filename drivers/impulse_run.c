@@ -10,6 +10,7 @@ enum { BREAKS = 256, TITLE = 160, KNOWN = 100 };
 struct record {
   const struct call *call;
   const struct linear *linear;
+  const char *const *column; /* impulse_columns */
   steif_report *shown, *sheet;
   trajectory path;
   size_t n;
@@ -23,11 +24,11 @@ static int jump(double t, const double *before, const steif_impulse *i, void *us
 {
   struct record *k = user;
   if (!k->jumps++) {
-    impulse_fill(k->shown, i), impulse_accuracy(k->shown, k->linear, i);
+    impulse_fill(k->shown, k->linear, i), impulse_accuracy(k->shown, k->linear, i);
     impulse_outputs(k->shown, k->linear, i);
   }
-  impulse_rows(k->shown, "jumps", t, before, i);
-  if (k->call->csv) impulse_rows(k->sheet, "rows", t, before, i);
+  impulse_rows(k->shown, "jumps", NULL, t, before, i);
+  if (k->call->csv) impulse_rows(k->sheet, "rows", k->column, t, before, i);
   if (!k->verdict) k->verdict = impulse_verdict(k->call, i);
   return 0;
 }
@@ -38,7 +39,7 @@ static int step(double t, N_Vector x, void *user)
   const double *value = N_VGetArrayPointer(x);
   k->steps++;
   if (k->call->csv) {
-    impulse_row(k->sheet, "rows", "x", t, k->n, value);
+    impulse_row(k->sheet, "rows", k->column, "x", t, k->n, value);
   }
   if (t >= k->path.t1) {
     steif_report_real(k->shown, "t", t);
@@ -53,7 +54,7 @@ static void exact(struct record *k)
 {
   const struct linear *l = k->linear;
   const trajectory *p = &k->path;
-  const steif_analysis a = linear_analysis(k->call);
+  const steif_analysis a = linear_analysis(k->call, k->linear);
   steif_linear_truth truth;
   double *x = p->count ? malloc(p->count * k->n * sizeof *x) : NULL;
   if (x && !steif_linear_exact(k->call->ctx, &l->system, l->x0, l->t0, &a, k->break_count,
@@ -63,7 +64,7 @@ static void exact(struct record *k)
     steif_report_real(k->shown, "error", truth.end);
     steif_report_real(k->shown, "error_most", truth.most);
     for (size_t i = 0; i < p->count && k->call->csv; i++)
-      impulse_row(k->sheet, "rows", "exact", p->t[i], k->n, x + i * k->n);
+      impulse_row(k->sheet, "rows", k->column, "exact", p->t[i], k->n, x + i * k->n);
   } else {
     steif_report_text(k->shown, "exact", NULL);
   }
@@ -96,7 +97,7 @@ static int integrate_on(struct call *call, const struct linear *l, struct record
   if (count > BREAKS)
     return refuse(call, "f has %zu breaks up to t = %g, %d are the most; end earlier", count,
                   o.t1, BREAKS);
-  const steif_analysis a = linear_analysis(call);
+  const steif_analysis a = linear_analysis(call, l);
   const steif_linear_output out = {jump, step, k};
   return steif_linear_run(call->ctx, &l->system, l->x0, l->t0, method, &o, &a, count, k->breaks,
                           &out)
@@ -108,6 +109,7 @@ int impulse_run(struct call *call, struct linear *l)
 {
   struct record k = {.call = call,
                      .linear = l,
+                     .column = impulse_columns(l),
                      .shown = steif_report_new(call->ctx),
                      .sheet = steif_report_new(call->ctx),
                      .n = (size_t)l->n,

@@ -34,27 +34,30 @@ int linear_fail(const struct call *call)
   return blamed && file ? bad_file(call) : fail(call);
 }
 
-/* " 3 4 7 ..." */
-static const char *numbers(char *text, size_t room, long count, const sunindextype *value)
+/* "equations 3 (current at b), 4, 7, ..." and likewise unknowns, counted from 1. */
+static const char *named(char *text, size_t room, const char *what, const char *const *name,
+                         long count, const sunindextype *value)
 {
   enum { SHOWN = 8 };
-  size_t used = 0;
-  *text = 0;
-  for (long i = 0; i < count && i < SHOWN && used < room; i++)
-    used += (size_t)snprintf(text + used, room - used, " %ld", (long)value[i]);
-  if (count > SHOWN && used < room) snprintf(text + used, room - used, " ...");
+  size_t used = (size_t)snprintf(text, room, "%s%s", what, count == 1 ? "" : "s");
+  for (long i = 0; i < count && i < SHOWN && used < room; i++) {
+    const long k = (long)value[i];
+    used += (size_t)snprintf(text + used, room - used, name ? "%s %ld (%.40s)" : "%s %ld",
+                             i ? "," : "", k + 1, name ? name[k] : "");
+  }
+  if (count > SHOWN && used < room) snprintf(text + used, room - used, ", ...");
   return text;
 }
 
-int linear_singular(const struct call *call, const steif_structure *s)
+int linear_singular(const struct call *call, const struct linear *l, const steif_structure *s)
 {
-  char one[256], two[256];
-  if (s->equations_count || s->unknowns_count)
-    say(call, "%s; counted from 0, look at equations%s and unknowns%s", s->message,
-        numbers(one, sizeof one, (long)s->equations_count, s->equations),
-        numbers(two, sizeof two, (long)s->unknowns_count, s->unknowns));
-  else
-    say(call, "%s", s->message);
+  char one[512], two[512];
+  const bool equations = s->equations_count, unknowns = s->unknowns_count;
+  const steif_names none = {NULL, NULL}, *names = l->names ? l->names : &none;
+  named(one, sizeof one, "equation", names->equation, (long)s->equations_count, s->equations);
+  named(two, sizeof two, "unknown", names->unknown, (long)s->unknowns_count, s->unknowns);
+  say(call, "%s%s%s%s%s", s->message, equations || unknowns ? "; look at " : "",
+      equations ? one : "", equations && unknowns ? " and " : "", unknowns ? two : "");
   return EXIT_SINGULAR;
 }
 
@@ -114,6 +117,16 @@ static int from_collection(struct call *call, struct linear *l, int from)
   l->x0 = malloc((size_t)l->n * sizeof *l->x0);
   if (!l->x0) return linear_no_memory(call, "start values");
   memcpy(l->x0, l->problem.y0, (size_t)l->n * sizeof *l->x0);
+  l->names = l->problem.names;
+  return EXIT_OK;
+}
+
+static int read_names(struct call *call, struct linear *l)
+{
+  const char *path = word_of(call, "--names", call->word[call->words - 1]);
+  if (!given(call, "--names") && !ends(path, ".mat")) return EXIT_OK;
+  if (steif_names_read(call->ctx, path, l->n, &l->read)) return bad_file(call);
+  if (l->read) l->names = l->read;
   return EXIT_OK;
 }
 
@@ -173,10 +186,28 @@ static int read_forcing(struct call *call, struct linear *l)
   return EXIT_OK;
 }
 
+/* A matrix of an option; NULL without it. */
+static int read_matrix(struct call *call, const char *option, SUNMatrix *M)
+{
+  const char *path = word_of(call, option, NULL);
+  if (path && !(*M = steif_matrix_read(call->ctx, path))) return bad_file(call);
+  return EXIT_OK;
+}
+
 static int read_output(struct call *call, struct linear *l, const char *path)
 {
-  if (!ends(path, ".mat")) return EXIT_OK;
-  return steif_output_read(call->ctx, path, &l->C, &l->D) ? bad_file(call) : EXIT_OK;
+  const bool own = given(call, "--output");
+  if (given(call, "--feedthrough") && !own)
+    return refuse(call, "--feedthrough is D of y = C x + D u; add --output");
+  if (!own && !ends(path, ".mat")) return EXIT_OK;
+  if (!own)
+    return steif_output_read(call->ctx, path, &l->C, &l->D) ? bad_file(call) : EXIT_OK;
+  int code = read_matrix(call, "--output", &l->C);
+  if (!code) code = read_matrix(call, "--feedthrough", &l->D);
+  const size_t inputs = l->function ? steif_function_count(l->function) : (size_t)l->n;
+  if (!code && steif_output_check(call->ctx, l->C, l->D, l->n, (sunindextype)inputs))
+    code = bad_file(call);
+  return code;
 }
 
 int linear_open(struct call *call, struct linear *l, int from, bool start)
@@ -184,6 +215,7 @@ int linear_open(struct call *call, struct linear *l, int from, bool start)
   *l = (struct linear){0};
   int code = linear_is_file(call->word[from]) ? from_files(call, l, from)
                                               : from_collection(call, l, from);
+  if (!code) code = read_names(call, l);
   if (!code && start) code = linear_read_x0(call, l);
   if (!code && start) code = read_forcing(call, l);
   if (!code && start) code = read_output(call, l, call->word[from]);
@@ -208,16 +240,18 @@ void linear_close(struct call *call, struct linear *l)
   if (l->C) SUNMatDestroy(l->C);
   if (l->D) SUNMatDestroy(l->D);
   steif_function_free(&l->function);
+  steif_names_free(&l->read);
   steif_problem_clear(call->ctx, &l->problem);
   free(l->x0);
 }
 
-steif_analysis linear_analysis(const struct call *call)
+steif_analysis linear_analysis(const struct call *call, const struct linear *l)
 {
   static const char *const names[] = {"auto", "staircase", "qz", "contour", "drazin", "array"};
   const char *name = word_of(call, "--algorithm", "auto");
   steif_analysis a = {.radius = real_of(call, "--radius", 0),
-                      .points = (int)whole_of(call, "--points", 0)};
+                      .points = (int)whole_of(call, "--points", 0),
+                      .names = l->names};
   for (int i = 0; i < 6; i++)
     if (!strcmp(name, names[i])) a.algorithm = (enum steif_algorithm)i;
   return a;

@@ -46,6 +46,7 @@ typedef struct steif_analysis {
   int refinements;          /* of each solve, at most, where residuals ask; 0: 2; -1: none */
   int index_most;           /* largest index looked for; 0: 8 */
   unsigned seed;            /* of the random directions; 0: 1 */
+  const steif_names *names; /* for sentences, which count from 1; NULL: numbers only */
 } steif_analysis;
 
 /* What was found. Lists are owned by the structure. */

@@ -42,9 +42,22 @@ STEIF_EXPORT int steif_input_read(steif_context *ctx, const char *path, SUNMatri
  * each of B, or of f without B. */
 STEIF_EXPORT int steif_output_read(steif_context *ctx, const char *path, SUNMatrix *C,
                                    SUNMatrix *D);
+/* The same of matrices of one's own: C with n columns, D (NULL: none) with the rows of C and a column
+ * for each input. */
+STEIF_EXPORT int steif_output_check(steif_context *ctx, SUNMatrix C, SUNMatrix D, sunindextype n,
+                                    sunindextype inputs);
 /* y = C x + D u, as many values as C has rows; D or u NULL: 0. For the impulses of y, x = c_i. */
 STEIF_EXPORT void steif_output_value(SUNMatrix C, SUNMatrix D, const sunrealtype *x,
                                      const sunrealtype *u, sunrealtype *y);
+
+/* What the n equations and unknowns are called: of a text file with a line UNKNOWN or UNKNOWN, EQUATION
+ * for each (# begins a comment), or of a .mat file with cell or character arrays `unknowns` and
+ * `equations`, either of which may be missing. Of a mechanical system `unknowns` may be the names of
+ * q: "x" has the velocity "x'" and the equations "velocity of x" and "motion of x"; without names
+ * they are q1, v1, l1. *names NULL where the .mat file says nothing. steif_names_free it. */
+STEIF_EXPORT int steif_names_read(steif_context *ctx, const char *path, sunindextype n,
+                                  steif_names **names);
+STEIF_EXPORT void steif_names_free(steif_names **names);
 
 typedef struct steif_function steif_function;
 
@@ -69,7 +82,8 @@ STEIF_EXPORT int steif_function_accuracy(const steif_function *f, sunrealtype t,
 STEIF_EXPORT void steif_function_free(steif_function **f);
 
 /* Fits steif_problem.g and steif_impulse_find, with the function as user data; right limits at
- * breakpoints. */
+ * breakpoints. A derivative that some components have there and others have not, as sqrt(t) at 0, is
+ * NaN in these. */
 STEIF_EXPORT int steif_function_value(sunrealtype t, int derivative, N_Vector g, void *function);
 /* u of f = B u, or f itself where there is no B: how many values, and these at t. */
 STEIF_EXPORT size_t steif_function_count(const steif_function *f);

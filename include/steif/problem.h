@@ -39,7 +39,8 @@ typedef int (*steif_ida_jacobian)(sunrealtype t, sunrealtype c, N_Vector y, N_Ve
  * (CSC) matrix is filled whole, pointers and indices included, with the same pattern each time. */
 typedef int (*steif_matrix_fill)(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user);
 /* g or its derivative of the given order at t; orders above 0 are asked for by the exact solution
- * of descriptor systems only: return > 0 when that order is not known. */
+ * of descriptor systems only: return > 0 when that order is not known, or set to NaN those components
+ * of which it is not; what the solution depends on is asked of the pattern of E and F. */
 typedef int (*steif_forcing)(sunrealtype t, int derivative, N_Vector g, void *user);
 /* y = out of E x or A x, for the Krylov back end. */
 typedef int (*steif_product)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out,
@@ -68,6 +69,12 @@ typedef struct steif_pattern {
   const sunindextype *column, *row; /* n + 1 and column[n] entries */
 } steif_pattern;
 
+/* Names of equations and unknowns, as many as there are of them, for sentences and tables; a list that
+ * is NULL: equation 1, 2, ..., x1, x2, ... */
+typedef struct steif_names {
+  const char *const *equation, *const *unknown;
+} steif_names;
+
 /* A published or computed end value with the digits that are right. */
 typedef struct steif_reference {
   sunrealtype t;
@@ -87,6 +94,7 @@ typedef struct steif_event {
 struct steif_problem {
   const char *name, *about;  /* about: one sentence and a citation */
   sunindextype n;
+  const steif_names *names;  /* of its components and equations; NULL: none */
   sunrealtype t0, t1;        /* default interval of integration, t1 > t0 */
   const sunrealtype *y0;     /* n start values (host memory) ... */
   const sunrealtype *yp0;    /* ... and slopes; NULL: computed where the form allows, else 0 */

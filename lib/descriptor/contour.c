@@ -6,6 +6,7 @@
  * finite eigenvalue is outside, which no other check can tell from an algebraic equation.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "blame.h"
 #include "circle.h"
 #include "linear.h"
 #include "matching.h"
@@ -329,21 +330,6 @@ static int analyse(search *w, SUNMatrix E, SUNMatrix F)
   return STEIF_OK;
 }
 
-static void reject(steif_structure *s, sunindextype rank)
-{
-  s->regular = 0;
-  s->index = -1;
-  s->finite = s->infinite = -1;
-  s->count = NAN;
-  snprintf(
-    s->message, sizeof s->message,
-    "singular pencil: the patterns of E and F allow rank %lld of %lld; %lld equations "
-    "share too few unknowns (the first is %lld) and %lld unknowns too few equations (the "
-    "first is %lld, both from 0)",
-    (long long)rank, (long long)s->n, (long long)s->equations_count, (long long)s->equations[0],
-    (long long)s->unknowns_count, (long long)s->unknowns[0]);
-}
-
 int stf_contour(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *analysis,
                 steif_structure *structure)
 {
@@ -353,10 +339,8 @@ int stf_contour(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analys
   structure->rank_E = -1;
   structure->method = "contour";
   STEIF_TRY(stf_matching_index(ctx, E, F, &rank, &w.pattern, structure));
-  if (rank < structure->n) {
-    reject(structure, rank);
-    return STEIF_OK;
-  }
+  if (rank < structure->n)
+    return stf_reject_pattern(ctx, E, F, analysis ? analysis->names : NULL, rank, structure);
   stf_circle_close(ctx, &structure->circle);
   STEIF_TRY(stf_circle_open(ctx, E, F, analysis, w.analysis.index_most + 2, &w.circle));
   const int code = analyse(&w, E, F);

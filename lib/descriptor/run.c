@@ -1,6 +1,7 @@
 /* run.c: runs of E x' + F x = f through its jumps: at the start and at every declared break x(t+) and
  * the impulses, between them a method on the smooth solution.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "demand.h"
 #include "reduce.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
@@ -156,7 +157,7 @@ static int lower(run *r)
   return stf_linear_grade(r->ctx, r->linear, r->analysis, &r->structure, &r->index);
 }
 
-int steif_linear_run(steif_context *ctx, const steif_linear *linear, const sunrealtype *x0,
+int steif_linear_run(steif_context *ctx, const steif_linear *given, const sunrealtype *x0,
                      sunrealtype t0, const char *method, const steif_options *options,
                      const steif_analysis *analysis, size_t break_count,
                      const sunrealtype *breaks, const steif_linear_output *output)
@@ -164,9 +165,11 @@ int steif_linear_run(steif_context *ctx, const steif_linear *linear, const sunre
   static const steif_linear_output silent = {0};
   steif_problem p;
   STEIF_CHECK(options, ctx, STEIF_BAD_INPUT, "options with t1 are needed, got NULL");
-  STEIF_TRY(steif_linear_problem(ctx, linear, x0, t0, options->t1, &p));
+  STEIF_TRY(steif_linear_problem(ctx, given, x0, t0, options->t1, &p));
+  stf_demand demand = stf_demand_of(ctx, given, analysis);
+  const steif_linear linear = stf_demand_linear(&demand);
   run r = {.ctx = ctx,
-           .linear = linear,
+           .linear = &linear,
            .method = method,
            .options = *options,
            .analysis = analysis,
@@ -174,12 +177,14 @@ int steif_linear_run(steif_context *ctx, const steif_linear *linear, const sunre
   r.x = stf_allocate(ctx, (size_t)p.n, sizeof *r.x);
   if (!r.x) return STEIF_NO_MEMORY;
   memcpy(r.x, x0, (size_t)p.n * sizeof *r.x);
-  int code = steif_structure_find(ctx, linear->E, linear->F, analysis, &r.structure);
+  int code = steif_structure_find(ctx, given->E, given->F, analysis, &r.structure);
+  demand.finite = r.structure.finite;
   if (!code) code = lower(&r);
   if (!code) code = segments(&r, t0, break_count, breaks);
   steif_structure_clear(ctx, &r.structure);
   stf_reduced_close(&r.reduced);
   stf_release(ctx, r.index);
   stf_release(ctx, r.x);
+  stf_demand_close(&demand);
   return code;
 }

@@ -4,6 +4,8 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "structure.h"
+#include "blame.h"
+#include "demand.h"
 #include "field.h"
 #include "pairing.h"
 #include "pencil.h"
@@ -93,13 +95,27 @@ static bool by_dense(const steif_analysis *a)
   return a->algorithm == STEIF_STAIRCASE || a->algorithm == STEIF_QZ;
 }
 
-/* What the pattern alone says: the structural degree. */
-static int pattern(steif_context *ctx, SUNMatrix E, SUNMatrix F, steif_structure *structure)
+static void take_lists(steif_structure *from, steif_structure *to)
+{
+  const steif_structure old = *to;
+  to->equations = from->equations, to->equations_count = from->equations_count;
+  to->unknowns = from->unknowns, to->unknowns_count = from->unknowns_count;
+  from->equations = old.equations, from->unknowns = old.unknowns;
+}
+
+/* What the pattern alone says: the structural degree, or that and where it is singular. */
+static int pattern(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_names *names,
+                   steif_structure *structure)
 {
   sunindextype rank;
   steif_structure found = {.degree = -1};
-  const int code = stf_matching(ctx, E, F, &rank, &found);
+  int code = stf_matching(ctx, E, F, &rank, &found);
   structure->degree = found.degree;
+  if (!code && rank < structure->n) {
+    take_lists(&found, structure);
+    structure->certified = 1;
+    code = stf_reject_pattern(ctx, E, F, names, rank, structure);
+  }
   steif_structure_clear(ctx, &found);
   return code;
 }
@@ -136,7 +152,7 @@ static int find(steif_context *ctx, stf_pool *pool, SUNMatrix E, SUNMatrix F,
     if (!whole) return STEIF_OK;
   }
   STEIF_TRY(stf_units_open(ctx, pool, E, F, &u));
-  if (by_dense(analysis)) return pattern(ctx, u.E, u.F, structure);
+  if (by_dense(analysis)) return pattern(ctx, u.E, u.F, analysis->names, structure);
   STEIF_TRY(stf_contour(ctx, u.E, u.F, analysis, structure));
   return settle(ctx, u.E, u.F, structure);
 }
@@ -163,8 +179,8 @@ typedef struct question {
   steif_analysis analysis;
   const sunrealtype *x0;
   sunrealtype t;
-  steif_forcing f;
-  void *user;
+  stf_demand demand;
+  steif_forcing f;       /* that of the demand; NULL: 0 */
   steif_structure found; /* without the lists of the caller's; its circle is lent */
   bool lent;
   stf_sources sources;
@@ -189,7 +205,7 @@ static int missing(const question *q, int j, int derivatives)
   if (steif_status(q->ctx)) snprintf(words, sizeof words, ": %s", steif_message(q->ctx));
   return STEIF_FAIL(q->ctx, STEIF_BAD_INPUT,
                     "derivative %d of the forcing is not known at t = %g; index %d needs "
-                    "derivatives up to %d%s",
+                    "derivatives up to %d where equations are differentiated%s",
                     j, q->t, derivatives + 1, derivatives, words);
 }
 
@@ -198,7 +214,7 @@ static int force(question *q, int derivatives, N_Vector g, sunrealtype *rows)
   const sunindextype n = order(q->E);
   steif_forget(q->ctx);
   for (int j = 0; j <= derivatives; j++) {
-    const int code = q->f(q->t, j, g, q->user);
+    const int code = q->f(q->t, j, g, &q->demand);
     STEIF_CHECK(code >= 0, q->ctx, STEIF_CALLBACK,
                 "the forcing returned %d for derivative %d at t = %g", code, j, q->t);
     if (code > 0) return missing(q, j, derivatives);
@@ -251,6 +267,7 @@ static int know(question *q, const steif_structure *structure, int *index)
     "or is not unique; see its structure for equations and unknowns to look at",
     s->rcond);
   *index = working(s);
+  q->demand.finite = s->finite;
   if (given) {
     q->found = *structure, q->lent = true;
     q->found.weyr = q->found.equations = q->found.unknowns = NULL;
@@ -287,11 +304,12 @@ int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F, const sunre
                        const steif_analysis *analysis, const steif_structure *structure,
                        steif_impulse *impulse)
 {
-  question q = {.ctx = ctx, .E = E, .F = F, .x0 = x0, .t = t, .f = f, .user = user};
+  question q = {.ctx = ctx, .E = E, .F = F, .x0 = x0, .t = t, .f = f ? stf_demand_value : NULL};
   STEIF_CHECK(impulse, ctx, STEIF_BAD_INPUT, "no place for the impulse: it is NULL");
   *impulse = (steif_impulse){0};
   STEIF_CHECK(x0, ctx, STEIF_BAD_INPUT, "x(0-) is missing");
   q.analysis = resolve(E, F, analysis);
+  q.demand = stf_demand_of(ctx, &(steif_linear){E, F, f, user}, &q.analysis);
   STEIF_TRY(check(ctx, E, F, &q.analysis));
   if (!(q.pool = stf_pool_new(ctx))) return STEIF_NO_MEMORY;
   const int code = solve(&q, structure, impulse);
@@ -302,6 +320,7 @@ int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F, const sunre
   if (q.lent) q.found.circle = NULL;
   steif_structure_clear(ctx, &q.found);
   stf_pool_free(&q.pool);
+  stf_demand_close(&q.demand);
   return code;
 }
 

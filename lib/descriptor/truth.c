@@ -4,6 +4,7 @@
  * many parts tell how many digits.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "demand.h"
 #include "reduce.h"
 #include <float.h>
 #include <math.h>
@@ -17,6 +18,7 @@ typedef struct truth {
   const steif_linear *linear;
   const steif_analysis *analysis;
   steif_structure structure;
+  stf_demand demand;
   stf_reduced reduced;
   sunindextype n;
   const sunrealtype *t;
@@ -130,6 +132,7 @@ static int run(truth *w, const sunrealtype *x0, sunrealtype t0, size_t count,
   sunrealtype *first = w->now + n, *x = w->x + (count - 1) * n;
   const steif_linear *l = w->linear;
   STEIF_TRY(steif_structure_find(w->ctx, l->E, l->F, w->analysis, &w->structure));
+  w->demand.finite = w->structure.finite;
   STEIF_TRY(stf_reduced_open(w->ctx, l, &w->structure, false, &w->reduced));
   STEIF_TRY(segments(w, 1, x0, t0, count, break_count, breaks));
   memcpy(first, x, n * sizeof *first);
@@ -138,7 +141,7 @@ static int run(truth *w, const sunrealtype *x0, sunrealtype t0, size_t count,
   return STEIF_OK;
 }
 
-int steif_linear_exact(steif_context *ctx, const steif_linear *linear, const sunrealtype *x0,
+int steif_linear_exact(steif_context *ctx, const steif_linear *given, const sunrealtype *x0,
                        sunrealtype t0, const steif_analysis *analysis, size_t break_count,
                        const sunrealtype *breaks, size_t count, const sunrealtype *t,
                        const sunrealtype *made, sunrealtype *x, steif_linear_truth *out)
@@ -147,8 +150,11 @@ int steif_linear_exact(steif_context *ctx, const steif_linear *linear, const sun
   STEIF_CHECK(count > 0 && t && x && out, ctx, STEIF_BAD_INPUT,
               "times and room for values are needed, one is NULL or there are none");
   STEIF_CHECK(t[0] > t0, ctx, STEIF_BAD_INPUT, "t = %.17g is not after t0 = %.17g", t[0], t0);
-  STEIF_TRY(steif_linear_problem(ctx, linear, x0, t0, t[count - 1], &p));
-  truth w = {.ctx = ctx, .linear = linear, .analysis = analysis, .n = p.n, .t = t, .x = x};
+  STEIF_TRY(steif_linear_problem(ctx, given, x0, t0, t[count - 1], &p));
+  truth w = {.ctx = ctx, .analysis = analysis, .n = p.n, .t = t, .x = x};
+  w.demand = stf_demand_of(ctx, given, analysis);
+  const steif_linear linear = stf_demand_linear(&w.demand);
+  w.linear = &linear;
   const size_t n = (size_t)p.n, last = (count - 1) * n;
   w.now = stf_allocate(ctx, 2 * n, sizeof *w.now);
   if (!w.now) return STEIF_NO_MEMORY;
@@ -162,5 +168,6 @@ int steif_linear_exact(steif_context *ctx, const steif_linear *linear, const sun
   stf_reduced_close(&w.reduced);
   steif_structure_clear(ctx, &w.structure);
   stf_release(ctx, w.now);
+  stf_demand_close(&w.demand);
   return code;
 }

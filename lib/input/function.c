@@ -261,8 +261,14 @@ static int expressions(steif_function *f, sunrealtype t, int derivative, sunreal
     return STEIF_RECOVER(f->ctx, STEIF_UNSUPPORTED,
                          "derivative %d of an expression; %d is the highest", derivative,
                          STF_ORDER);
-  for (sunindextype i = 0; i < f->inputs; i++) STEIF_TRY(input(f, i, t, derivative, u + i));
-  return STEIF_OK;
+  int wrong = STEIF_OK;
+  sunindextype known = 0;
+  for (sunindextype i = 0; i < f->inputs; i++) {
+    const int code = input(f, i, t, derivative, u + i);
+    if (code) wrong = code, u[i] = NAN;
+    known += !code;
+  }
+  return derivative && known ? STEIF_OK : wrong;
 }
 
 /* g = B u. */

@@ -34,6 +34,10 @@ int stf_input_sized(steif_context *ctx, const char *path, const char *name, SUNM
 /* A variable of a MATLAB file that need not be there; a failure only when it is and cannot be
  * read. */
 int stf_input_variable(steif_context *ctx, const char *path, const char *name, SUNMatrix *M);
+/* The texts of a cell array or the rows of a character array, without blanks at their ends, in the
+ * pool; *text NULL when the file has no such variable. */
+int stf_input_texts(steif_context *ctx, stf_pool *pool, const char *path, const char *name,
+                    size_t *count, const char ***text);
 
 /* ---- Taylor arithmetic: c[k] = u^(k)(t) / k!, k = 0 .. n ------------------------------------- */
 

@@ -1,4 +1,4 @@
-/* mat.c: matrices from MATLAB version 5 files, through matio.
+/* mat.c: matrices and texts from MATLAB version 5 files, through matio.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "input.h"
 #include <stdint.h>
@@ -146,7 +146,8 @@ static SUNMatrix convert(steif_context *ctx, const char *path, const matvar_t *v
   return M;
 }
 
-static SUNMatrix read(steif_context *ctx, const char *path, const char *name, int *found)
+/* The variable, or NULL: with the message set when it is there and cannot be read. */
+static matvar_t *variable(steif_context *ctx, const char *path, const char *name, int *found)
 {
   mat_t *mat = Mat_Open(path, MAT_ACC_RDONLY);
   if (!mat) {
@@ -154,15 +155,21 @@ static SUNMatrix read(steif_context *ctx, const char *path, const char *name, in
                path);
     return NULL;
   }
-  SUNMatrix M = NULL;
   matvar_t *there = Mat_VarReadInfo(mat, name), *v = there ? Mat_VarRead(mat, name) : NULL;
   *found = there != NULL;
-  if (v) M = convert(ctx, path, v);
   if (there && !v)
     STEIF_FAIL(ctx, STEIF_BAD_INPUT,
                "'%s': the variable %s is cut off or damaged; save it again", path, name);
-  Mat_VarFree(there), Mat_VarFree(v);
+  Mat_VarFree(there);
   Mat_Close(mat);
+  return v;
+}
+
+static SUNMatrix read(steif_context *ctx, const char *path, const char *name, int *found)
+{
+  matvar_t *v = variable(ctx, path, name, found);
+  SUNMatrix M = v ? convert(ctx, path, v) : NULL;
+  Mat_VarFree(v);
   return M;
 }
 
@@ -179,7 +186,81 @@ SUNMatrix steif_matrix_read_mat(steif_context *ctx, const char *path, const char
   return check_file(ctx, path) ? NULL : read(ctx, path, name, found);
 }
 
+/* ---- texts ----------------------------------------------------------------------------------- */
+
+/* A character array of at least one row and column, of one or two bytes each. */
+static bool letters(const matvar_t *v)
+{
+  if (!v || v->class_type != MAT_C_CHAR || v->rank != 2 || !v->data) return false;
+  const size_t size = Mat_SizeOf(v->data_type), rows = v->dims[0], length = v->dims[1];
+  return rows && length && (size == 1 || size == 2) && v->nbytes / size / rows >= length;
+}
+
+/* Row i as UTF-8, without blanks at its end; NULL when memory is short. */
+static const char *row(stf_pool *pool, const matvar_t *v, size_t i)
+{
+  const size_t size = Mat_SizeOf(v->data_type), length = v->dims[1], rows = v->dims[0];
+  char *text = stf_claim(pool, 3 * length + 1, 1);
+  size_t used = 0;
+  for (size_t j = 0; text && j < length; j++) {
+    const size_t at = j * rows + i;
+    const unsigned u =
+      size == 1 ? ((const uint8_t *)v->data)[at] : ((const uint16_t *)v->data)[at];
+    if (u < 0x80 || size == 1) {
+      text[used++] = (char)u;
+    } else {
+      if (u >= 0x800) text[used++] = (char)(0xe0 | u >> 12);
+      text[used++] = (char)(u >= 0x800 ? 0x80 | (u >> 6 & 0x3f) : 0xc0 | u >> 6);
+      text[used++] = (char)(0x80 | (u & 0x3f));
+    }
+  }
+  while (used && text[used - 1] == ' ') used--;
+  if (text) text[used] = 0;
+  return text;
+}
+
+static int texts(steif_context *ctx, stf_pool *pool, const char *path, const matvar_t *v,
+                 size_t *count, const char ***text)
+{
+  const bool cell = v->class_type == MAT_C_CELL, good = v->rank == 2 && v->data;
+  STEIF_CHECK(good && (cell || v->class_type == MAT_C_CHAR), ctx, STEIF_BAD_INPUT,
+              "'%s': the variable %s is neither a cell array of texts nor a character array; "
+              "save {'v1', 'v2', ...}",
+              path, v->name);
+  *count = cell ? v->dims[0] * v->dims[1] : v->dims[0];
+  if (!(*text = stf_claim(pool, *count, sizeof **text))) return STEIF_NO_MEMORY;
+  for (size_t i = 0; i < *count; i++) {
+    const matvar_t *one = cell ? ((matvar_t *const *)v->data)[i] : v;
+    const bool whole = letters(one);
+    if (whole && !((*text)[i] = row(pool, one, cell ? 0 : i))) return STEIF_NO_MEMORY;
+    STEIF_CHECK(whole && *(*text)[i], ctx, STEIF_BAD_INPUT,
+                "'%s': entry %zu of %s is no text, or an empty one; give a name", path, i + 1,
+                v->name);
+  }
+  return STEIF_OK;
+}
+
+int stf_input_texts(steif_context *ctx, stf_pool *pool, const char *path, const char *name,
+                    size_t *count, const char ***text)
+{
+  int found = 0;
+  *count = 0, *text = NULL;
+  STEIF_TRY(check_file(ctx, path));
+  steif_forget(ctx);
+  matvar_t *v = variable(ctx, path, name, &found);
+  const int code = v ? texts(ctx, pool, path, v, count, text) : steif_status(ctx);
+  Mat_VarFree(v);
+  return code;
+}
+
 #else
+
+int stf_input_texts(steif_context *ctx, stf_pool *pool, const char *path, const char *name,
+                    size_t *count, const char ***text)
+{
+  (void)pool, *count = 0, *text = NULL;
+  return STEIF_FAIL(ctx, STEIF_UNSUPPORTED, "cannot read %s of '%s' without matio", name, path);
+}
 
 SUNMatrix steif_matrix_read_mat(steif_context *ctx, const char *path, const char *name,
                                 int *found)

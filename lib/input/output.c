@@ -1,4 +1,4 @@
-/* output.c: y = C x + D u beside a descriptor system, from MATLAB files.
+/* output.c: y = C x + D u beside a descriptor system.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "input.h"
 #include <string.h>
@@ -53,6 +53,25 @@ int steif_output_read(steif_context *ctx, const char *path, SUNMatrix *C, SUNMat
   if (*D) SUNMatDestroy(*D);
   *C = *D = NULL;
   return code;
+}
+
+int steif_output_check(steif_context *ctx, SUNMatrix C, SUNMatrix D, sunindextype n,
+                       sunindextype inputs)
+{
+  STEIF_TRY(stf_input_check(ctx, C, "C"));
+  if (D) STEIF_TRY(stf_input_check(ctx, D, "D"));
+  const long long rows = (long long)stf_input_rows(C),
+                  columns = (long long)stf_input_columns(C);
+  STEIF_CHECK(
+    columns == n, ctx, STEIF_BAD_INPUT,
+    "C of y = C x + D u is %lld x %lld and should have %lld columns, one for each unknown",
+    rows, columns, (long long)n);
+  STEIF_CHECK(
+    !D || (stf_input_rows(D) == rows && stf_input_columns(D) == inputs), ctx, STEIF_BAD_INPUT,
+    "D of y = C x + D u is %lld x %lld and should be %lld x %lld, the rows of C and the "
+    "number of inputs",
+    (long long)stf_input_rows(D), (long long)stf_input_columns(D), rows, (long long)inputs);
+  return STEIF_OK;
 }
 
 static void add(SUNMatrix M, const sunrealtype *x, sunrealtype *y)

@@ -307,8 +307,8 @@ static void bad_questions_are_refused(void)
   refused(ctx, before, E, F, force, &highest, &s, STEIF_BAD_INPUT,
           "derivative 2 of the forcing is not known");
   refused(ctx, before, E, F, stopping_at_once, NULL, NULL, STEIF_CALLBACK, "returned -7");
-  refused(ctx, before, E, F, stopping, NULL, NULL, STEIF_NOT_FINITE,
-          "derivative 1 of the forcing is not finite");
+  refused(ctx, before, E, F, stopping, NULL, NULL, STEIF_BAD_INPUT,
+          "derivative 1 of the forcing is not known");
   other = s, other.n = 4;
   refused(ctx, before, E, F, force, NULL, &other, STEIF_BAD_INPUT, "structure is of order 4");
   other = s, other.index = 2;

@@ -4,12 +4,13 @@
 
 extern CU_TestInfo tests_of_market[], tests_of_malformed[], tests_of_write[], tests_of_mat[],
   tests_of_series[], tests_of_grammar[], tests_of_function[], tests_of_samples[],
-  tests_of_memory[];
+  tests_of_memory[], tests_of_names[];
 
 SUITE_MAIN({.pName = "market", .pTests = tests_of_market},
            {.pName = "malformed", .pTests = tests_of_malformed},
            {.pName = "write", .pTests = tests_of_write},
            {.pName = "mat", .pTests = tests_of_mat},
+           {.pName = "names", .pTests = tests_of_names},
            {.pName = "series", .pTests = tests_of_series},
            {.pName = "grammar", .pTests = tests_of_grammar},
            {.pName = "function", .pTests = tests_of_function},

@@ -95,6 +95,10 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   return stf_linear_finish(ctx, spec, self);
 }
 
+static const steif_names names = {
+  (const char *const[]){"velocity 1", "velocity 2", "motion 1", "motion 2", "bar"},
+  (const char *const[]){"q1", "q2", "v1", "v2", "lambda"}};
+
 const steif_problem steif_problem_impact = {
   .about = "two masses joined by a rigid bar hang from a spring, one of them struck to "
            "speed=3: impulse "
@@ -102,6 +106,7 @@ const steif_problem steif_problem_impact = {
            "Brogliato, "
            "Nonsmooth Mechanics, Springer 1999",
   .n = 5,
+  .names = &names,
   .t1 = 5,
   .storage = STEIF_DENSE,
   .exact = exact,

@@ -103,6 +103,10 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   return stf_linear_finish(ctx, spec, self);
 }
 
+static const steif_names names = {
+  (const char *const[]){"node of C1", "node of C2", "inductor", "battery", "switch"},
+  (const char *const[]){"v1", "v2", "i_L", "e", "i"}};
+
 const steif_problem steif_problem_switchrlc = {
   .about = "a switch joins capacitors charged to v1=5 and v2=1 volts, fed by a battery through "
            "R and L: "
@@ -110,6 +114,7 @@ const steif_problem steif_problem_switchrlc = {
            "K. Singhal, "
            "Computer Methods for Circuit Analysis and Design, Van Nostrand Reinhold 1983",
   .n = 5,
+  .names = &names,
   .t1 = 1e-3,
   .storage = STEIF_DENSE,
   .exact = exact,
