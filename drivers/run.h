@@ -47,6 +47,7 @@ typedef struct trajectory {
   size_t happened;
   bool short_of_memory, live;
   double shown; /* when the progress line was written */
+  steif_report *report; /* takes jumps as they come; NULL: they are not kept */
 } trajectory;
 /* EXIT_OK, or an exit code after a sentence about --at. Observers are set in *options. */
 int trajectory_open(struct call *call, const steif_problem *problem, steif_options *options,
@@ -56,7 +57,7 @@ int trajectory_keep(trajectory *tr, double t, N_Vector y);
 void trajectory_free(trajectory *tr);
 int trajectory_save(const struct call *call, const trajectory *tr);
 int trajectory_plot(const struct call *call, const trajectory *tr, const char *title);
-/* Sheets "output" (times asked for) and "events" (--events). */
+/* Sheets "output" (times asked for) and "events" (--events); jumps are there already. */
 void trajectory_fill(steif_report *r, const trajectory *tr);
 
 /* Was a run stopped by SIGINT? */

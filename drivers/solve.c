@@ -36,11 +36,9 @@ static int finish(struct call *call, const outcome *o, steif_solver *s, const tr
   char title[128];
   snprintf(title, sizeof title, "%s by %s", call->word[0], call->word[1]);
   int code = o->code == STEIF_OK ? EXIT_OK : exit_of(o->code);
-  steif_report *r = steif_report_new(call->ctx);
-  fill(r, call->word, o, s, tr);
+  fill(tr->report, call->word, o, s, tr);
   const bool shown = call->json || s;
-  int output = !r ? fail(call) : shown ? show(call, r) : EXIT_OK;
-  steif_report_free(&r);
+  int output = shown ? show(call, tr->report) : EXIT_OK;
   if (o->code != STEIF_OK)
     say(call, "%s",
         tr->short_of_memory ? "no memory for the trajectory; leave out --csv, --npz and "
@@ -60,11 +58,13 @@ static int run(struct call *call)
   trajectory tr;
   int code = trajectory_open(call, &p, &options, &tr);
   steif_solver *s = NULL;
+  if (code == EXIT_OK && !(tr.report = steif_report_new(call->ctx))) code = fail(call);
   if (code == EXIT_OK) {
     const outcome o = integrate(call->ctx, &p, call->word[1], &options, &s);
     code = finish(call, &o, s, &tr);
   }
   steif_solver_free(&s);
+  steif_report_free(&tr.report);
   trajectory_free(&tr);
   steif_problem_clear(call->ctx, &p);
   return code;

@@ -1,6 +1,6 @@
 /* trajectory.c: what a run was: steps or times asked for, events; as rows, files, a picture.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "run.h"
+#include "impulse.h"
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,6 +114,13 @@ static int notice(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, 
   return 0;
 }
 
+static int jump(sunrealtype t, const sunrealtype *before, const steif_impulse *i, void *user)
+{
+  const trajectory *tr = user;
+  if (tr->report) impulse_rows(tr->report, "jumps", t, before, i);
+  return 0;
+}
+
 int trajectory_open(struct call *call, const steif_problem *problem, steif_options *options,
                     trajectory *tr)
 {
@@ -123,7 +130,8 @@ int trajectory_open(struct call *call, const steif_problem *problem, steif_optio
                      .t0 = problem->t0,
                      .t1 = options->t1 > 0 ? options->t1 : problem->t1,
                      .live = !call->quiet && isatty(STDERR_FILENO)};
-  options->observe = add, options->notice = notice, options->observer = tr;
+  options->observe = add, options->notice = notice;
+  options->jump = jump, options->observer = tr;
   if (given(call, "--events") && problem->events == 0)
     return refuse(call, "%s has no events; bounce, rectifier and swing have", call->word[0]);
   return ask(call, tr);

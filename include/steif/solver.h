@@ -39,6 +39,7 @@ extern "C" {
 #endif
 
 typedef struct steif_solver steif_solver;
+struct steif_impulse; /* impulse.h */
 
 typedef struct steif_options {
   sunrealtype rtol;         /* relative tolerance, default 1e-6 */
@@ -72,7 +73,11 @@ typedef struct steif_options {
   int (*observe)(steif_solver *s, sunrealtype t, N_Vector y, void *user);
   /* Called at every event before problem.react, which explains `fired`; nonzero stops the run. */
   int (*notice)(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, void *user);
-  void *observer;                     /* user of both */
+  /* Called by "descriptor", which auto takes for linear systems of index above 1, where x jumps, at
+   * the start too: x(t-), and x(t+) with the impulses; nonzero stops the run. */
+  int (*jump)(sunrealtype t, const sunrealtype *before, const struct steif_impulse *impulse,
+              void *user);
+  void *observer;                     /* user of these */
   /* Called before the run begins anew behind problem.react, and behind a break of the problem where
    * steps of our own methods are chosen, with rtol: make y(t+) of y and find its slope (yp holds 0
    * and may stay so); returns a code. steif_settle (jump.h) fits. NULL: y stays; algebraic

@@ -184,7 +184,7 @@ int steif_failure_find(steif_context *ctx, const steif_problem *problem, const c
   *failure = (steif_failure){.cause = {.t = NAN, .equation = -1, .unknown = -1}};
   steif_options o = options ? *options : steif_defaults();
   record r;
-  o.observe = keep, o.notice = NULL, o.observer = &r;
+  o.observe = keep, o.notice = NULL, o.jump = NULL, o.observer = &r;
   steif_solver *s = steif_solver_new(ctx, problem, method, &o);
   if (!s) return steif_status(ctx);
   const int form = steif_problem_form(ctx, problem);

@@ -1,6 +1,7 @@
 /* auto.c: which method for which problem, and why.
  *
  *   given steps                                   radau:s=3
+ *   E x' = A x + g of index above 1, or not known descriptor: from any start, to tolerance
  *   few unknowns and digits, with a given Jacobian
  *     n <= 5                                      rodas5p down to rtol 1e-2
  *     y' = f(y), n <= 24                          rodas4 down to rtol 1e-3
@@ -79,6 +80,17 @@ static bool cheap(const steif_problem *p, const steif_options *o)
   return work >= 0 && work <= CHEAP;
 }
 
+/* Is it a linear system whose solution may hold impulses? Index 0 of a small one may mean that nobody
+ * has said. */
+static bool jumps(const steif_problem *p, const steif_options *o, int form)
+{
+  const bool stored = p->storage == STEIF_DENSE || p->storage == STEIF_SPARSE;
+  const bool told = p->dae_index > 1 || p->dae_index < 0;
+  const bool maybe = p->dae_index == 0 && p->n <= SMALL && p->storage == STEIF_DENSE;
+  return form == STEIF_DESCRIPTOR && stored && (told || maybe) && !o->ewt && !p->constraint &&
+         !o->like;
+}
+
 static const char *on_grids(const steif_problem *p, const steif_options *o, int form,
                             const char **reason)
 {
@@ -94,7 +106,9 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
 {
   const bool given = o->h > 0 || o->mesh, high = p->dae_index > 1;
   const char *method, *reason;
-  if (given)
+  if (!given && jumps(p, o, form))
+    method = "descriptor", reason = "linear: jumps and impulses of the pencil, smooth between";
+  else if (given)
     method = "radau:s=3", reason = "steps are given: order 5, stiffly accurate";
   else if (small(p, o, form) && (method = linearly(p, o)))
     reason = "few unknowns, few digits: no iteration";

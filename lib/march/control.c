@@ -182,7 +182,7 @@ static int chosen(steif_solver *s, sunrealtype t_stop)
       "%.3g times the tolerance%s",
       s->problem->name, tries, step->t, h, e,
       step->count > 0 ? "" : ": are the start values consistent? steif_consistent finds such, "
-                             "steif_linear_run the impulses of linear systems");
+                             "method descriptor makes the jumps of linear systems");
   }
 }
 

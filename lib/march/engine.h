@@ -25,7 +25,8 @@ typedef struct stf_run {
 } stf_run;
 
 typedef struct steif_engine {
-  const char *about; /* one sentence with a citation */
+  const char *family; /* NULL: "baseline" */
+  const char *about;  /* one sentence with a citation */
   unsigned forms;    /* enum steif_form accepted */
   size_t size;
   /* spec parameters are the engine's own: refuse unknown ones with stf_spec_only. */

@@ -10,7 +10,7 @@ static int describe_engine(steif_context *ctx, const steif_engine *engine,
                            const steif_spec *spec, steif_method_info *info)
 {
   (void)ctx, (void)spec;
-  info->family = "baseline", info->about = engine->about;
+  info->family = engine->family ? engine->family : "baseline", info->about = engine->about;
   info->forms = engine->forms, info->adaptive = 1;
   return STEIF_OK;
 }

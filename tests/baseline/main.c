@@ -3,11 +3,12 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_engines[], tests_of_forms[], tests_of_index[], tests_of_failures[],
-  tests_of_tables[], tests_of_public[];
+  tests_of_tables[], tests_of_public[], tests_of_linear[];
 
 SUITE_MAIN({.pName = "engines", .pTests = tests_of_engines},
            {.pName = "forms", .pTests = tests_of_forms},
            {.pName = "index", .pTests = tests_of_index},
            {.pName = "failures", .pTests = tests_of_failures},
            {.pName = "tables", .pTests = tests_of_tables},
-           {.pName = "public", .pTests = tests_of_public})
+           {.pName = "public", .pTests = tests_of_public},
+           {.pName = "linear", .pTests = tests_of_linear})
