@@ -37,7 +37,8 @@ typedef struct steif_inquiry {
   sunrealtype t;                      /* with y */
   const sunrealtype *size; /* n sizes below which components count as zero, atol_j/rtol;
                                          NULL: rtol_scale of the problem (1 when not set) */
-  const char *const *equation, *const *unknown; /* n each; NULL: e1, e2, ..., y1, y2, ... */
+  const char *const *equation, *const *unknown; /* n each; NULL: the names of the problem, else
+                                         e1, e2, ..., y1, y2, ... */
 } steif_inquiry;
 
 enum steif_confidence { STEIF_UNDECIDED, STEIF_PROBABLE, STEIF_SURE };

@@ -98,7 +98,9 @@ int stf_diagnose_open(steif_context *ctx, const steif_problem *problem, const st
   *s = (stf_lens){.ctx = ctx, .problem = *problem, .n = (size_t)problem->n};
   s->t = s->problem.t0 = q && q->y ? q->t : problem->t0;
   if (s->problem.t1 < s->t) s->problem.t1 = s->t;
-  s->equation = q ? q->equation : NULL, s->unknown = q ? q->unknown : NULL;
+  const steif_names *names = problem->names;
+  s->equation = q && q->equation ? q->equation : names ? names->equation : NULL;
+  s->unknown = q && q->unknown ? q->unknown : names ? names->unknown : NULL;
   s->pool = stf_pool_new(ctx);
   if (!s->pool) return STEIF_NO_MEMORY;
   const int code = open(s, q, form);

@@ -10,6 +10,7 @@
 typedef struct descriptor {
   const steif_problem *problem;
   steif_linear linear;
+  steif_analysis analysis;
   stf_passage passage;
   N_Vector work;
   bool anew; /* the next step begins a segment, from run->y */
@@ -101,7 +102,7 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
   STEIF_TRY(stf_spec_only(run->ctx, spec, (const char *const[]){NULL}));
   STEIF_TRY(check(run));
   STEIF_TRY(steif_linear_of(run->ctx, run->problem, &s->linear));
-  s->problem = run->problem;
+  s->problem = run->problem, s->analysis.names = run->problem->names;
   if (s->linear.f) s->linear.f = counted, s->linear.user = s;
   s->work = N_VNew_Serial(run->problem->n, steif_sundials(run->ctx));
   STEIF_CHECK(s->work, run->ctx, STEIF_NO_MEMORY, "no memory for a vector");
@@ -112,6 +113,7 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
   s->passage = (stf_passage){.ctx = run->ctx,
                              .given = &s->linear,
                              .name = run->problem->name,
+                             .analysis = &s->analysis,
                              .method = "auto",
                              .options = o,
                              .jump = run->options->jump,
