@@ -117,7 +117,7 @@ static int notice(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, 
 static int jump(sunrealtype t, const sunrealtype *before, const steif_impulse *i, void *user)
 {
   const trajectory *tr = user;
-  if (tr->report) impulse_rows(tr->report, "jumps", t, before, i);
+  if (tr->report) impulse_rows(tr->report, "jumps", NULL, t, before, i);
   return 0;
 }
 
