@@ -126,15 +126,17 @@ static int from_start(stf_case *c, sunrealtype *allowed, steif_start *start)
   const sunrealtype *y = kept ? s->y : c->lens->y0, *yp = kept ? s->yp : c->lens->yp0;
   const steif_inquiry q = {.y = linear ? NULL : y, /* NULL: the start of the problem */
                            .yp = linear ? NULL : yp,
-                           .t = linear ? s->t0 : kept ? s->t[0] : c->lens->t,
+                           .t = linear ? s->t0
+                                : kept ? s->t[0]
+                                       : c->lens->t,
                            .size = c->lens->floor,
                            .equation = c->lens->equation,
                            .unknown = c->lens->unknown};
   sunrealtype *weight = stf_allocate(c->lens->ctx, n, sizeof *weight);
   if (!weight) return STEIF_NO_MEMORY;
   for (size_t j = 0; j < n; j++) {
-    allowed[j] = s->rtol * (linear ? c->lens->size[j] : fabs(y[j])) +
-                 (s->atols ? s->atols[j] : s->atol);
+    allowed[j] =
+      s->rtol * (linear ? c->lens->size[j] : fabs(y[j])) + (s->atols ? s->atols[j] : s->atol);
     weight[j] = 1 / allowed[j];
   }
   const steif_request request = {.weight = weight};
@@ -147,7 +149,8 @@ int stf_case_start(stf_case *c)
 {
   steif_start start = {0};
   char y[STEIF_SPEC_WORD], e[STEIF_SPEC_WORD];
-  const bool linear = c->lens->problem.linear; /* impulses of the start outlive many short steps */
+  const bool linear =
+    c->lens->problem.linear; /* impulses of the start outlive many short steps */
   if (c->scene->steps > 1 && !linear) return STEIF_OK;
   STEIF_TRY(stf_case_diagnose(c));
   if (c->diagnosis.index < 1) return STEIF_OK;
@@ -168,14 +171,15 @@ int stf_case_start(stf_case *c)
     cause->kind = STEIF_CAUSE_START, cause->unknown = (sunindextype)at;
     cause->equation = visible ? start.worst : -1;
     cause->value[0] = start.moved[at], cause->value[1] = most;
-    stf_diagnose_say(cause->message,
-                     "Start is inconsistent with %s%s: %s is off by %.3g (%.2g "
-                     "weights). Call steif_consistent first%s; it says: %s",
-                     visible ? "equation " : "a hidden constraint",
-                     visible ? stf_diagnose_equation(c->lens, (size_t)start.worst, e) : "",
-                     stf_diagnose_unknown(c->lens, at, y), -start.moved[at], most,
-                     linear ? ", or let steif_linear_run give the jump and the impulses" : "",
-                     start.message);
+    stf_diagnose_say(
+      cause->message,
+      "Start is inconsistent with %s%s: %s is off by %.3g (%.2g "
+      "weights). Call steif_consistent first%s; it says: %s",
+      visible ? "equation " : "a hidden constraint",
+      visible ? stf_diagnose_equation(c->lens, (size_t)start.worst, e) : "",
+      stf_diagnose_unknown(c->lens, at, y), -start.moved[at], most,
+      linear ? ", or take the method descriptor, which makes the jump and its impulses" : "",
+      start.message);
   }
   steif_start_clear(&start);
   return STEIF_OK;

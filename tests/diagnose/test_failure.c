@@ -78,7 +78,7 @@ static void an_inconsistent_start_is_told(void)
   CU_ASSERT_FATAL(!steif_problem_find(ctx, "switchrlc", &p));
   find(&p, "radau:s=3", 1e-8, &f);
   CHECK(f.cause.kind == STEIF_CAUSE_START && f.steps == 0);
-  CHECK(strstr(f.message, "equation e5") != NULL);
+  CHECK(strstr(f.message, "equation switch") != NULL);
   steif_problem_clear(ctx, &p);
   steif_context_free(&ctx);
 }
@@ -93,7 +93,7 @@ static void impulses_of_the_start_are_told(void)
   CU_ASSERT_FATAL(!steif_problem_find(ctx, "ut5", &p));
   find(&p, "radau:s=5", 1e-6, &f);
   CHECK(f.cause.kind == STEIF_CAUSE_START && f.steps > 1);
-  CHECK(strstr(f.message, "steif_linear_run") != NULL);
+  CHECK(strstr(f.message, "method descriptor") != NULL);
   steif_problem_clear(ctx, &p);
   steif_context_free(&ctx);
 }
