@@ -110,7 +110,9 @@ STEIF_EXPORT int steif_solve_to(steif_solver *s, sunrealtype t);
 /* Advance by one accepted step. */
 STEIF_EXPORT int steif_solve_step(steif_solver *s);
 
-/* The spec in use; for "auto" what it chose and why, in one sentence. */
+/* The spec in use; for "auto" what it chose and why, in one sentence. On y' = f(t, y) with matrices "auto"
+ * may change between an implicit and an explicit method on the way: then since when, and what it
+ * expects to save. */
 STEIF_EXPORT const char *steif_method_used(const steif_solver *s);
 
 STEIF_EXPORT N_Vector steif_solution(steif_solver *s);   /* at the time last asked for */

@@ -16,6 +16,8 @@
  *     whose LU costs a few solves                 rodas5p down to rtol 1e-6, with a given Jacobian
  *     others                                      radau:s=3 down to rtol 1e-5, radau:s=5 below
  *   large dense systems, operators                bdf down to rtol 1e-8, radau:s=5 below
+ * Beside it y' = f(t, y) has an explicit method, which begins where that is cheaper, and the two change
+ * places when stiffness comes or goes (rival.c).
  * Rosenbrock methods factor in every step and iterate nowhere. Collocation on sparse systems takes one
  * real matrix for many steps, as BDF does, at orders that BDF does not have.
  *
@@ -76,8 +78,9 @@ static bool cheap(const steif_problem *p, const steif_options *o)
   if (storage_of(p, o) == STEIF_BAND) return p->lower + p->upper <= CHEAP;
   if (!p->pattern)
     return p->nnz > 0 && p->nnz <= 4 * p->n; /* chains; grids have five a column */
-  const double work = stf_order_work(p->n, p->pattern->column, p->pattern->row);
-  return work >= 0 && work <= CHEAP;
+  double entries;
+  const double work = stf_order_work(p->n, p->pattern->column, p->pattern->row, &entries);
+  return work >= 0 && work <= CHEAP * entries;
 }
 
 /* Is it a linear system whose solution may hold impulses? Index 0 of a small one may mean that nobody

@@ -12,7 +12,7 @@ static const sunrealtype safety = 0.9, shrink_most = 0.125;
 enum { REFUSALS = 40 }; /* refused attempts in one step before the run stops */
 
 /* Of the caller, by rtol and atol, or, for given steps, of Newton's iteration alone. */
-static int weigh(const steif_solver *s)
+int stf_weigh(const steif_solver *s)
 {
   const stf_step *step = &s->step;
   const steif_options *o = &s->options;
@@ -36,7 +36,7 @@ static int weigh(const steif_solver *s)
 static int renew_weights(steif_solver *s, sunrealtype h)
 {
   stf_step *step = &s->step;
-  STEIF_TRY(weigh(s));
+  STEIF_TRY(stf_weigh(s));
   sunrealtype *w = s->problem->index ? N_VGetArrayPointer(step->weights) : NULL;
   for (sunindextype i = 0; w && i < s->problem->n; i++)
     for (int level = s->problem->index[i]; level > 1; level--) w[i] *= h;
@@ -257,7 +257,10 @@ int stf_advance(steif_solver *s, sunrealtype t_stop)
     "tolerance",
     step->count, step->t, s->problem->name);
   if (step->restart) STEIF_TRY(begin_anew(s));
-  return step->adaptive ? free_step(s, t_stop) : given(s);
+  if (s->rivals) STEIF_TRY(stf_rivals_look(s));
+  const int code = step->adaptive ? free_step(s, t_stop) : given(s);
+  if (code && s->rivals) stf_rivals_stay(s);
+  return code;
 }
 
 sunrealtype stf_first_step(const steif_solver *s)
@@ -266,7 +269,7 @@ sunrealtype stf_first_step(const steif_solver *s)
   const steif_options *o = &s->options;
   const sunrealtype span = s->t1 - step->t;
   if (o->h0 > 0) return fmin(o->h0, span);
-  if (weigh(s) != STEIF_OK) return 1e-6 * span; /* the first step will say so */
+  if (stf_weigh(s) != STEIF_OK) return 1e-6 * span; /* the first step will say so */
   const sunrealtype size = stf_norm(&step->system.space, step->y, step->weights);
   const sunrealtype slope = stf_norm(&step->system.space, step->yp, step->weights);
   const sunrealtype h = slope > 0 && step->yp_known ? 0.01 * size / slope : 1e-6 * span;

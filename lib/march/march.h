@@ -8,6 +8,8 @@
 #include "method.h"
 #include <steif/solver.h>
 
+typedef struct stf_rivals stf_rivals;
+
 struct steif_solver {
   steif_context *ctx;
   stf_pool *pool;
@@ -24,6 +26,7 @@ struct steif_solver {
   bool finished;              /* by an event */
   bool asked, explained;      /* the observer wishes to stop, and has failed itself */
   stf_step step;              /* a method of ours ... */
+  stf_rivals *rivals;         /* of `auto`, which may change to another; NULL: it will not */
   const steif_engine *engine; /* ... or a baseline */
   void *engine_state;
   stf_run run;
@@ -38,7 +41,7 @@ struct steif_solver {
   sunrealtype *invariants; /* at the start, then room for as many */
   sunrealtype cpu_s;
   steif_stats stats;
-  char method[160]; /* spec in use; for auto with the reason */
+  char method[240]; /* spec in use; for auto with the reason */
 };
 
 /* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. */
@@ -69,8 +72,18 @@ void stf_observe(steif_solver *s, sunrealtype t, N_Vector y);
 /* Dense output of the last step as the method made it, unchecked. */
 int stf_dense(steif_solver *s, sunrealtype t, N_Vector y);
 
+/* Weights of the norm at step.y. */
+int stf_weigh(const steif_solver *s);
+
 /* First length of a chosen step. */
 sunrealtype stf_first_step(const steif_solver *s);
+
+/* Two methods for `auto`, whose first choice, `name`, is open; and a look, before a step, at which of
+ * them is to make it. */
+int stf_rivals_open(steif_solver *s, const char *name);
+int stf_rivals_look(steif_solver *s);
+/* After a step that failed: dense output of the one before is asked of who made it. */
+void stf_rivals_stay(steif_solver *s);
 
 /* The spec that `auto` stands for, and a sentence why. */
 const char *stf_choose(const steif_problem *p, const steif_options *o, int form, char *why,

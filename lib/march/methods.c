@@ -22,7 +22,7 @@ int steif_method_find(steif_context *ctx, const char *text, steif_method_info *i
   memset(info, 0, sizeof *info);
   snprintf(info->name, sizeof info->name, "%s", text);
   if (!strcmp(text, "auto")) {
-    info->family = "auto", info->about = "chooses by size, storage, index and tolerance";
+    info->family = "auto", info->about = "chooses by size, storage, index, tolerance and the stiffness it meets";
     info->forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
     info->adaptive = 1;
     return STEIF_OK;

@@ -210,11 +210,13 @@ static int open(steif_solver *s, const char *method)
   s->t1 = s->options.t1, s->t_shown = s->end = s->problem->t0;
   STEIF_TRY(open_vectors(s, &y, &yp));
   snprintf(s->method, sizeof s->method, "%s", method);
-  if (!strcmp(method, "auto"))
+  const bool automatic = !strcmp(method, "auto");
+  if (automatic)
     method = stf_choose(s->problem, &s->options, form, s->method, sizeof s->method);
   STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
   s->engine = stf_engine_find(spec.name);
   STEIF_TRY(s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp));
+  if (automatic) STEIF_TRY(stf_rivals_open(s, method));
   STEIF_TRY(stf_feasible_open(s));
   STEIF_TRY(stf_drift_open(s));
   STEIF_TRY(stf_watch_open(s));

@@ -153,6 +153,9 @@ extern const steif_method steif_method_vbdf;
  * Of the ode form and the matrices at hand. */
 int stf_oscillation(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *omega);
 
+/* The spectral radius of J, by the same power iteration. */
+int stf_spectral_radius(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *radius);
+
 /* STEIF_RETRY for dense factors without a pivot in `column` (from 0), with the sentence: entries that
  * are not finite, or a singular matrix. */
 int stf_refuse_factors(stf_step *s, int column, sunrealtype h);

@@ -153,11 +153,11 @@ static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
   const double *restrict v = stf_array(x);
   double *restrict to = stf_array(out);
   memset(to, 0, (size_t)p->n * sizeof *to);
-  for (sunindextype j = 0; j < p->n; j++) {
-    sunindextype i, last;
-    rows(M, j, &i, &last);
-    const double *restrict c = SM_COLUMN_B(M, j);
-    for (; i <= last; i++) to[i] += c[i - j] * v[j];
+  const sunindextype width = SM_LDIM_B(M), upper = SM_UBAND_B(M), lower = SM_LBAND_B(M);
+  for (sunindextype d = -upper; d <= lower; d++) { /* diagonals: entries (j + d, j) */
+    const double *restrict c = SM_DATA_B(M) + SM_SUBAND_B(M) + d;
+    const sunindextype last = smaller(p->n, p->n - d);
+    for (sunindextype j = larger(0, -d); j < last; j++) to[j + d] += c[j * width] * v[j];
   }
   return STEIF_OK;
 }

@@ -86,12 +86,13 @@ int stf_order(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row,
 #define AMD_ORDER amd_l_order
 #endif
 
-double stf_order_work(sunindextype n, const sunindextype *column, const sunindextype *row)
+double stf_order_work(sunindextype n, const sunindextype *column, const sunindextype *row,
+                      double *entries)
 {
   double info[AMD_INFO];
   sunindextype *order = SuiteSparse_malloc((size_t)n, sizeof *order);
   const bool good = order && AMD_ORDER(n, column, row, order, NULL, info) >= AMD_OK;
   SuiteSparse_free(order);
-  if (!good) return -1;
-  return (info[AMD_NDIV] + 2 * info[AMD_NMULTSUBS_LU]) / (2 * info[AMD_LNZ] + (double)n);
+  *entries = good ? 2 * info[AMD_LNZ] + (double)n : -1;
+  return good ? info[AMD_NDIV] + 2 * info[AMD_NMULTSUBS_LU] : -1;
 }

@@ -19,8 +19,9 @@ SuiteSparse_long stf_order_block(SuiteSparse_long n, SuiteSparse_long *ptr,
                                  SuiteSparse_long *row, SuiteSparse_long *order,
                                  struct klu_l_common_struct *common);
 
-/* Flops of an LU per entry of its factors, by minimum degree on any pattern: how many solves
- * one factorisation costs, up to a factor. Negative: not known. */
-double stf_order_work(sunindextype n, const sunindextype *column, const sunindextype *row);
+/* Flops of an LU by minimum degree on any pattern, and entries of its factors: their quotient is how
+ * many solves one factorisation costs, up to a factor. Negative: not known. */
+double stf_order_work(sunindextype n, const sunindextype *column, const sunindextype *row,
+                      double *entries);
 
 #endif

@@ -35,9 +35,19 @@ static void chains_take_rosenbrock(void)
 
 static void grids_keep_one_matrix(void)
 {
-  CHECK(picks("bruss2d:n=12", 1e-3, STEIF_SPARSE, "radau:s=3"));
-  CHECK(picks("bruss2d:n=12", 1e-5, STEIF_SPARSE, "radau:s=3"));
-  CHECK(picks("bruss2d:n=12", 1e-6, STEIF_SPARSE, "radau:s=5"));
+  CHECK(picks("bruss2d:n=32", 1e-3, STEIF_SPARSE, "radau:s=3"));
+  CHECK(picks("bruss2d:n=32", 1e-5, STEIF_SPARSE, "radau:s=3"));
+  CHECK(picks("bruss2d:n=32", 1e-6, STEIF_SPARSE, "radau:s=5"));
+}
+
+/* Not stiff, or so little that an LU costs more than the steps that stability asks for. */
+static void little_stiffness_takes_explicit_steps(void)
+{
+  CHECK(picks("plei", 1e-3, STEIF_DENSE, "dopri87"));
+  CHECK(picks("plei", 1e-9, STEIF_DENSE, "dopri87"));
+  CHECK(picks("bruss2d:n=12", 1e-6, STEIF_SPARSE, "dopri87"));
+  CHECK(picks("heat2d:n=16", 1e-6, STEIF_SPARSE, "dopri87"));
+  CHECK(picks("beam", 1e-6, STEIF_DENSE, "radau:s=5"));
 }
 
 static void small_systems_take_lanes(void)
@@ -61,6 +71,7 @@ static void few_digits_take_rosenbrock(void)
 CU_TestInfo tests_of_auto[] = {
   {"chains take Rosenbrock", chains_take_rosenbrock},
   {"grids keep one matrix", grids_keep_one_matrix},
+  {"little stiffness takes explicit steps", little_stiffness_takes_explicit_steps},
   {"few digits take Rosenbrock", few_digits_take_rosenbrock},
   {"small systems take lanes", small_systems_take_lanes},
   CU_TEST_INFO_NULL,
