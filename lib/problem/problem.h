@@ -70,7 +70,7 @@ int stf_groups_open(stf_pool *pool, stf_system *system);
 int stf_differ(stf_system *system, char which, sunrealtype t, N_Vector y, N_Vector yp,
                SUNMatrix M);
 /* One random direction through the filled pencil against differences: a missing entry is
- * named. */
+ * named. Two evaluations, and a few for each row that deviates. */
 int stf_probe(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
 
 #endif

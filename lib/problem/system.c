@@ -187,11 +187,14 @@ int stf_system_matrices(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
   return STEIF_OK;
 }
 
+/* Derivatives that are 0 at the start are not there later: the 2nd, 4th, 8th ... Jacobian is probed too. */
 int stf_system_linearise(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
 {
   if (s->linear && s->filled) return STEIF_OK;
   STEIF_TRY(stf_system_matrices(s, t, y, yp));
-  return s->pencil ? steif_pencil_update(s->pencil) : STEIF_OK;
+  if (!s->pencil) return STEIF_OK;
+  STEIF_TRY(steif_pencil_update(s->pencil));
+  return (s->nje & (s->nje - 1)) == 0 ? stf_probe(s, t, y, yp) : STEIF_OK;
 }
 
 /* -- opening ------------------------------------------------------------------------------- */

@@ -192,6 +192,71 @@ static void missing_entries_are_found(void)
     smooth_refused(&p, methods[m], NULL, STEIF_BAD_INPUT, "misses entry (0, 4)");
 }
 
+/* The derivative by the last unknown is 0 at the start only: a later Jacobian finds it. */
+static int awakes(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  const double last = NV_Ith_S(y, N - 1);
+  chain(t, y, out, user);
+  NV_Ith_S(out, 0) = -200 * (NV_Ith_S(y, 0) - last * last * last);
+  NV_Ith_S(out, N - 1) = 2 * cos(t);
+  return 0;
+}
+
+static void entries_that_come_later_are_found(void)
+{
+  static const sunindextype column[] = {0, 1, 2, 3, 4, 5}, row[] = {0, 1, 2, 3, 4};
+  static const sunrealtype y0[N] = {0};
+  const steif_pattern diagonal = {column, row};
+  const steif_problem p = {.name = "late",
+                           .n = N,
+                           .t1 = 9,
+                           .y0 = y0,
+                           .f = awakes,
+                           .storage = STEIF_SPARSE,
+                           .pattern = &diagonal};
+  static const char *const solvers[] = {"auto", "radau:s=5", "gauss:s=3", "rodas4", "bdf"};
+  for (int m = 0; m < 5; m++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_solver *s = smooth_open(ctx, &p, solvers[m], NULL);
+    CHECK(steif_solve_to(s, 9) == STEIF_BAD_INPUT);
+    CHECK(strstr(steif_message(ctx), "misses entry (0, 4)") != NULL);
+    steif_solver_free(&s);
+    steif_context_free(&ctx);
+  }
+}
+
+/* Rows whose terms cancel along the probe ask for one evaluation more, not for one a column. */
+enum { GRID = 400 };
+static int spread(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  const sunrealtype *u = N_VGetArrayPointer(y);
+  sunrealtype *r = N_VGetArrayPointer(out);
+  (void)t, ++*(int *)user;
+  for (int i = 0; i < GRID; i++)
+    r[i] = 1e4 * ((i ? u[i - 1] : 0) - 2 * u[i] + (i < GRID - 1 ? u[i + 1] : 0)) + fabs(u[i]);
+  return 0;
+}
+
+static void probes_cost_a_few_evaluations(void)
+{
+  static const sunrealtype y0[GRID] = {0};
+  int calls = 0;
+  const steif_problem p = {.name = "spread",
+                           .n = GRID,
+                           .t1 = 1,
+                           .y0 = y0,
+                           .f = spread,
+                           .storage = STEIF_BAND,
+                           .lower = 1,
+                           .upper = 1,
+                           .user = &calls};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_solver *s = smooth_open(ctx, &p, "radau:s=3", NULL);
+  CHECK(calls < 50);
+  steif_solver_free(&s);
+  steif_context_free(&ctx);
+}
+
 /* A method of order 2 would need errors of 1e-18 in a step. */
 static void tolerances_beyond_a_method_are_refused(void)
 {
@@ -207,5 +272,7 @@ CU_TestInfo tests_of_bad_input[] = {
   {"patterns may change", patterns_may_change},
   {"times before are refused", times_before_are_refused},
   {"missing entries are found", missing_entries_are_found},
+  {"entries that come later are found", entries_that_come_later_are_found},
+  {"probes cost a few evaluations", probes_cost_a_few_evaluations},
   {"tolerances beyond a method are refused", tolerances_beyond_a_method_are_refused},
   CU_TEST_INFO_NULL};
