@@ -122,6 +122,7 @@ enum steif_cause_kind {
   STEIF_CAUSE_JACOBIAN,
   STEIF_CAUSE_SINGULAR,
   STEIF_CAUSE_ACCURACY,
+  STEIF_CAUSE_STIFF,
   STEIF_CAUSE_START,
   STEIF_CAUSE_RINGING,
   STEIF_CAUSE_INDEX
@@ -138,6 +139,7 @@ typedef struct steif_scene {
   sunrealtype rtol, atol;
   const sunrealtype *atols;     /* n instead of atol; NULL: none */
   const sunrealtype *error;     /* n: last error estimate; NULL: not known */
+  int explicit_method;          /* its steps may be held by stability */
   int weighted;                 /* norms scale component j by h^(number_j - 1) */
   const char *method;           /* for the sentence; NULL: "the method" */
 } steif_scene;
@@ -147,7 +149,8 @@ typedef struct steif_cause {
   sunrealtype t;                   /* of the event; NaN when there is none */
   sunindextype equation, unknown;  /* 0-based, -1: none named */
   /* blow-up: exponent, growth; impasse: growth, misfit; jump: size, median increment;
-   * Jacobian: given, measured; singular: reciprocal condition; accuracy: noise, in weights;
+   * Jacobian: given, measured; singular: reciprocal condition; accuracy: noise, in weights
+   * (in increments where it spoils a Jacobian by differences); stiff: h |lambda|, |lambda|;
    * start: move, in weights; ringing: share of sign changes, amplitude in weights; index:
    * index, number of the unknown */
   sunrealtype value[2];

@@ -36,14 +36,31 @@ static void blame_noise(stf_case *c, size_t i, size_t j, sunrealtype noise, sunr
     10 * part * c->scene->rtol);
 }
 
-/* |(E/h - A)^{-1}| noise against the weights, numbers taken off: h^(number - 1). */
+static void blame_differences(stf_case *c, size_t i, size_t j, sunrealtype noise,
+                              sunrealtype part)
+{
+  char e[STEIF_SPEC_WORD], y[STEIF_SPEC_WORD];
+  steif_cause *cause = c->cause;
+  cause->kind = STEIF_CAUSE_ACCURACY;
+  cause->equation = (sunindextype)i, cause->unknown = (sunindextype)j;
+  cause->value[0] = noise, cause->value[1] = part;
+  stf_diagnose_say(
+    cause->message,
+    "Noise %.2g in %s spoils the Jacobian, which is made by differences: it moves %s by %.2g "
+    "times their increment, so that Newton's iteration cannot succeed with any step. Give the "
+    "Jacobian, or make the equation smoother.",
+    noise, stf_diagnose_equation(c->lens, i, e), stf_diagnose_unknown(c->lens, j, y), part);
+}
+
+/* |(E/h - A)^{-1}| noise against the weights, numbers taken off: h^(number - 1); where the Jacobian is
+ * made by differences also against their increments at the start, since that is its relative error. */
 static int uncertainty(stf_case *c, stf_factor *f, const stf_view *v, sunrealtype rate,
                        bool noisy)
 {
   const size_t n = c->lens->n;
-  const sunrealtype h = fabs(c->scene->h);
-  sunrealtype *x = c->lens->scratch + 5 * n, most = 0.1;
-  size_t at = n, from = 0;
+  const sunrealtype h = fabs(c->scene->h), increment = sqrt(STF_EPS);
+  sunrealtype *x = c->lens->scratch + 5 * n, most = 0.1, spoilt = 1;
+  size_t at = n, from = 0, column = n, row = 0;
   STEIF_TRY(stf_factor_shift(f, v, 1 / h));
   for (size_t i = 0; i < n; i++) {
     const sunrealtype rounding = STF_EPS * c->scale[i];
@@ -56,7 +73,14 @@ static int uncertainty(stf_case *c, stf_factor *f, const stf_view *v, sunrealtyp
       const sunrealtype order = c->diagnosis.number[j] - 1;
       const sunrealtype part = fabs(x[j]) * pow(fmin(1, h * rate), order) / c->weight[j];
       if (part > most) most = part, at = j, from = i;
+      const sunrealtype first = c->scene->count ? fabs(c->scene->y[j]) : 0;
+      const sunrealtype moved = fabs(x[j]) / (increment * fmax(first, c->lens->floor[j]));
+      if (loud && !c->lens->analytic && moved > spoilt) spoilt = moved, column = j, row = i;
     }
+  }
+  if (column < n) {
+    blame_differences(c, row, column, c->noise[row], spoilt);
+    return STEIF_OK;
   }
   if (at < n) blame_noise(c, from, at, fmax(c->noise[from], STF_EPS * c->scale[from]), most);
   return STEIF_OK;
@@ -152,8 +176,9 @@ static int nothing(stf_case *c)
 static int look(stf_case *c)
 {
   static int (*const tests[])(stf_case *) = {
-    not_finite,        stf_case_blow_up,  stf_case_impasse, stf_case_jump,    stf_case_jacobian,
-    stf_case_singular, stf_case_accuracy, stf_case_start,   stf_case_ringing, stf_case_index};
+    not_finite,        stf_case_blow_up,  stf_case_impasse,  stf_case_jump,
+    stf_case_jacobian, stf_case_singular, stf_case_accuracy, stf_case_stiff,
+    stf_case_start,    stf_case_ringing,  stf_case_index};
   const size_t count = c->scene ? sizeof tests / sizeof *tests : 0;
   const int code = open_case(c);
   if (code < 0) return code;

@@ -112,8 +112,9 @@ static int residuals(steif_context *ctx, const record *r, const steif_inquiry *q
   return code < 0 ? code : STEIF_OK;
 }
 
-static void say(steif_failure *f, const steif_inquiry *q)
+static void say(steif_failure *f, const steif_problem *p)
 {
+  const bool named = p->names && p->names->unknown;
   char *m = f->message;
   size_t used = 0;
   const size_t room = sizeof f->message;
@@ -127,7 +128,7 @@ static void say(steif_failure *f, const steif_inquiry *q)
     snprintf(name, sizeof name, "y%lld", (long long)i + 1);
     used +=
       (size_t)snprintf(m + used, room - used, "%s %s (error %.2g, allowed %.2g, residual %.2g)",
-                       k ? "," : "; worst", q->unknown ? q->unknown[i] : name,
+                       k ? "," : "; worst", named ? p->names->unknown[i] : name,
                        f->worst[k].error, f->worst[k].allowed, f->worst[k].residual);
   }
   snprintf(m + used, room - used, ". %s", f->cause.message);
@@ -151,11 +152,13 @@ static int explain(steif_solver *s, const record *r, steif_failure *f)
                              .atol = s->options.atol,
                              .atols = s->options.atols,
                              .error = f->count ? N_VGetArrayPointer(step->error) : NULL,
+                             .explicit_method =
+                               !s->engine && (step->method->traits & STF_EXPLICIT),
                              .weighted = s->problem->index != NULL,
                              .method = s->method};
   STEIF_TRY(residuals(s->ctx, r, &q, f));
   STEIF_TRY(steif_explain(s->ctx, s->problem, &q, &scene, &f->cause));
-  say(f, &q);
+  say(f, s->problem);
   return STEIF_OK;
 }
 
@@ -171,7 +174,7 @@ static int repeat(steif_solver *s, record *r, steif_failure *f)
   facts(s, f);
   if (looked) return explain(s, r, f);
   snprintf(f->cause.message, sizeof f->cause.message, "%s", steif_message(s->ctx));
-  say(f, &(steif_inquiry){0});
+  say(f, p);
   return STEIF_OK;
 }
 

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "blend.h"
 #include <math.h>
+#include <stdio.h>
 
 int stf_split_single(stf_pool *pool, sunrealtype b, stf_split *split)
 {
@@ -189,21 +190,37 @@ static sunindextype not_finite(const stf_newton *newton, N_Vector *v)
   return i;
 }
 
+/* Where it began: in the residuals, which a single stage has solved over, or in what was made of them. */
+static sunindextype culprit(stf_newton *newton, const stf_stages *g)
+{
+  const bool linear = newton->system->linear, lost = newton->omega == newton->residual;
+  if (lost && !linear) {
+    stf_zero(&newton->system->space, g->Z[0]);
+    if (residuals(newton, g) == STEIF_OK) return not_finite(newton, newton->residual);
+  }
+  const sunindextype i = not_finite(newton, newton->residual);
+  return i < 0 ? not_finite(newton, linear ? g->Z : newton->dZ) : i;
+}
+
+static int refuse_values(stf_newton *newton, const stf_stages *g)
+{
+  const steif_problem *p = newton->system->problem;
+  char name[STEIF_SPEC_WORD], where[STEIF_SPEC_WORD + 8] = "";
+  const sunindextype i = culprit(newton, g);
+  if (i >= 0) snprintf(where, sizeof where, " (%s)", stf_unknown(p, i, name));
+  return STEIF_RECOVER(
+    newton->system->ctx, STEIF_NOT_FINITE,
+    "a stage of problem '%s' is not finite%s in the step from t = %.12g with h = %.6g: "
+    "the callbacks returned NaN or infinity, or the step is too large",
+    p->name, where, g->t, g->h);
+}
+
 static int refuse(stf_newton *newton, const stf_stages *g, int iterations, sunrealtype norm,
                   sunrealtype theta)
 {
   steif_context *ctx = newton->system->ctx;
   newton->fails++, newton->wanted = true, newton->eta = 1;
-  if (!isfinite(norm)) {
-    sunindextype i = not_finite(newton, newton->residual);
-    if (i < 0) i = not_finite(newton, newton->system->linear ? g->Z : newton->dZ);
-    return STEIF_RECOVER(
-      ctx, STEIF_NOT_FINITE,
-      "a stage of problem '%s' is not finite (component %lld) in the step from "
-      "t = %.12g with h = %.6g: the callbacks returned NaN or infinity, or the "
-      "step is too large",
-      newton->system->problem->name, (long long)i, g->t, g->h);
-  }
+  if (!isfinite(norm)) return refuse_values(newton, g);
   return STEIF_RECOVER(
     ctx, STEIF_NO_CONVERGENCE,
     "Newton's iteration was refused for problem '%s' in the step from t = %.12g "

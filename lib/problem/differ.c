@@ -194,7 +194,7 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
 /* -- probe ------------------------------------------------------------------------------------- */
 
 static const sunrealtype move = 1e-6; /* relative size of the probing move */
-enum { ASKED = 32 }; /* rows looked at more closely */
+enum { ASKED = 32 };                  /* rows looked at more closely */
 
 static bool in_pattern(const stf_system *s, sunindextype i, sunindextype j)
 {

@@ -1,7 +1,17 @@
 /* start.c: start values of a problem, and the first call of its callbacks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "problem.h"
+#include <stdio.h>
 #include <string.h>
+
+const char *stf_unknown(const steif_problem *p, sunindextype i, char *room)
+{
+  if (p->names && p->names->unknown)
+    snprintf(room, STEIF_SPEC_WORD, "'%s'", p->names->unknown[i]);
+  else
+    snprintf(room, STEIF_SPEC_WORD, "y%lld", (long long)i + 1);
+  return room;
+}
 
 static int start_values(steif_context *ctx, const steif_problem *p, N_Vector y, N_Vector yp)
 {

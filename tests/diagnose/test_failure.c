@@ -98,6 +98,95 @@ static void impulses_of_the_start_are_told(void)
   steif_context_free(&ctx);
 }
 
+/* A run that ends at max_steps: x'' = -k^2 x - d x' + noise, or with a rod of length 1 and multiplier. */
+typedef struct spring {
+  double k, d, noise;
+  unsigned state;
+} spring;
+
+static int swings(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  spring *s = user;
+  (void)t;
+  NV_Ith_S(r, 0) = NV_Ith_S(y, 1);
+  NV_Ith_S(r, 1) = -s->k * s->k * NV_Ith_S(y, 0) - s->d * NV_Ith_S(y, 1);
+  return 0;
+}
+
+static void limited(const steif_problem *p, const char *method, long steps, steif_failure *f)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_options o = steif_defaults();
+  o.max_steps = steps;
+  memset(f, 0, sizeof *f);
+  CHECK(!steif_failure_find(ctx, p, method, &o, f) && f->code == STEIF_STEP_LIMIT);
+  steif_context_free(&ctx);
+}
+
+/* Eigenvalues -1 and -1e4; and +-i, where accuracy holds the steps. */
+static void steps_that_stability_holds_are_told(void)
+{
+  spring stiff = {.k = 100, .d = 10001}, free = {.k = 1};
+  steif_problem p = {
+    .name = "spring", .n = 2, .t1 = 1000, .y0 = ones, .f = swings, .user = &stiff};
+  steif_failure f;
+  limited(&p, "dopri87", 3000, &f);
+  CHECK(f.cause.kind == STEIF_CAUSE_STIFF && strstr(f.message, "Use an implicit method"));
+  CLOSE(f.cause.value[1], 1e4, 1e-3);
+  CHECK(f.cause.value[0] > 2 && f.cause.value[0] < 8);
+  limited(&p, "radau:s=3", 30, &f);
+  CHECK(f.cause.kind == STEIF_CAUSE_UNKNOWN);
+  p.user = &free;
+  limited(&p, "dopri87", 300, &f);
+  CHECK(f.cause.kind == STEIF_CAUSE_UNKNOWN);
+}
+
+/* x' = u, u' = -lambda x + noise, 0 = x u + sin t u: the column of lambda is made of noise. */
+static int noisy(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  spring *s = user;
+  const sunrealtype *x = N_VGetArrayPointer(y);
+  sunrealtype *out = N_VGetArrayPointer(r);
+  s->state = s->state * 1103515245u + 12345u;
+  out[0] = x[2], out[1] = x[3];
+  out[2] = -x[4] * x[0];
+  out[3] = -x[4] * x[1] - 1 + s->noise * ((s->state >> 8 & 65535) / 65536. - 0.5);
+  out[4] = x[0] * x[2] + x[1] * x[3];
+  (void)t;
+  return 0;
+}
+static int four(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  for (int i = 0; i < 4; i++) SM_ELEMENT_D(E, i, i) = 1;
+  return 0;
+}
+
+static void noise_in_differences_is_told_by_name(void)
+{
+  static const char *const unknown[] = {"x", "y", "u", "v", "force"};
+  static const char *const equation[] = {"kin-x", "kin-y", "dyn-x", "dyn-y", "rod"};
+  static const int index[] = {1, 1, 1, 1, 2};
+  static const sunrealtype hangs[] = {0.6, -0.8, 0, 0, 0.8};
+  spring s = {.noise = 1e-4, .state = 7};
+  const steif_names names = {.equation = equation, .unknown = unknown};
+  const steif_problem p = {.name = "rod",
+                           .n = 5,
+                           .names = &names,
+                           .t1 = 3,
+                           .y0 = hangs,
+                           .f = noisy,
+                           .E = four,
+                           .user = &s,
+                           .index = index,
+                           .dae_index = 2};
+  steif_failure f;
+  find(&p, "radau:s=3", 1e-6, &f);
+  CHECK(f.cause.kind == STEIF_CAUSE_ACCURACY && f.cause.equation == 3);
+  CHECK(strstr(f.message, "Noise") && strstr(f.message, "in dyn-y spoils the Jacobian"));
+  CHECK(strstr(f.message, "it moves force by") != NULL);
+}
+
 static void good_runs_have_no_failure(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -139,6 +228,8 @@ CU_TestInfo tests_of_failure[] = {
   {"an impasse is told with its time", an_impasse_is_told_with_its_time},
   {"an inconsistent start is told", an_inconsistent_start_is_told},
   {"impulses of the start are told", impulses_of_the_start_are_told},
+  {"steps that stability holds are told", steps_that_stability_holds_are_told},
+  {"noise in differences is told by name", noise_in_differences_is_told_by_name},
   {"good runs have no failure", good_runs_have_no_failure},
   {"memory may fail at any request", memory_may_fail_at_any_request},
   CU_TEST_INFO_NULL};

@@ -72,7 +72,7 @@ static void values_that_are_not_finite_are_named(void)
     s.r.poison = linear ? INFINITY : NAN;
     CHECK(stf_newton_solve(&s.newton, &s.stages) == STEIF_RETRY);
     CHECK(steif_status(s.ctx) == STEIF_NOT_FINITE);
-    CHECK(strstr(steif_message(s.ctx), "(component ") && !strstr(steif_message(s.ctx), "-1)"));
+    CHECK(strstr(steif_message(s.ctx), "not finite (y") != NULL);
     room_close(&s);
   }
 }
@@ -97,7 +97,7 @@ static void later_stages_are_looked_at(void)
   s.newton.iterations = 9, s.stages.c = c;
   CHECK(!stf_newton_prepare(&s.newton, 0.2, s.h, s.y, s.yp, false));
   CHECK(stf_newton_solve(&s.newton, &s.stages) == STEIF_RETRY);
-  CHECK(strstr(steif_message(s.ctx), "(component 1)"));
+  CHECK(strstr(steif_message(s.ctx), "(y2)"));
   room_close(&s);
 }
 
