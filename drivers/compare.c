@@ -25,7 +25,7 @@ static void one_method(struct call *call, const steif_problem *p, const char *me
   bool steps;
   const size_t count = settings(call, method, value, &steps);
   work_open(work, method);
-  for (size_t i = 0; i < count; i++) {
+  for (size_t i = 0; i < count && !interrupted(); i++) {
     steif_options o = options_of(call);
     o.h = steps ? value[i] : 0;
     if (!steps) o.rtol = value[i];
@@ -52,6 +52,10 @@ static int run(struct call *call)
   const int code = r ? present(call, r) : fail(call);
   steif_report_free(&r);
   steif_problem_clear(call->ctx, &p);
+  if (interrupted()) {
+    say(call, "interrupted: runs that were left are not made");
+    return EXIT_INTERRUPTED;
+  }
   return code ? code : work_plot(call, &work, call->word[0], call->plot);
 }
 

@@ -19,6 +19,7 @@ enum option_kind {
   WORD,
   CHOICE, /* one of the words of `argument`, separated by | */
   REALS,  /* finite, > 0, separated by commas */
+  TIMES,  /* finite, separated by commas */
   OUTPUT  /* a file to be written */
 };
 struct option {

@@ -46,7 +46,7 @@ static bool is_whole(const char *text, long lowest)
   return end != text && !*end && value >= lowest && value <= 1000000000;
 }
 
-static bool are_reals(const char *text)
+static bool are_reals(const char *text, bool positive)
 {
   for (size_t count = 0; count < REALS_MOST; count++) {
     char one[64];
@@ -54,7 +54,7 @@ static bool are_reals(const char *text)
     if (length >= sizeof one) return false;
     memcpy(one, text, length);
     one[length] = 0;
-    if (!is_real(one, true)) return false;
+    if (!is_real(one, positive)) return false;
     if (!text[length]) return true;
     text += length + 1;
   }
@@ -79,7 +79,9 @@ static const char *objection(const struct option *o, const char *text)
   case POSITIVE: return is_real(text, true) ? NULL : "a finite number above 0";
   case NATURAL: return is_whole(text, 0) ? NULL : "a whole number from 0";
   case COUNT: return is_whole(text, 1) ? NULL : "a whole number from 1";
-  case REALS: return are_reals(text) ? NULL : "numbers above 0 separated by commas, at most 32";
+  case REALS:
+    return are_reals(text, true) ? NULL : "numbers above 0 separated by commas, at most 32";
+  case TIMES: return are_reals(text, false) ? NULL : "times separated by commas, at most 32";
   case CHOICE: return is_choice(text, o->argument) ? NULL : o->argument;
   case WORD: return *text ? NULL : "a word";
   case OUTPUT: return *text ? NULL : "a file name";
@@ -182,15 +184,17 @@ void call_help(const struct verb *verb)
   lines(verb->option);
   lines(common);
   if (strstr(verb->usage, "METHOD"))
-    puts(
-      "\nMETHOD: a name that 'steif list methods' shows, or glm:file=PATH, a tableau in a text file:\n"
-      "words xi, C, D, U and V before the matrices G = U X + h C F, X <- V X + h D F row by row, or A, b\n"
-      "and c of a Runge-Kutta method, or alpha and beta of a multistep method (steif/glm.h). File e.g.:\n"
-      "  alpha 1 -4 3\n"
-      "  beta  0 0 2");
+    puts("\nMETHOD: a name that 'steif list methods' shows, or glm:file=PATH, a tableau in a "
+         "text file:\n"
+         "words xi, C, D, U and V before the matrices G = U X + h C F, X <- V X + h D F row by "
+         "row, or A, b\n"
+         "and c of a Runge-Kutta method, or alpha and beta of a multistep method "
+         "(steif/glm.h). File e.g.:\n"
+         "  alpha 1 -4 3\n"
+         "  beta  0 0 2");
   puts(
     "\nExit codes: 0 ok, 1 the computation or the output failed, 2 usage, 3 bad input file,\n"
-    "4 singular pencil, 5 not certified.");
+    "4 singular pencil, 5 not certified, 130 interrupted.");
 }
 
 /* ---- what was given ---- */

@@ -39,6 +39,8 @@ steif_options options_of(const struct call *call)
   o.atol = real_of(call, "--atol", o.atol);
   o.h = real_of(call, "--h", 0);
   o.t1 = real_of(call, "--t1", 0);
+  o.h0 = real_of(call, "--h0", 0);
+  o.h_max = real_of(call, "--h-max", 0);
   /* Whoever names a step has named the number of steps. */
   o.max_steps = whole_of(call, "--max-steps",
                          given(call, "--h") || given(call, "--hs") ? 1000000000 : o.max_steps);
@@ -81,6 +83,7 @@ outcome integrate(steif_context *ctx, const steif_problem *problem, const char *
   struct sigaction before;
   sigaction(SIGINT, NULL, &before);
   if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &ours, NULL);
+  if (s && options->observe) options->observe(s, o.t, steif_solution(s), options->observer);
   o.code = s ? steif_solve_to(s, t1) : steif_status(ctx);
   sigaction(SIGINT, &before, NULL);
   snprintf(o.message, sizeof o.message, "%s", o.code == STEIF_OK ? "ok" : steif_message(ctx));

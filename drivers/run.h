@@ -15,7 +15,7 @@ typedef struct outcome {
   steif_stats stats;
 } outcome;
 
-/* Integrate to options->t1 (the problem's when 0). The solver is kept in *solver unless that is
+/* Integrate to options->t1 (the problem's when 0), the start shown to options->observe first. The solver is kept in *solver unless that is
  * NULL; it may be NULL afterwards when it could not be made. The context's message is forgotten. */
 outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
                   const steif_options *options, steif_solver **solver);
@@ -68,6 +68,8 @@ steif_options options_of(const struct call *call);
 /* The option lines that options_of reads, for the tables of the verbs. */
 #define RUN_OPTIONS                                                                            \
   {"--t1", POSITIVE, "T", "end of the integration (default: the problem's)"},                  \
+    {"--h0", POSITIVE, "H", "first chosen step (default: automatic)"},                         \
+    {"--h-max", POSITIVE, "H", "largest chosen step (default: none)"},                         \
     {"--start", WORD, "S",                                                                     \
      "starting procedure of multistep methods: exact, ramp, constant, cq"},                    \
     {"--max-steps", COUNT, "N", "give up after N steps (default 1000000; --h: 1000000000)"},   \

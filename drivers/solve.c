@@ -75,7 +75,7 @@ static const struct option options[] = {
   {"--atol", POSITIVE, "A", "absolute tolerance (default: rtol times the problem's scale)"},
   {"--h", POSITIVE, "H", "equal steps instead of a tolerance"},
   RUN_OPTIONS,
-  {"--at", REALS, "T,T,...", "the solution at these ascending times instead of steps"},
+  {"--at", TIMES, "T,T,...", "the solution at these ascending times instead of steps"},
   {"--points", COUNT, "N", "the same at N equal distances from the start to the end"},
   {"--events", FLAG, NULL, "a table of the events of the problem"},
   {"--npz", OUTPUT, "FILE", "t, y and events as arrays for numpy.load"},

@@ -75,8 +75,9 @@ static int add(steif_solver *s, sunrealtype t, N_Vector y, void *user)
   if (tr->asked == 0)
     return tr->call->csv || tr->call->plot || tr->call->npz ? trajectory_keep(tr, t, y) : 0;
   for (; tr->next < tr->asked && tr->at[tr->next] <= t; tr->next++) {
-    if (steif_dense(s, tr->at[tr->next], tr->between) != STEIF_OK) return -1;
-    if (trajectory_keep(tr, tr->at[tr->next], tr->between)) return -1;
+    const bool here = tr->at[tr->next] >= t;
+    if (!here && steif_dense(s, tr->at[tr->next], tr->between) != STEIF_OK) return -1;
+    if (trajectory_keep(tr, tr->at[tr->next], here ? y : tr->between)) return -1;
   }
   return 0;
 }
@@ -146,15 +147,21 @@ void trajectory_free(trajectory *tr)
 
 /* -- what is shown and saved ---------------------------------------------------------------------- */
 
-static void rows(steif_report *r, const char *sheet, const trajectory *tr)
+/* Columns have the names of the unknowns, if there are any; names NULL: one list y. */
+static void rows(steif_report *r, const char *sheet, const trajectory *tr,
+                 const char *const *names)
 {
-  char name[2][32];
-  snprintf(name[0], sizeof name[0], "%s.t", sheet);
-  snprintf(name[1], sizeof name[1], "%s.y", sheet);
+  char time[32], name[96];
+  snprintf(time, sizeof time, "%s.t", sheet);
   for (size_t i = 0; i < tr->count; i++) {
     steif_report_row(r, sheet);
-    steif_report_real(r, name[0], tr->t[i]);
-    steif_report_list(r, name[1], tr->n, tr->y + i * tr->n);
+    steif_report_real(r, time, tr->t[i]);
+    snprintf(name, sizeof name, "%s.y", sheet);
+    if (!names) steif_report_list(r, name, tr->n, tr->y + i * tr->n);
+    for (size_t j = 0; names && j < tr->n; j++) {
+      snprintf(name, sizeof name, "%s.%s", sheet, names[j]);
+      steif_report_real(r, name, tr->y[i * tr->n + j]);
+    }
   }
 }
 
@@ -177,7 +184,7 @@ static void event_row(steif_report *r, const trajectory *tr, size_t i)
 
 void trajectory_fill(steif_report *r, const trajectory *tr)
 {
-  if (tr->asked) rows(r, "output", tr);
+  if (tr->asked) rows(r, "output", tr, NULL);
   for (size_t i = 0; given(tr->call, "--events") && i < tr->events; i++) event_row(r, tr, i);
 }
 
@@ -200,7 +207,7 @@ int trajectory_save(const struct call *call, const trajectory *tr)
   const int arrays = save_arrays(call, tr);
   if (!call->csv) return arrays;
   steif_report *r = steif_report_new(call->ctx);
-  rows(r, "steps", tr);
+  rows(r, "steps", tr, tr->problem->names ? tr->problem->names->unknown : NULL);
   const int code = r ? save_csv(call, r) : fail(call);
   steif_report_free(&r);
   return code ? code : arrays;

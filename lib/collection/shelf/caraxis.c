@@ -100,6 +100,9 @@ static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
 /* The slopes of the multipliers follow from the third derivatives of the constraints. */
 static const sunrealtype y0[] = {0, 0.5, 1, 0.5, -0.5, 0, -0.5, 0, 0, 0};
 static const sunrealtype yp0[] = {-0.5, 0, -0.5, 0, 0, -1, 0, -1, 0.0515, 0.012875};
+static const char *const unknown[] = {"xl",  "yl",  "xr",  "yr",      "xl'",
+                                      "yl'", "xr'", "yr'", "lambda1", "lambda2"};
+static const steif_names names = {.unknown = unknown};
 static const int index[] = {1, 1, 1, 1, 2, 2, 2, 2, 3, 3};
 static const sunrealtype end[] = {
   0.049345578427540282,   0.49698946023017115,   1.0417425248854215,   0.37391102726536124,
@@ -113,6 +116,7 @@ const steif_problem steif_problem_caraxis = {
   .about = "Car axis on a bumpy road, constrained mechanical system of index 3. S. Schneider "
            "(1994); IVP Test Set II-7.",
   .n = 10,
+  .names = &names,
   .t1 = 3,
   .y0 = y0,
   .yp0 = yp0,
