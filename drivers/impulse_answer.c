@@ -16,6 +16,7 @@ void impulse_fill(steif_report *r, const struct linear *l, const steif_impulse *
   steif_report_real(r, "residuals.chain", i->chain);
   steif_report_real(r, "residuals.first", i->first);
   steif_report_real(r, "estimate", i->estimate);
+  steif_report_real(r, "resolution", i->resolution);
   steif_report_truth(r, "certified", i->certified);
   steif_report_text(r, "method", i->method);
   steif_report_text(r, "message", i->message);

@@ -53,6 +53,7 @@ static void fill(steif_report *r, const steif_names *called, const steif_structu
   steif_report_real(r, "gap", s->gap);
   steif_report_real(r, "rcond", s->rcond);
   steif_report_real(r, "radius", s->radius);
+  steif_report_real(r, "resolution", s->resolution);
   names(r, "equations", 'e', by->equation, (size_t)s->equations_count, s->equations);
   names(r, "unknowns", 'x', by->unknown, (size_t)s->unknowns_count, s->unknowns);
   steif_report_truth(r, "certified", s->certified);

@@ -62,9 +62,13 @@ typedef struct steif_structure {
   sunindextype *weyr;
   sunrealtype gap;          /* ratio of the singular values or moments that decide the index */
   sunrealtype rcond;        /* best reciprocal condition of equilibrated s E + F tried */
+  sunrealtype resolution;   /* finite eigenvalues beyond it would pass for infinite: where the pattern
+                               alone does not rule them out, rounding of the entries given hides them
+                               (dense), or the circle (sparse); INFINITY: there are none */
   sunrealtype radius;       /* estimate of the largest finite |eigenvalue|, or the radius used */
-  int certified;            /* of a regular pencil: what is below rounding of the entries given is taken
-                               for 0; of a singular one: det(s E + F) = 0 exactly as given */
+  int certified;            /* of a regular pencil: finite eigenvalues are those up to `resolution`, what
+                               is below rounding of the entries given is taken for 0; of a singular
+                               one: det(s E + F) = 0 exactly as given */
   const char *method;       /* "staircase", "qz", "contour", "drazin" */
   sunindextype equations_count, unknowns_count; /* offenders, 0-based, when singular or index > 1 */
   sunindextype *equations, *unknowns;
@@ -94,6 +98,7 @@ typedef struct steif_impulse {
                                E (x+ - x-)||, each relative to the norms of its terms
                                (the first to max |E| ||c_{k-2}|| or, where larger, max |E|^2 /
                                max |F| times the norm of c_{k-3} or x- - x+) */
+  sunrealtype resolution;   /* of the structure: valid for time scales from 1 / resolution on */
   sunrealtype estimate;     /* of the relative error of x_plus: two radii, or two algorithms */
   int certified;
   const char *method;

@@ -293,6 +293,7 @@ static void decide(search *w, const sample *chosen)
     s->index = -1, s->index_least = s->infinite > 0;
   }
   s->certified = all && s->index >= 0;
+  s->resolution = all ? INFINITY : chosen->radius;
   s->radius = settle(w, chosen);
   if (s->index == 0 || s->index == 1) s->equations_count = s->unknowns_count = 0;
 }

@@ -80,6 +80,8 @@ int stf_split_impulse(const stf_split *split, int k, const stf_sources *sources,
 /* The slow projector Q [0 R; 0 I] Q^T; w = sum_j (-N)^j F_inf^{-1} [I L] P^T f^(j) above E_f v' +
  * F_f v = P_f^T f, in the unknowns x; the same in z = (w, v). */
 int stf_split_give(stf_pool *pool, const stf_split *split, const stf_pieces *parts);
+/* ||F_inf^{-1} [I L] P^T||, by which changes of equations enter N. */
+int stf_split_rows(stf_pool *pool, const stf_split *split, sunrealtype *norm);
 /* Equations and unknowns that carry the leading Laurent coefficient Phi_{k-1}. */
 int stf_split_offenders(stf_pool *pool, stf_split *split, int k, steif_structure *structure);
 

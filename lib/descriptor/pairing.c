@@ -24,7 +24,8 @@ typedef struct pairing {
   stf_sources sources;
   steif_structure stairs, schur;
   steif_impulse one, two;
-  int torn;             /* the smaller index of two in different units; -1: the same */
+  int torn; /* the smaller index of two in different units; -1: the same */
+  sunrealtype resolution;
   sunindextype carried; /* finite eigenvalues in entries that are rounding */
   SUNMatrix given[2];
 } pairing;
@@ -106,8 +107,13 @@ static int schur(pairing *p)
 
 static int second(pairing *p)
 {
+  sunindextype degree;
   STEIF_TRY(schur(p));
-  return stf_scales_carried(p->ctx, p->n, p->E, p->F, &p->carried);
+  STEIF_TRY(stf_scales_carried(p->ctx, p->n, p->E, p->F, &p->carried));
+  STEIF_TRY(stf_scales_degree(p->ctx, p->n, p->E, p->F, &degree));
+  p->resolution = fmin(p->stairs.resolution, p->schur.resolution);
+  if (p->stairs.finite == degree) p->resolution = INFINITY;
+  return STEIF_OK;
 }
 
 static sunrealtype distance(pairing *p, const sunrealtype *a, const sunrealtype *b)
@@ -169,6 +175,12 @@ static const char *verdict(pairing *p, char *room, size_t length)
   if (a->index != b->index)
     snprintf(room, length, "the staircase finds index %d, the generalised Schur form %d",
              a->index, b->index);
+  else if (!(p->resolution >= b->radius))
+    snprintf(
+      room, length,
+      "rounding of the entries hides finite eigenvalues beyond |s| = %.1e, and there are "
+      "some up to %.1e",
+      p->resolution, b->radius);
   else if (!agree(p))
     snprintf(room, length,
              "staircase and generalised Schur form give x(0+) apart by %.1e or other impulses",
@@ -176,55 +188,6 @@ static const char *verdict(pairing *p, char *room, size_t length)
   else
     return NULL;
   return room;
-}
-
-/* "2 infinite in a chain of 2": the chains are the conjugate partition of the Weyr numbers. */
-static int chains(const steif_structure *s, char *text, size_t length)
-{
-  const long long count = (long long)s->weyr[0], all = (long long)s->infinite;
-  if (s->index == 1) return snprintf(text, length, "%lld infinite", all);
-  if (count == 1)
-    return snprintf(text, length, "%lld infinite in a chain of %d", all, s->index);
-  int used = snprintf(text, length, "%lld infinite in %lld chains, the longest of", all, count);
-  if (count <= 6) used = snprintf(text, length, "%lld infinite in chains of", all);
-  for (long long c = 0; c < (count <= 6 ? count : 1); c++) {
-    int chain = 0;
-    while (chain < s->weyr_count && s->weyr[chain] > c) chain++;
-    used += snprintf(text + used, length - (size_t)used, "%s %d", c ? "," : "", chain);
-  }
-  return used;
-}
-
-static void describe(const steif_structure *s, const char *reason, const char *by,
-                     char *message, size_t length)
-{
-  char fast[160] = "none infinite", largest[40] = "";
-  if (s->infinite > 0) chains(s, fast, sizeof fast);
-  if (s->finite > 0) snprintf(largest, sizeof largest, " (largest %.3g)", s->radius);
-  snprintf(message, length, "regular, index %d: %lld finite eigenvalue%s%s, %s; gap %.0e; %s%s",
-           s->index, (long long)s->finite, s->finite == 1 ? "" : "s", largest, fast, s->gap,
-           reason ? "not certified: " : "certified by the ", reason ? reason : by);
-}
-
-static void announce(steif_structure *s, const char *reason, const char *by)
-{
-  char *text = s->message;
-  const size_t length = sizeof s->message;
-  if (!s->regular)
-    snprintf(text, length,
-             "singular%s: det(s E + F) = 0 for all s %s (reciprocal condition %.1e at best), "
-             "%lld equation%s and %lld unknown%s to blame",
-             s->certified ? "" : " to rounding",
-             s->certified ? "exactly" : "after relative changes of entries by rounding",
-             s->rcond, (long long)s->equations_count, s->equations_count == 1 ? "" : "s",
-             (long long)s->unknowns_count, s->unknowns_count == 1 ? "" : "s");
-  else if (s->index < 0)
-    snprintf(text, length,
-             "regular, index undecided, at least %d: gap %.0e; not certified: %s; scale the "
-             "equations or give them more exactly",
-             s->index_least, s->gap, reason);
-  else
-    describe(s, reason, by, text, length);
 }
 
 /* What two algorithms, or two units, see differently is not decided. */
@@ -245,13 +208,14 @@ static int judge(pairing *p)
   const char *reason = verdict(p, room, sizeof room);
   s->certified = !reason;
   s->radius = p->schur.radius;
+  s->resolution = p->resolution;
   if (p->analysis->algorithm == STEIF_QZ) {
     s->method = "qz";
     if (p->schur.index >= 0) s->gap = p->schur.gap;
   }
   doubt(s, p->schur.index, p->torn);
-  announce(s, reason,
-           p->analysis->algorithm == STEIF_QZ ? "staircase" : "generalised Schur form");
+  stf_announce(s, reason,
+               p->analysis->algorithm == STEIF_QZ ? "staircase" : "generalised Schur form");
   return STEIF_OK;
 }
 
@@ -263,7 +227,7 @@ static int structure_of(pairing *p, bool both)
   bool exactly;
   STEIF_TRY(stf_field_singular(p->ctx, p->given[0], p->given[1], &exactly));
   p->stairs.certified = exactly;
-  announce(&p->stairs, NULL, NULL);
+  stf_announce(&p->stairs, NULL, NULL);
   return STEIF_OK;
 }
 
@@ -310,11 +274,16 @@ static int impulse_of(pairing *p, steif_impulse *impulse)
   impulse->estimate = both ? apart(p) : INFINITY;
   impulse->method = qz ? "qz" : "staircase";
   impulse->certified = !reason;
+  impulse->resolution = p->resolution;
+  char from_on[64] = "";
+  if (!reason && isfinite(p->resolution))
+    snprintf(from_on, sizeof from_on, " for time scales from %.1e on", 1 / p->resolution);
   snprintf(impulse->message, sizeof impulse->message,
-           "index %d, %d impulse coefficient%s by the %s; %s%s", impulse->index, impulse->count,
-           impulse->count == 1 ? "" : "s", qz ? "generalised Schur form" : "staircase",
+           "index %d, %d impulse coefficient%s by the %s; %s%s%s", impulse->index,
+           impulse->count, impulse->count == 1 ? "" : "s",
+           qz ? "generalised Schur form" : "staircase",
            reason ? "not certified: " : "certified by the other algorithm",
-           reason ? reason : "");
+           reason ? reason : "", from_on);
   *from = (steif_impulse){0};
   return STEIF_OK;
 }

@@ -15,4 +15,8 @@ int stf_dense_impulse(steif_context *ctx, SUNMatrix E, SUNMatrix F,
 int stf_dense_parts(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                     const steif_analysis *analysis, const stf_pieces *parts);
 
+/* s->message of a structure that is filled but for it. reason: why it is not certified, or NULL; by: the
+ * algorithm that certifies it. */
+void stf_announce(steif_structure *s, const char *reason, const char *by);
+
 #endif

@@ -20,7 +20,9 @@ typedef struct schur {
   stf_pool *pool;
   sunrealtype *re, *im, *beta, *size, *work, *next;
   int *select, *iwork, lwork, liwork, index;
-  sunrealtype gap, radius;
+  sunrealtype gap, radius,
+    edge;              /* radius and edge: the largest |alpha / beta| that is taken for finite,
+                                    the smallest for infinite */
   const char *refusal; /* why the form says nothing; NULL: it speaks */
 } schur;
 
@@ -78,9 +80,12 @@ static void choose(schur *s, int m)
     taken += pair ? 2 : 1;
   }
   if (taken > m) s->refusal = "the split falls between two conjugate eigenvalues";
-  s->radius = 0;
+  s->radius = 0, s->edge = INFINITY;
   for (int i = 0; i < n; i++)
-    if (!s->select[i]) s->radius = fmax(s->radius, s->size[i]);
+    if (s->select[i])
+      s->edge = fmin(s->edge, s->size[i]);
+    else
+      s->radius = fmax(s->radius, s->size[i]);
 }
 
 static void reorder(schur *s, int m)
@@ -160,6 +165,7 @@ static void tell(const schur *s, steif_structure *structure)
   structure->infinite = s->refusal ? -1 : p->m;
   structure->gap = s->gap;
   structure->radius = s->radius;
+  structure->resolution = s->edge;
   snprintf(structure->message, sizeof structure->message, "%s",
            s->refusal ? s->refusal : "split by the generalised Schur form");
 }

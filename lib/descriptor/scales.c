@@ -159,6 +159,12 @@ static int degree(steif_context *ctx, int n, const sunrealtype *e, sunrealtype l
   return code;
 }
 
+int stf_scales_degree(steif_context *ctx, int n, const sunrealtype *e, const sunrealtype *f,
+                      sunindextype *out)
+{
+  return degree(ctx, n, e, 0, f, 0, out);
+}
+
 int stf_scales_carried(steif_context *ctx, int n, const sunrealtype *e, const sunrealtype *f,
                        sunindextype *carried)
 {

@@ -13,6 +13,9 @@ int stf_scales_choose(steif_context *ctx, stf_pool *pool, const steif_analysis *
                       SUNMatrix E, SUNMatrix F, int n, sunrealtype *e, sunrealtype *f,
                       sunrealtype *row, sunrealtype *column, int *torn);
 
+/* How many finite eigenvalues the pattern allows. */
+int stf_scales_degree(steif_context *ctx, int n, const sunrealtype *e, const sunrealtype *f,
+                      sunindextype *degree);
 /* How many finite eigenvalues the pattern has only by entries that are rounding beside the largest
  * one of their matrix; e and f as above. */
 int stf_scales_carried(steif_context *ctx, int n, const sunrealtype *e, const sunrealtype *f,

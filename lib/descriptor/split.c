@@ -164,6 +164,15 @@ static void fast_rows(const stf_split *split, sunrealtype *T)
   stf_split_infinite(split, n, T);
 }
 
+int stf_split_rows(stf_pool *pool, const stf_split *split, sunrealtype *norm)
+{
+  sunrealtype *T = stf_claim_square(pool, split->n);
+  if (!T) return STEIF_NO_MEMORY;
+  fast_rows(split, T);
+  *norm = stf_frobenius(split->m, split->n, T, split->m);
+  return STEIF_OK;
+}
+
 /* [I -R] Q^T, with which w is had from x, or zeros above A_f Q_f^T. */
 static void rows_of(const stf_split *split, const sunrealtype *A, bool algebraic,
                     sunrealtype *B)

@@ -26,6 +26,7 @@ typedef struct stairs {
   int lwork, rank, levels, least; /* least: deflations before the first doubtful decision */
   sunindextype *weyr;
   sunrealtype norm_E, norm_F, tolerance, first, rcond, gap;
+  sunrealtype dropped; /* largest singular value taken for 0 */
   bool singular, doubtful;
 } stairs;
 
@@ -108,6 +109,7 @@ static int kernel(stairs *s, int *k)
     s->first = s->tolerance = 4 * s->split.n * STF_EPS * s->norm_E;
   }
   const int rank = choose(s, r);
+  if (rank < r) s->dropped = fmax(s->dropped, s->svd.sigma[rank]);
   if (s->levels == 0) s->rank = rank;
   *k = r - rank;
   return STEIF_OK;
@@ -250,6 +252,19 @@ static int tell(const stairs *s, steif_structure *structure)
   return STEIF_OK;
 }
 
+/* What was taken for 0 in E, or rounding of it, may hide an entry as large as that times the norm of
+ * F_inf^{-1} [I L] P^T in N = F_inf^{-1} E_inf: 1/s of a finite eigenvalue s. */
+static int resolve(stairs *s, steif_structure *structure)
+{
+  sunrealtype rows;
+  structure->resolution = INFINITY;
+  if (!s->levels) return STEIF_OK;
+  STEIF_TRY(stf_split_rows(s->pool, &s->split, &rows));
+  const sunrealtype hidden = fmax(s->dropped, s->split.n * STF_EPS * s->norm_E);
+  if (hidden > 0) structure->resolution = 1 / (rows * hidden);
+  return STEIF_OK;
+}
+
 static int run(stairs *s, const sunrealtype *E, const sunrealtype *F,
                const steif_analysis *analysis, const stf_sources *sources,
                steif_structure *structure, steif_impulse *impulse, const stf_pieces *parts)
@@ -262,6 +277,7 @@ static int run(stairs *s, const sunrealtype *E, const sunrealtype *F,
   STEIF_TRY(tell(s, structure));
   if (s->singular)
     return stf_null_offenders(p->ctx, &s->svd, p->n, E, F, seed, s->tau, structure);
+  STEIF_TRY(resolve(s, structure));
   if (s->levels > 1) STEIF_TRY(stf_split_offenders(s->pool, p, s->levels, structure));
   if (parts) STEIF_TRY(stf_split_give(s->pool, p, parts));
   return sources ? stf_split_impulse(p, s->levels, sources, impulse) : STEIF_OK;

@@ -295,6 +295,7 @@ static int solve(question *q, const steif_structure *structure, steif_impulse *i
                     : by == STEIF_ARRAY ? stf_array_impulse
                                         : stf_contour_impulse)(
     q->ctx, u.E, u.F, &q->analysis, x0, &sources, &q->found, impulse);
+  impulse->resolution = q->found.resolution;
   if (!code) stf_units_leave(&u, impulse);
   return code;
 }

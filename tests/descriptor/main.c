@@ -7,11 +7,13 @@ extern CU_TestInfo tests_of_exact[], tests_of_pair[], tests_of_moments[], tests_
   tests_of_layer[], tests_of_weak[], tests_of_matching[], tests_of_contour[],
   tests_of_regular[], tests_of_structure[], tests_of_families[], tests_of_impulse_dense[],
   tests_of_run[], tests_of_subject[], tests_of_ida[], tests_of_array[], tests_of_units[],
-  tests_of_circle[], tests_of_ends[], tests_of_impact[], tests_of_demand[];
+  tests_of_circle[], tests_of_ends[], tests_of_impact[], tests_of_demand[],
+  tests_of_hidden[];
 
 SUITE_MAIN(
   {.pName = "impact", .pTests = tests_of_impact},
   {.pName = "demand", .pTests = tests_of_demand},
+  {.pName = "hidden", .pTests = tests_of_hidden},
   {.pName = "exact", .pTests = tests_of_exact}, {.pName = "pair", .pTests = tests_of_pair},
   {.pName = "moments", .pTests = tests_of_moments},
   {.pName = "euler", .pTests = tests_of_euler}, {.pName = "bdf", .pTests = tests_of_bdf},
