@@ -222,6 +222,13 @@ void stf_batch_factor(stf_batch *b, double growth, const stf_polynomial *g)
   }
 }
 
+void stf_batch_solve(stf_batch *b, const stf_polynomial *g)
+{
+  const stf_sweeps *with = stf_sweeps_here();
+  with->load(b, g, b->x);
+  with->solve(b, b->x);
+}
+
 /* Lanes decide each for itself, so that they do not depend on their neighbours. */
 static bool unsteady(stf_batch *b, bool anyway, double steady, bool *again)
 {

@@ -70,6 +70,8 @@ void stf_batch_close(stf_batch *batch);
  * where a column of U exceeds that of s E - A more than 1 / growth times, by largest entries;
  * growth 0: where a pivot is 0 or not finite. */
 void stf_batch_factor(stf_batch *batch, double growth, const stf_polynomial *g);
+/* x from another g with these factors. */
+void stf_batch_solve(stf_batch *batch, const stf_polynomial *g);
 /* Up to `sweeps` steps of refinement of x while the backward error is above `steady`, one
  * anyway; sweeps 0: the error alone. */
 void stf_batch_refine(stf_batch *batch, const stf_polynomial *g, int sweeps, double steady);

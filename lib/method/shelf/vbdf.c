@@ -3,7 +3,9 @@
  *
  *   y'(t_{n+1}) = (1/h) sum_j alpha_j y_{n+1-j},
  *   error_k = h/(t_{n+1} - t_{n-k}) (y_{n+1} - pred_k),
- * pred_k the extrapolation through k + 1 past points. Factors are kept while alpha_0/h stays
+ * pred_k the extrapolation through k + 1 past points. A first step from a start without y' is two of
+ * half its length, whose error is their second difference: the way from y_0 to y_1, all that one step
+ * has to show, is O(h), and would be kept below the tolerance. Factors are kept while alpha_0/h stays
  * within a ratio of 1.67; steps grow only by factors above 1.5, and every k + 1 steps the
  * neighbouring orders are compared (biases 6, 6, 10 as in VODE: Brown, Byrne, Hindmarsh, SISC
  * 10, 1989). Newton stops at a hundredth of what the error may be: what it leaves in the past values is
@@ -49,23 +51,19 @@ static void predict(stf_step *s, sunrealtype h)
   sunrealtype weight[POINTS];
   extrapolate(e, count, s->t + h, weight);
   stf_combine(space, count, weight, e->y, e->base);
-  if (e->points == 1 && s->yp_known && !s->restart) stf_axpy(space, h, s->yp, e->base);
+  if (e->points == 1 && s->yp_known) stf_axpy(space, h, s->yp, e->base);
 }
 
-static int solve(stf_step *s, sunrealtype h)
+/* From t on with e->alpha and their sum over past values in e->offset. */
+static int finish(stf_step *s, sunrealtype t, sunrealtype h)
 {
   static const sunrealtype c[] = {1};
   state *e = s->state;
   const stf_space *space = &s->system.space;
-  sunrealtype a[HIGHEST + 1], node[HIGHEST + 1] = {0};
-  for (int j = 1; j <= e->k; j++) node[j] = (e->t[j - 1] - (s->t + h)) / h;
-  stf_differentiate(e->k, node, e->alpha);
   stf_newton_single(&s->newton, e->alpha[0]);
-  for (int j = 1; j <= e->k; j++) a[j - 1] = e->alpha[j] / h;
-  stf_combine(space, e->k, a, e->y, e->offset);
   if (!s->absolute) stf_axpy(space, e->alpha[0] / h, e->base, e->offset);
   stf_zero(space, e->Z);
-  const stf_stages g = {.t = s->t,
+  const stf_stages g = {.t = t,
                         .h = h,
                         .c = c,
                         .base = s->absolute ? NULL : &e->base,
@@ -73,6 +71,36 @@ static int solve(stf_step *s, sunrealtype h)
                         .Z = s->absolute ? &s->next : &e->Z};
   STEIF_TRY(stf_solve_stages(s, &g));
   if (!s->absolute) stf_sum(space, 1, e->base, 1, e->Z, s->next);
+  return STEIF_OK;
+}
+
+static int solve(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  sunrealtype a[HIGHEST + 1], node[HIGHEST + 1] = {0};
+  for (int j = 1; j <= e->k; j++) node[j] = (e->t[j - 1] - (s->t + h)) / h;
+  stf_differentiate(e->k, node, e->alpha);
+  for (int j = 1; j <= e->k; j++) a[j - 1] = e->alpha[j] / h;
+  stf_combine(&s->system.space, e->k, a, e->y, e->offset);
+  return finish(s, s->t, h);
+}
+
+/* Two steps of order 1 and length h / 2 with their error; e->other: the point between them. */
+static int halves(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const sunrealtype d = h / 2, c[] = {1, -2, 1};
+  e->alpha[0] = 1, e->alpha[1] = -1;
+  stf_copy(space, s->y, e->base);
+  stf_scale(space, -1 / d, s->y, e->offset);
+  STEIF_TRY(finish(s, s->t, d));
+  stf_copy(space, s->next, e->other);
+  stf_sum(space, 2, e->other, -1, s->y, e->base);
+  stf_scale(space, -1 / d, e->other, e->offset);
+  STEIF_TRY(finish(s, s->t + d, d));
+  N_Vector v[] = {s->next, e->other, s->y};
+  stf_combine(space, 3, c, v, s->error);
   return STEIF_OK;
 }
 
@@ -99,6 +127,7 @@ static int attempt(stf_step *s, sunrealtype h)
   if (s->count - e->since >= AGE) s->newton.wanted = true;
   s->error_order = e->k, s->error_tolerance = e->allowed[e->k];
   stf_share_newton(s, rounding);
+  if (e->points == 1 && !s->yp_known) return halves(s, h);
   predict(s, h);
   STEIF_TRY(solve(s, h));
   if (s->system.nje != e->heard) STEIF_TRY(listen(s));
