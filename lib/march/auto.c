@@ -3,21 +3,24 @@
  *   given steps                                   radau:s=3
  *   E x' = A x + g of index above 1, or not known descriptor: from any start, to tolerance
  *   few unknowns and digits, with a given Jacobian
- *     n <= 5                                      rodas5p down to rtol 1e-2
- *     y' = f(y), n <= 24                          rodas4 down to rtol 1e-3
- *     others, n <= 8                              rodas4p2 down to rtol 1e-2
- *   small dense systems (vector lanes)            radau:s=5 down to rtol 1e-3, else s=7,
- *                                                 but s=5 for M y' = f below 5e-11: the split of s=7 has
+ *     n <= 5                                      Rosenbrock down to rtol 1e-2
+ *     y' = f(y) or M y' = f(y), n <= 24           Rosenbrock down to rtol 1e-4
+ *     others, n <= 8                              Rosenbrock at rtol 1e-1
+ *   small dense systems (vector lanes)            radau:s=7, but s=5 at rtol 1e-1, and at 1e-2 for n > 8;
+ *                                                 and s=5 for M y' = f below 5e-11: the split of s=7 has
  *                                                 fourteen times its condition
- *   dense systems up to n = 300                   radau:s=5: oscillations defeat BDF there
+ *   dense systems up to n = 300                   radau:s=5 down to rtol 1e-6, else s=7: oscillations
+ *                                                 defeat BDF there
  *   index 3 up to n = 300                         radau:s=5: multipliers have order s - 2
+ *   others of index above 1                       radau:s=3, but s=5 below 1e-4 up to n = 300
  *   band and sparse systems
- *     index above 1                               radau:s=3
  *     whose LU costs a few solves                 rodas5p down to rtol 1e-6, with a given Jacobian
  *     others                                      radau:s=3 down to rtol 1e-5, radau:s=5 below
  *   large dense systems, operators                bdf down to rtol 1e-8, radau:s=5 below
  * Beside it y' = f(t, y) has an explicit method, which begins where that is cheaper, and the two change
  * places when stiffness comes or goes (rival.c).
+ * The Rosenbrock method is rodas5p; at rtol 1e-1, where order 4 does, rodas4, or rodas4p2 where f depends
+ * on t.
  * Rosenbrock methods factor in every step and iterate nowhere. Collocation on sparse systems takes one
  * real matrix for many steps, as BDF does, at orders that BDF does not have.
  *
@@ -61,15 +64,15 @@ static bool above_rounding(const steif_problem *p, const steif_options *o)
 }
 
 /* The Rosenbrock method for few digits of few unknowns, NULL for none: more digits, and forces that
- * oscillate, need many steps. Order 5 pays while a stage costs nothing; Rodas4 loses its order where stiff
- * components are forced, Rodas4P2 keeps 3 (G. Steinebach, in Progress in Differential-Algebraic
- * Equations II, 2020). */
+ * oscillate, need many steps. Order 5 pays below rtol 1e-1; Rodas4 loses its order where stiff components
+ * are forced, Rodas4P2 keeps 3 (G. Steinebach, in Progress in Differential-Algebraic Equations II, 2020). */
 static const char *linearly(const steif_problem *p, const steif_options *o)
 {
-  const bool more = p->autonomous && p->n > TINY;
+  const bool few = p->n <= TINY;
+  const sunrealtype most = few ? 1e-2 : p->autonomous ? 1e-4 : 1e-1, coarse = 1e-1;
   if (p->dae_index > 1 || !p->jac || !p->y0 || o->ewt || !above_rounding(p, o)) return NULL;
-  if (p->n > (p->autonomous ? SOME : FEW) || o->rtol < (more ? 0.9e-3 : 0.9e-2)) return NULL;
-  return p->n <= TINY ? "rodas5p" : p->autonomous ? "rodas4" : "rodas4p2";
+  if (p->n > (p->autonomous ? SOME : FEW) || o->rtol < 0.9 * most) return NULL;
+  return o->rtol < 0.9 * coarse ? "rodas5p" : p->autonomous ? "rodas4" : "rodas4p2";
 }
 
 /* Does an LU cost no more than a few solves? */
@@ -115,7 +118,7 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
     method = "radau:s=3", reason = "steps are given: order 5, stiffly accurate";
   else if (small(p, o, form) && (method = linearly(p, o)))
     reason = "few unknowns, few digits: no iteration";
-  else if (small(p, o, form) && o->rtol >= 0.9e-3)
+  else if (small(p, o, form) && o->rtol >= (p->n > FEW ? 0.9e-2 : 0.9e-1))
     method = "radau:s=5", reason = "small and dense: all shifts in vector registers";
   else if (small(p, o, form) && form == STEIF_MASS && o->rtol < 5e-11)
     method = "radau:s=5",
@@ -123,11 +126,13 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
   else if (small(p, o, form))
     method = "radau:s=7", reason = "small and dense, many digits wanted";
   else if (!high && storage_of(p, o) == STEIF_DENSE && p->n <= MEDIUM)
-    method = "radau:s=5", reason = "dense, of medium size: few steps, oscillations do no harm";
+    method = o->rtol >= 0.9e-6 ? "radau:s=5" : "radau:s=7",
+    reason = "dense, of medium size: few steps, oscillations do no harm";
   else if (high && p->n <= MEDIUM && p->dae_index >= 3)
     method = "radau:s=5", reason = "index 3: order 3 of multipliers, constraints kept";
   else if (high)
-    method = "radau:s=3", reason = "index above 1: collocation keeps the constraints";
+    method = p->n > MEDIUM || o->rtol >= 0.9e-4 ? "radau:s=3" : "radau:s=5",
+    reason = "index above 1: collocation keeps the constraints";
   else if (storage_of(p, o) == STEIF_SPARSE || storage_of(p, o) == STEIF_BAND)
     method = on_grids(p, o, form, &reason);
   else if (o->rtol >= 0.9e-8)

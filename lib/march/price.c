@@ -2,19 +2,20 @@
  * matter. No clock is asked, so that a run is the same every time: a call of f is taken to cost what
  * its Jacobian has entries.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "lanes.h"
 #include "order.h"
 #include "rival.h"
 #include <sunmatrix/sunmatrix_sparse.h>
 
-/* Vector lanes work on four shifts at once, LAPACK on one; entries of sparse factors are read from
+/* Small systems have kernels of their own, others LAPACK; entries of sparse factors are read from
  * memory. */
 static void dense(const stf_step *s, stf_price *p)
 {
   const double n = (double)s->problem->n;
-  const bool lanes = s->method == &steif_method_small;
+  const bool own = s->problem->n <= STF_LANES_LARGEST;
   p->entries = n * n;
-  p->factor = 30 + n * n * n / (lanes ? 15 : 8);
-  p->solve = 20 + n * n * (lanes ? 0.33 : 0.9);
+  p->factor = 30 + n * n * n / (own ? 15 : 8);
+  p->solve = 20 + n * n * (own ? 0.33 : 0.9);
 }
 
 static void band(const stf_step *s, stf_price *p)

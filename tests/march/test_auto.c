@@ -47,13 +47,13 @@ static void little_stiffness_takes_explicit_steps(void)
   CHECK(picks("plei", 1e-9, STEIF_DENSE, "dopri87"));
   CHECK(picks("bruss2d:n=12", 1e-6, STEIF_SPARSE, "dopri87"));
   CHECK(picks("heat2d:n=16", 1e-6, STEIF_SPARSE, "dopri87"));
-  CHECK(picks("beam", 1e-6, STEIF_DENSE, "radau:s=5"));
 }
 
 static void small_systems_take_lanes(void)
 {
-  CHECK(picks("vdpol", 1e-3, STEIF_DENSE, "radau:s=5"));
+  CHECK(picks("vdpol", 1e-3, STEIF_DENSE, "radau:s=7"));
   CHECK(picks("ringmod", 1e-2, STEIF_DENSE, "radau:s=5"));
+  CHECK(picks("ringmod", 1e-3, STEIF_DENSE, "radau:s=7"));
   CHECK(picks("hires", 1e-7, STEIF_DENSE, "radau:s=7"));
   CHECK(picks("caraxis", 1e-7, STEIF_DENSE, "radau:s=7"));
 }
@@ -62,16 +62,27 @@ static void small_systems_take_lanes(void)
 static void few_digits_take_rosenbrock(void)
 {
   CHECK(picks("vdpol", 1e-2, STEIF_DENSE, "rodas5p"));
-  CHECK(picks("hires", 1e-3, STEIF_DENSE, "rodas4"));
-  CHECK(picks("hires", 1e-4, STEIF_DENSE, "radau:s=7"));
-  CHECK(picks("transamp", 1e-2, STEIF_DENSE, "rodas4p2"));
-  CHECK(picks("e5", 1e-2, STEIF_DENSE, "radau:s=5"));
+  CHECK(picks("hires", 1e-1, STEIF_DENSE, "rodas4"));
+  CHECK(picks("hires", 1e-4, STEIF_DENSE, "rodas5p"));
+  CHECK(picks("hires", 1e-5, STEIF_DENSE, "radau:s=7"));
+  CHECK(picks("transamp", 1e-1, STEIF_DENSE, "rodas4p2"));
+  CHECK(picks("transamp", 1e-2, STEIF_DENSE, "radau:s=7"));
+  CHECK(picks("e5", 1e-1, STEIF_DENSE, "radau:s=5"));
+}
+
+static void medium_dense_systems_take_collocation(void)
+{
+  CHECK(picks("beam", 1e-6, STEIF_DENSE, "radau:s=5"));
+  CHECK(picks("beam", 1e-7, STEIF_DENSE, "radau:s=7"));
+  CHECK(picks("fekete", 1e-4, STEIF_DENSE, "radau:s=3"));
+  CHECK(picks("fekete", 1e-6, STEIF_DENSE, "radau:s=5"));
 }
 
 CU_TestInfo tests_of_auto[] = {
   {"chains take Rosenbrock", chains_take_rosenbrock},
   {"grids keep one matrix", grids_keep_one_matrix},
   {"little stiffness takes explicit steps", little_stiffness_takes_explicit_steps},
+  {"medium dense systems take collocation", medium_dense_systems_take_collocation},
   {"few digits take Rosenbrock", few_digits_take_rosenbrock},
   {"small systems take lanes", small_systems_take_lanes},
   CU_TEST_INFO_NULL,
