@@ -79,11 +79,13 @@ static int apply(stf_step *s, sunrealtype h, int node, unsigned used, N_Vector w
   for (int k = 1; k <= e->phis.p; k++) {
     if (!(used >> k & 1)) continue;
     b[k] = stf_max(&s->system.space, e->b[k]) == 0 ? NULL : e->b[k];
-    if (b[k] && !stf_finite(&s->system.space, b[k]))
+    if (b[k] && !stf_finite(&s->system.space, b[k])) {
+      e->known = false;
       return STEIF_RECOVER(s->ctx, STEIF_NOT_FINITE,
                            "f of problem '%s' is not finite in the step from t = %.12g with "
                            "h = %.6g",
                            s->problem->name, s->t, h);
+    }
   }
   const int code = stf_phis_apply(&e->phis, h, node, b, w);
   return code == STEIF_NOT_CERTIFIED && s->adaptive ? STEIF_RETRY : code;

@@ -64,8 +64,9 @@ static int start(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   STEIF_TRY(stf_system_rhs(&s->system, s->t, s->y, e->f0));
-  e->have_f0 = true;
-  return stf_slope_in_time(s, h, e->f0, e->ft, e->sum);
+  STEIF_TRY(stf_slope_in_time(s, h, e->f0, e->ft, e->sum));
+  e->have_f0 = stf_finite(&s->system.space, e->f0) && stf_finite(&s->system.space, e->ft);
+  return STEIF_OK;
 }
 
 /* Y_i, the argument of stage i. */

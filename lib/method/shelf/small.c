@@ -121,11 +121,18 @@ static int filter_again(stf_step *s, double t, N_Vector y, double h)
   return STEIF_OK;
 }
 
+static bool finite(int n, const double *x)
+{
+  double zero = 0;
+  for (int i = 0; i < n; i++) zero += 0 * x[i];
+  return zero == 0;
+}
+
 static int estimate(stf_step *s, double h)
 {
   state *e = s->state;
   if (!e->have_f0) STEIF_TRY(slope(s, s->t, s->y, e->f0));
-  e->have_f0 = true;
+  e->have_f0 = finite(e->n, e->f0);
   defect(e, e->f0, h, STF_ARRAY(s->error));
   stf_lanes_filter(&e->L, STF_ARRAY(s->error));
   if (!stf_filters_twice(s)) return STEIF_OK;
