@@ -42,8 +42,8 @@ typedef struct steif_solver steif_solver;
 struct steif_impulse; /* impulse.h */
 
 typedef struct steif_options {
-  sunrealtype rtol;         /* relative tolerance, default 1e-6 */
-  sunrealtype atol;         /* absolute tolerance; default rtol times the problem's scale */
+  sunrealtype rtol;         /* relative tolerance, 1e-14 .. 1; 0: 1e-6 */
+  sunrealtype atol;         /* absolute tolerance; 0: rtol times the problem's scale */
   const sunrealtype *atols; /* n absolute tolerances instead of atol, NULL: none */
   int (*ewt)(N_Vector y, N_Vector ewt, void *user); /* instead of both, at every chosen step: a
                                CVEwtFn that fills in 1 / (error allowed in y_i); rtol still says

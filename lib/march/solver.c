@@ -199,6 +199,18 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   return STEIF_OK;
 }
 
+/* Weights of the caller at the start: baselines do not look at their signs. */
+static int check_ewt(steif_solver *s, N_Vector y)
+{
+  if (!s->options.ewt) return STEIF_OK;
+  const int returned = s->options.ewt(y, s->dense, s->problem->user);
+  STEIF_CHECK(returned == 0 && N_VMin(s->dense) > 0, s->ctx, STEIF_CALLBACK,
+              "ewt of problem '%s' returned %d with the smallest weight %g at the start: it "
+              "returns 0 with 1 / (error allowed in y_i) > 0",
+              s->problem->name, returned, N_VMin(s->dense));
+  return STEIF_OK;
+}
+
 static int open(steif_solver *s, const char *method)
 {
   steif_spec spec;
@@ -216,6 +228,7 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
   s->engine = stf_engine_find(spec.name);
   STEIF_TRY(s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp));
+  if (s->engine) STEIF_TRY(check_ewt(s, y));
   if (automatic) STEIF_TRY(stf_rivals_open(s, method));
   STEIF_TRY(stf_feasible_open(s));
   STEIF_TRY(stf_drift_open(s));

@@ -132,6 +132,8 @@ static void index_vectors_must_fit(void)
                "which show index 3"},
               {"pendulum3:index=2", flat, "index[4] = 1 of problem"},
               {"pendulum3", high, NULL}, /* larger than needed may be right at other points */
+              {"pendulum3:index=1", high, "index[1] = 2 of problem"},
+              {"pendulum3:index=1", high, "show index 1 of all components"},
               {"pendulum3:index=1", flat, NULL}};
   steif_context *ctx = steif_context_new(NULL);
   for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

@@ -54,6 +54,8 @@ static void failures_are_told(void)
   stopped("radau:s=3", "ewt of problem 'smooth' returned -3 at t = 0.25");
   returned = 0, sign = -1;
   stopped("bdf", "weights are positive");
+  smooth_refused(&smooth, "cvode", &(steif_options){.ewt = weights}, STEIF_CALLBACK,
+                 "with the smallest weight -");
   sign = 1;
 }
 
