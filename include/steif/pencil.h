@@ -36,10 +36,13 @@ typedef struct steif_shift {
 } steif_shift;
 
 /* A pencil known by its products. `precondition` solves approximately (re E - A) z = r, with the
- * real shift it is given, and may be NULL. All return 0, > 0 or < 0 as in problem.h. */
+ * real shift it is given, and may be NULL. With `prepare` that shift is the last one prepared: when
+ * products have changed (steif_pencil_update) and for shifts that are not within a factor of 2 of it.
+ * All return 0, > 0 or < 0 as in problem.h. */
 typedef struct steif_operator {
   int (*E)(N_Vector x, N_Vector out, void *user); /* NULL: identity */
   int (*A)(N_Vector x, N_Vector out, void *user);
+  int (*prepare)(sunrealtype re, void *user);     /* NULL: nothing to prepare */
   int (*precondition)(sunrealtype re, N_Vector r, N_Vector z, sunrealtype tolerance, void *user);
   void *user;
   int dimension;          /* of the Krylov space; 0: 30 */
@@ -49,7 +52,8 @@ typedef struct steif_operator {
 
 /* Counters since the pencil was made. */
 typedef struct steif_pencil_stats {
-  long analyses, factors, refactors, fallbacks; /* fallbacks are among the factors */
+  long analyses, factors, refactors, fallbacks; /* fallbacks are among the factors; operators: a
+                             factor is a preconditioner prepared */
   long solves;            /* right-hand sides */
   long iterations;        /* Krylov */
   long fill;              /* entries of L + U of the last sparse factor */
@@ -59,6 +63,11 @@ typedef struct steif_pencil_stats {
  * is the identity. Their patterns may differ; the pencil works on the union. Call
  * steif_pencil_update after changing values. */
 STEIF_EXPORT steif_pencil *steif_pencil_new(steif_context *ctx, SUNMatrix E, SUNMatrix A);
+/* The same with incomplete factors, ILU(0), sparse and for real shifts only: solves are approximate, for
+ * preconditioners. STEIF_SINGULAR: a pivot is missing, as in DAEs whose algebraic equations do not hold
+ * their own unknowns. */
+STEIF_EXPORT steif_pencil *steif_pencil_new_incomplete(steif_context *ctx, SUNMatrix E,
+                                                       SUNMatrix A);
 STEIF_EXPORT steif_pencil *steif_pencil_new_operator(steif_context *ctx, const steif_operator *op,
                                                      N_Vector like);
 STEIF_EXPORT void steif_pencil_free(steif_pencil **p);

@@ -31,7 +31,11 @@ void stf_pattern_assemble(const steif_pencil *p, const stf_pattern *u, steif_shi
 /* No entry of s E - A can overflow. */
 bool stf_pattern_moderate(const stf_pattern *u, steif_shift s);
 
-/* sparse.c: the pattern of a sparse pencil and KLU's analysis of it; of a factored slot s E - A
+/* sparse.c. STEIF_NOT_FINITE with the first entry of a sparse M that is NaN or infinite. */
+int stf_sparse_finite(steif_pencil *p, const char *name, SUNMatrix M);
+/* out = E x or A x. */
+int stf_sparse_product(steif_pencil *p, char which, N_Vector x, N_Vector out);
+/* The pattern of a sparse pencil and KLU's analysis of it; of a factored slot s E - A
  * on it, and its factors. */
 const stf_pattern *stf_sparse_pattern(const steif_pencil *p);
 klu_l_symbolic *stf_sparse_symbolic(const steif_pencil *p);

@@ -80,6 +80,19 @@ steif_pencil *steif_pencil_new(steif_context *ctx, SUNMatrix E, SUNMatrix A)
               &(steif_pencil){.backend = backend_of(A), .n = (sunindextype)n, .E = E, .A = A});
 }
 
+steif_pencil *steif_pencil_new_incomplete(steif_context *ctx, SUNMatrix E, SUNMatrix A)
+{
+  if (!ctx || check_matrices(ctx, E, A)) return NULL;
+  if (SUNMatGetID(A) == SUNMATRIX_SPARSE)
+    return make(ctx, &(steif_pencil){.backend = &stf_backend_incomplete,
+                                     .n = (sunindextype)SM_COLUMNS_S(A),
+                                     .E = E,
+                                     .A = A});
+  STEIF_FAIL(ctx, STEIF_UNSUPPORTED,
+             "incomplete factors need sparse matrices: factor dense and band ones whole");
+  return NULL;
+}
+
 static int check_operator(steif_context *ctx, const steif_operator *op, N_Vector like)
 {
   STEIF_CHECK(op && op->A && like, ctx, STEIF_BAD_INPUT,

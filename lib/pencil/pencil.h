@@ -1,4 +1,4 @@
-/* pencil.h: the pencil room inside: one frame, four back ends of a few functions each.
+/* pencil.h: the pencil room inside: one frame, five back ends of a few functions each.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_PENCIL_H
 #define STF_PENCIL_H
@@ -38,7 +38,7 @@ typedef struct stf_backend {
 } stf_backend;
 
 extern const stf_backend stf_backend_dense, stf_backend_band, stf_backend_sparse,
-  stf_backend_krylov;
+  stf_backend_krylov, stf_backend_incomplete;
 
 struct steif_pencil {
   steif_context *ctx;
@@ -47,7 +47,9 @@ struct steif_pencil {
   sunindextype n;
   SUNMatrix E, A; /* E NULL: identity; both NULL for operators */
   steif_operator op;
-  N_Vector like; /* operators only */
+  N_Vector like;    /* operators only */
+  N_Vector weights; /* operators: of solutions, NULL: none; see stf_pencil_aim */
+  double aim;
   double *work;  /* STF_COLUMNS * n, for solve; NULL where not needed */
   steif_pencil_stats stats;
   bool stale; /* E and A have not been looked at since they changed */
@@ -63,6 +65,14 @@ struct steif_pencil {
 enum { STF_COLUMNS = 8 };
 
 static inline bool stf_is_complex(steif_shift s) { return s.im != 0; }
+
+/* Operators with a preconditioner P, or with E = I, then P = s: solves until P^{-1} r, r the residual, has
+ * the weighted root mean square `aim`, which is about what is wrong with the solution, and not until r
+ * is small beside b. Those that do not get there return STEIF_RETRY. Other pencils take no notice. */
+static inline void stf_pencil_aim(steif_pencil *p, N_Vector weights, double aim)
+{
+  p->weights = weights, p->aim = aim;
+}
 
 /* The host array of v, or NULL; without a call for a serial vector. */
 static inline sunrealtype *stf_array(N_Vector v)

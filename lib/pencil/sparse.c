@@ -124,7 +124,7 @@ static int analyse(steif_pencil *p)
   return STEIF_OK;
 }
 
-static int check(steif_pencil *p, const char *name, SUNMatrix M)
+int stf_sparse_finite(steif_pencil *p, const char *name, SUNMatrix M)
 {
   const sunindextype *ptr = SM_INDEXPTRS_S(M);
   const double *x = SM_DATA_S(M);
@@ -145,8 +145,8 @@ static int update(steif_pencil *p)
     if (code) forget(p);
     STEIF_TRY(code);
   }
-  if (p->E) STEIF_TRY(check(p, "E", p->E));
-  STEIF_TRY(check(p, "A", p->A));
+  if (p->E) STEIF_TRY(stf_sparse_finite(p, "E", p->E));
+  STEIF_TRY(stf_sparse_finite(p, "A", p->A));
   stf_pattern_fill(p, &s->pattern);
   return STEIF_OK;
 }
@@ -346,7 +346,7 @@ const stf_fronts *stf_sparse_fronts(const steif_pencil *p, int slot, const doubl
   return s->slot[slot]->dense ? &s->fronts : NULL;
 }
 
-static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
+int stf_sparse_product(steif_pencil *p, char which, N_Vector x, N_Vector out)
 {
   SUNMatrix M = which == 'E' ? p->E : p->A;
   const sunindextype *restrict ptr = SM_INDEXPTRS_S(M), *restrict row = SM_INDEXVALS_S(M);
@@ -370,6 +370,6 @@ const stf_backend stf_backend_sparse = {
   .prepare = prepare,
   .factor = factor,
   .solve = solve,
-  .product = product,
+  .product = stf_sparse_product,
   .close = finish,
 };

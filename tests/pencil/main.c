@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_batch[], tests_of_crew[], tests_of_frame[], tests_of_krylov[],
+extern CU_TestInfo tests_of_batch[], tests_of_crew[], tests_of_frame[], tests_of_krylov[], tests_of_incomplete[],
   tests_of_solve[], tests_of_sparse[], tests_of_fronts[];
 
 SUITE_MAIN({.pName = "solve", .pTests = tests_of_solve},
@@ -10,5 +10,6 @@ SUITE_MAIN({.pName = "solve", .pTests = tests_of_solve},
            {.pName = "sparse", .pTests = tests_of_sparse},
            {.pName = "fronts", .pTests = tests_of_fronts},
            {.pName = "krylov", .pTests = tests_of_krylov},
+           {.pName = "incomplete", .pTests = tests_of_incomplete},
            {.pName = "batch", .pTests = tests_of_batch},
            {.pName = "crew", .pTests = tests_of_crew})
