@@ -32,8 +32,9 @@ bool interrupted(void) { return stop_flag; }
 
 steif_options options_of(const struct call *call)
 {
-  static const char *const name[] = {"dense", "band", "sparse"};
-  static const enum steif_storage storage[] = {STEIF_DENSE, STEIF_BAND, STEIF_SPARSE};
+  static const char *const name[] = {"dense", "band", "sparse", "krylov"};
+  static const enum steif_storage storage[] = {STEIF_DENSE, STEIF_BAND, STEIF_SPARSE,
+                                               STEIF_KRYLOV};
   steif_options o = steif_defaults();
   o.rtol = real_of(call, "--rtol", o.rtol);
   o.atol = real_of(call, "--atol", o.atol);
@@ -47,7 +48,7 @@ steif_options options_of(const struct call *call)
   o.max_seconds = real_of(call, "--max-seconds", 0);
   o.stop = &stop_flag;
   o.start = word_of(call, "--start", NULL);
-  for (int i = 0; i < 3; i++)
+  for (int i = 0; i < 4; i++)
     if (!strcmp(word_of(call, "--storage", ""), name[i]))
       o.storage = storage[i], o.force_storage = 1;
   return o;
@@ -142,6 +143,8 @@ void report_stats(steif_report *r, const char *prefix, const outcome *o)
   char name[96];
   for (int i = 0; i < 6; i++)
     steif_report_whole(r, join(name, sizeof name, prefix, counts[i].key), counts[i].count);
+  if (o->stats.nli > 0)
+    steif_report_whole(r, join(name, sizeof name, prefix, "nli"), o->stats.nli);
   steif_report_real(r, join(name, sizeof name, prefix, "cpu_s"), o->stats.cpu_s);
 }
 

@@ -75,7 +75,8 @@ steif_options options_of(const struct call *call);
     {"--max-steps", COUNT, "N", "give up after N steps (default 1000000; --h: 1000000000)"},   \
     {"--max-seconds", POSITIVE, "S", "give up after S seconds by the clock"},                  \
   {                                                                                            \
-    "--storage", CHOICE, "dense|band|sparse", "storage of the matrices"                        \
+    "--storage", CHOICE, "dense|band|sparse|krylov",                                           \
+      "of the matrices; krylov: GMRES, no factors"                                             \
   }
 
 #endif

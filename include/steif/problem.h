@@ -45,6 +45,13 @@ typedef int (*steif_forcing)(sunrealtype t, int derivative, N_Vector g, void *us
 /* y = out of E x or A x, for the Krylov back end. */
 typedef int (*steif_product)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out,
                              void *user);
+/* A preconditioner for it: z = out of P^{-1} b with P near dF/dy + c dF/dy' = c E - A, at the (t, y, yp)
+ * and c of the last setup, which does what is dear and may be NULL. IDALsPrecSetupFn and
+ * IDALsPrecSolveFn fit; delta is 0. */
+typedef int (*steif_precsetup)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, sunrealtype c,
+                               void *user);
+typedef int (*steif_precsolve)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b,
+                               N_Vector z, sunrealtype c, sunrealtype delta, void *user);
 /* y(t) (or y and yp at the start; yp may be NULL). */
 typedef int (*steif_state)(sunrealtype t, N_Vector y, N_Vector yp, void *user);
 /* Several numbers that depend on (t, y): invariants, or event functions; a CVRootFn fits. */
@@ -61,7 +68,9 @@ enum steif_reaction {
 
 enum steif_form { STEIF_ODE = 1, STEIF_MASS = 2, STEIF_IMPLICIT = 4, STEIF_DESCRIPTOR = 8 };
 
-/* Storage of E and A. Sparse matrices are compressed by columns. */
+/* Storage of E and A. Sparse matrices are compressed by columns. Krylov: none; systems are solved by
+ * GMRES, to a twentieth of Newton's tolerance where y' = f or a preconditioner is given. Forced on a
+ * sparse problem without precsolve it keeps E and A, for products and for their ILU(0). */
 enum steif_storage { STEIF_DENSE, STEIF_BAND, STEIF_SPARSE, STEIF_KRYLOV };
 
 /* A sparsity pattern by columns: rows row[column[j]] .. row[column[j+1]-1], ascending. */
@@ -108,6 +117,8 @@ struct steif_problem {
   steif_matrix_fill E, A;    /* direct fills; E also marks the mass and descriptor forms */
   steif_product Ev, Av;      /* E x and A x without matrices (STEIF_KRYLOV); Av may be left to
                                 differences of f or F, Ev NULL means E = I */
+  steif_precsetup precsetup; /* Krylov: the preconditioner */
+  steif_precsolve precsolve;
   /* Semilinear problems y' = L y + N(t, y): the constant linear part, for exponential methods of
    * Runge-Kutta type; f stays the whole right-hand side. L fills a matrix like A, Lv is x -> L x
    * for Krylov storage. Both NULL: L = df/dy at the start. */

@@ -89,9 +89,10 @@ typedef struct steif_options {
                                          the call return STEIF_STOPPED after the step at hand */
 } steif_options;
 
-/* What a run has cost. cpu_s counts processor seconds inside solve calls (all threads). */
+/* What a run has cost. nli: iterations of GMRES, and then nlu is how often a preconditioner was made.
+ * cpu_s counts processor seconds inside solve calls (all threads). */
 typedef struct steif_stats {
-  long steps, rejected, nfe, nje, nlu, nsolve, newton, newton_fails;
+  long steps, rejected, nfe, nje, nlu, nsolve, newton, newton_fails, nli;
   sunrealtype h_last, cpu_s;
 } steif_stats;
 

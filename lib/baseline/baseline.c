@@ -102,6 +102,7 @@ int stf_baseline_open(stf_baseline *base, stf_run *run, const char *package,
     "%s takes the matrices as the problem stores them, dense, or Krylov; other forced "
     "storage is refused",
     package);
+  base->preconditioned = base->storage == STEIF_KRYLOV && run->problem->precsolve;
   if (!(base->work = stf_claim_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
   STEIF_CHECK(base->storage == STEIF_KRYLOV || N_VGetArrayPointer(base->work), run->ctx,
               STEIF_UNSUPPORTED,
@@ -128,11 +129,12 @@ SUNLinearSolver stf_baseline_solver(stf_baseline *base, SUNMatrix M)
   stf_run *run = base->run;
   SUNContext sun = steif_sundials(run->ctx);
   SUNLinearSolver solver = NULL;
+  const int side = base->preconditioned ? SUN_PREC_LEFT : SUN_PREC_NONE;
   switch (base->storage) {
   case STEIF_DENSE: solver = SUNLinSol_Dense(run->y, M, sun); break;
   case STEIF_BAND: solver = SUNLinSol_Band(run->y, M, sun); break;
   case STEIF_SPARSE: solver = SUNLinSol_KLU(run->y, M, sun); break;
-  case STEIF_KRYLOV: solver = SUNLinSol_SPGMR(run->y, SUN_PREC_NONE, 0, sun); break;
+  case STEIF_KRYLOV: solver = SUNLinSol_SPGMR(run->y, side, 0, sun); break;
   }
   if (!solver) {
     STEIF_FAIL(
@@ -236,7 +238,7 @@ int stf_baseline_jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *
   const int verdict = p->jac ? p->jac(t, y, fy, M, p->user, tmp1, tmp2, tmp3)
                              : p->A(t, y, base->run->yp, M, p->user);
   const int seen = stf_baseline_watch_matrix(base, "the Jacobian", verdict, t, M);
-  if (!seen && base->A) stf_matrix_add(J, 1, M);
+  if (!seen && M != J) stf_matrix_add(J, 1, M);
   return seen;
 }
 

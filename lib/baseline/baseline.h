@@ -5,6 +5,7 @@
 
 #include "compat.h"
 #include "engine.h"
+#include <steif/pencil.h>
 #include <sundials/sundials_linearsolver.h>
 
 /* A return flag of a package: its name, what it means, what to do. Tables end with flag 0. */
@@ -29,6 +30,9 @@ typedef struct stf_baseline {
   enum steif_storage storage; /* of the Newton matrix */
   SUNMatrix J;                /* NULL for Krylov */
   SUNLinearSolver solver;
+  steif_pencil *near;   /* incomplete factors; NULL: none */
+  bool preconditioned;  /* by them or by the problem ... */
+  sunrealtype c;        /* ... for this c */
   SUNMatrix E, A;       /* as the callbacks fill them, in the storage of the problem */
   stf_merge merge;      /* of sparse E and A */
   N_Vector atol;        /* NULL: one number for all components */
@@ -99,6 +103,12 @@ int stf_baseline_jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *
                      N_Vector tmp1, N_Vector tmp2, N_Vector tmp3);
 int stf_baseline_jv(N_Vector v, N_Vector Jv, sunrealtype t, N_Vector y, N_Vector fy, void *base,
                     N_Vector tmp);
+/* precondition.c: Krylov: near and preconditioned; and the callbacks of CVODE and ARKODE for them. */
+int stf_baseline_near(stf_baseline *base);
+int stf_baseline_precsetup(sunrealtype t, N_Vector y, N_Vector fy, sunbooleantype jok,
+                           sunbooleantype *jcur, sunrealtype gamma, void *base);
+int stf_baseline_precsolve(sunrealtype t, N_Vector y, N_Vector fy, N_Vector r, N_Vector z,
+                           sunrealtype gamma, sunrealtype delta, int side, void *base);
 /* True if df/dy comes from a callback. */
 bool stf_baseline_has_jac(const stf_baseline *base);
 /* Every component is a finite number. */

@@ -64,6 +64,7 @@ void stf_baseline_count(stf_baseline *base, const steif_stats *now)
                        .nsolve = past->newton + now->newton,
                        .newton = past->newton + now->newton,
                        .newton_fails = past->newton_fails + now->newton_fails,
+                       .nli = past->nli + now->nli,
                        .h_last = now->h_last};
   base->restart = run->t >= before_break(base);
   if (base->restart) run->t = run->problem->breaks[base->next_break];

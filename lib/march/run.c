@@ -214,6 +214,7 @@ const steif_stats *steif_statistics(steif_solver *s)
                          .newton_fails = step->newton.fails,
                          .h_last = step->h};
     if (pencil) out->nlu = pencil->factors + pencil->refactors, out->nsolve = pencil->solves;
+    if (pencil) out->nli = pencil->iterations;
     out->nlu += step->factors, out->nsolve += step->solves;
   }
   out->cpu_s = s->cpu_s;

@@ -1,8 +1,13 @@
 /* newton.c: simplified Newton over a split.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "blend.h"
+#include "pencil.h"
 #include <math.h>
 #include <stdio.h>
+
+/* The part of Newton's tolerance that is left to a linear solve (P. N. Brown & A. C. Hindmarsh, Appl.
+ * Math. Comput. 31, 1989; CVODE, IDA). */
+static const sunrealtype LINEAR = 0.05;
 
 int stf_split_single(stf_pool *pool, sunrealtype b, stf_split *split)
 {
@@ -61,6 +66,14 @@ static int factor(stf_newton *newton, sunrealtype h)
   return STEIF_OK;
 }
 
+/* Products follow the shift for nothing; the preconditioner stays. */
+static int follow(stf_newton *newton, sunrealtype shift)
+{
+  if (!newton->system->krylov || newton->gamma > 0 || !(newton->window > 1)) return STEIF_OK;
+  newton->relax = 1;
+  return steif_pencil_factor(newton->system->pencil, 1, &(steif_shift){shift, 0});
+}
+
 int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vector y,
                        N_Vector yp, bool jacobian)
 {
@@ -70,8 +83,9 @@ int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vecto
   if (!same || newton->h != h)
     for (int i = 0; i < split->s * split->s; i++) newton->B_over_h[i] = split->B[i] / h;
   newton->h = h;
-  if (!jacobian && same) return newton->relax = 1, STEIF_OK;
-  if (!jacobian && newton->factored && serves(newton, shift)) return STEIF_OK;
+  stf_pencil_aim(newton->system->pencil, newton->weights, LINEAR * newton->tolerance);
+  if (!jacobian && same) return newton->relax = 1, follow(newton, shift);
+  if (!jacobian && newton->factored && serves(newton, shift)) return follow(newton, shift);
   if (!jacobian) jacobian = newton->join && !newton->fresh;
   if (jacobian && !(newton->system->linear && newton->factored)) {
     STEIF_TRY(stf_system_linearise(newton->system, t, y, yp));

@@ -23,8 +23,10 @@ typedef struct stf_system {
   stf_space space;
   int form;
   bool linear; /* constant E and A: linearised once */
-  enum steif_storage storage;
+  enum steif_storage storage; /* of E and A */
+  bool krylov;                /* the pencil is an operator */
   steif_pencil *pencil;
+  steif_pencil *near; /* operators: ILU(0) of E and A; NULL: there are no matrices */
   SUNMatrix E, A;     /* owned; E NULL: identity */
   sunrealtype scale;  /* floor of |y_j| in difference increments: atol / rtol */
   stf_groups *groups; /* columns that may be moved together */
@@ -67,6 +69,15 @@ const char *stf_unknown(const steif_problem *problem, sunindextype i, char *room
 
 /* The 0-based component that is not finite, or -1. Needs a host array (else -1). */
 sunindextype stf_not_finite(N_Vector v);
+
+/* operator.c: pencils known by products. Operators are applied at a point: remember it. */
+int stf_operator_remember(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
+/* Of the callbacks; or of the matrices filled in, with their ILU(0) as preconditioner. */
+int stf_operator_open(stf_pool *pool, stf_system *system);
+int stf_operator_open_near(stf_pool *pool, stf_system *system);
+/* Does Krylov storage keep the sparse matrices of this problem? */
+bool stf_operator_has_near(const stf_system *system);
+void stf_system_destroy_pencil(void *pencil);
 
 /* Differences: dF/dy or dF/dy' of `which` ('A': f or -F by y; 'E': F by y') into M. */
 int stf_groups_open(stf_pool *pool, stf_system *system);

@@ -160,19 +160,10 @@ static int fill_E(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
   return stf_differ(s, 'E', t, y, yp, s->E);
 }
 
-/* Operators are applied at a point: remember it. */
-static int remember(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
-{
-  s->at_t = t;
-  stf_copy(&s->space, y, s->at_y);
-  stf_copy(&s->space, yp, s->at_yp);
-  return s->problem->Av ? STEIF_OK : stf_system_residual(s, t, y, yp, s->at_f);
-}
-
 static int fill(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
 {
   const bool constant_E = s->form == STEIF_ODE || (s->form != STEIF_IMPLICIT && s->filled);
-  if (s->storage == STEIF_KRYLOV) return remember(s, t, y, yp);
+  if (s->storage == STEIF_KRYLOV) return stf_operator_remember(s, t, y, yp);
   if (s->form == STEIF_IMPLICIT && s->problem->idajac && !(s->problem->E && s->problem->A))
     return separate(s, t, y, yp);
   if (!constant_E) STEIF_TRY(fill_E(s, t, y, yp));
@@ -192,6 +183,7 @@ int stf_system_linearise(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
 {
   if (s->linear && s->filled) return STEIF_OK;
   STEIF_TRY(stf_system_matrices(s, t, y, yp));
+  if (s->near) STEIF_TRY(steif_pencil_update(s->near));
   if (!s->pencil) return STEIF_OK;
   STEIF_TRY(steif_pencil_update(s->pencil));
   return (s->nje & (s->nje - 1)) == 0 ? stf_probe(s, t, y, yp) : STEIF_OK;
@@ -201,7 +193,7 @@ int stf_system_linearise(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
 
 static void destroy_matrix(void *M) { SUNMatDestroy(M); }
 
-static void destroy_pencil(void *p)
+void stf_system_destroy_pencil(void *p)
 {
   steif_pencil *pencil = p;
   steif_pencil_free(&pencil);
@@ -232,55 +224,6 @@ static int matrix(stf_pool *pool, stf_system *s, sunindextype nnz, SUNMatrix *M)
   return stf_claim_owner(pool, *M, destroy_matrix);
 }
 
-static int product_E(N_Vector x, N_Vector out, void *user)
-{
-  stf_system *s = user;
-  return s->problem->Ev(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
-}
-
-/* A x = -F_y x by one difference along x, of any length where F is linear; the residual at the point is
- * at_f. */
-static int difference_A(stf_system *s, N_Vector x, N_Vector out)
-{
-  const sunrealtype size = sqrt(N_VDotProd(x, x));
-  if (!(size > 0)) {
-    stf_zero(&s->space, out);
-    return 0;
-  }
-  const sunrealtype length = s->linear ? 1 : sqrt(STF_EPS);
-  const sunrealtype step = length * (s->scale + sqrt(N_VDotProd(s->at_y, s->at_y))) / size;
-  stf_sum(&s->space, 1, s->at_y, step, x, s->work[4]);
-  const int code = stf_system_residual(s, s->at_t, s->work[4], s->at_yp, s->work[5]);
-  stf_sum(&s->space, 1 / step, s->at_f, -1 / step, s->work[5], out);
-  return code;
-}
-
-static int product_A(N_Vector x, N_Vector out, void *user)
-{
-  stf_system *s = user;
-  if (!s->problem->Av) return difference_A(s, x, out);
-  return s->problem->Av(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
-}
-
-static int open_operator(stf_pool *pool, stf_system *s)
-{
-  const bool has_E = s->form != STEIF_ODE;
-  STEIF_CHECK(!has_E || s->problem->Ev, s->ctx, STEIF_UNSUPPORTED,
-              "problem '%s' of form %s needs the product .Ev for Krylov storage",
-              s->problem->name, steif_form_name(s->form));
-  STEIF_CHECK(s->form != STEIF_DESCRIPTOR || s->problem->Av, s->ctx, STEIF_UNSUPPORTED,
-              "problem '%s' of form descriptor needs the product .Av for Krylov storage",
-              s->problem->name);
-  if (!(s->at_y = stf_claim_vector(pool, s->space.like)) ||
-      !(s->at_yp = stf_claim_vector(pool, s->space.like)) ||
-      !(s->at_f = stf_claim_vector(pool, s->space.like)))
-    return STEIF_NO_MEMORY;
-  const steif_operator op = {.E = has_E ? product_E : NULL, .A = product_A, .user = s};
-  s->pencil = steif_pencil_new_operator(s->ctx, &op, s->space.like);
-  if (!s->pencil) return steif_status(s->ctx);
-  return stf_claim_owner(pool, s->pencil, destroy_pencil);
-}
-
 static int open_matrices(stf_pool *pool, stf_system *s)
 {
   const steif_problem *p = s->problem;
@@ -302,7 +245,7 @@ static int open_pencil(stf_pool *pool, stf_system *s)
 {
   s->pencil = steif_pencil_new(s->ctx, s->E, s->A);
   if (!s->pencil) return steif_status(s->ctx);
-  return stf_claim_owner(pool, s->pencil, destroy_pencil);
+  return stf_claim_owner(pool, s->pencil, stf_system_destroy_pencil);
 }
 
 int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem, int form,
@@ -313,15 +256,18 @@ int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *pro
   s->linear = problem->linear || form == STEIF_DESCRIPTOR;
   s->scale = scale, s->weight = 1;
   stf_space_open(&s->space, y);
+  s->krylov = storage == STEIF_KRYLOV;
+  const bool near = stf_operator_has_near(s);
+  if (near) s->storage = STEIF_SPARSE;
   for (int i = 0; i < 6; i++)
     if (!(s->work[i] = stf_claim_vector(pool, y))) return STEIF_NO_MEMORY;
-  const bool matrices = storage != STEIF_KRYLOV;
+  const bool matrices = s->storage != STEIF_KRYLOV;
   STEIF_TRY(stf_storage_check(ctx, problem, storage));
-  STEIF_TRY(matrices ? open_matrices(pool, s) : open_operator(pool, s));
+  STEIF_TRY(matrices ? open_matrices(pool, s) : stf_operator_open(pool, s));
   const int code = stf_system_linearise(s, problem->t0, y, yp);
   if (code) return code > 0 ? STEIF_CALLBACK : code;
   if (!matrices) return STEIF_OK;
-  STEIF_TRY(open_pencil(pool, s));
+  STEIF_TRY(near ? stf_operator_open_near(pool, s) : open_pencil(pool, s));
   STEIF_TRY(stf_probe(s, problem->t0, y, yp));
   return stf_index_check(s);
 }

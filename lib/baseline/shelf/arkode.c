@@ -158,6 +158,8 @@ static int attach(arkode *s)
   if (b->J && stf_baseline_has_jac(b)) STF_CALL(flag, ARK(SetJacFn)(m, stf_baseline_jac));
   if (!b->J && b->run->problem->Av)
     STF_CALL(flag, ARK(SetJacTimes)(m, NULL, stf_baseline_jv));
+  if (b->preconditioned)
+    STF_CALL(flag, ARK(SetPreconditioner)(m, stf_baseline_precsetup, stf_baseline_precsolve));
   if (s->M) {
     STF_CALL(flag, ARK(SetMassLinearSolver)(m, s->mass_solver, s->M, 0));
     STF_CALL(flag, ARK(SetMassFn)(m, mass));
@@ -211,6 +213,7 @@ static int prepare(stf_run *run, arkode *s, const steif_spec *spec)
   STEIF_TRY(stf_spec_int(run->ctx, spec, "order", 2, 5, 4, &s->order));
   STEIF_TRY(stf_spec_real(run->ctx, spec, "newton", 1e-12, 1, 0, &s->newton));
   STEIF_TRY(stf_baseline_open(b, run, "ARKODE", flags));
+  STEIF_TRY(stf_baseline_near(b));
   STEIF_TRY(stf_baseline_linear(b, stf_baseline_has_jac(b)));
   if (b->J && b->storage != run->problem->storage && stf_baseline_has_jac(b))
     STEIF_TRY(stf_baseline_native(b));
@@ -246,6 +249,7 @@ static void collect(arkode *s)
   ARK(GetNumLinSolvSetups)(m, &n.nlu);
   ARK(GetNumNonlinSolvIters)(m, &n.newton);
   ARK(GetNumStepSolveFails)(m, &n.newton_fails);
+  ARK(GetNumLinIters)(m, &n.nli);
   ARK(GetLastStep)(m, &n.h_last);
   stf_baseline_count(&s->base, &n);
 }

@@ -65,6 +65,9 @@ static int attach(cvode *s)
   if (b->J && stf_baseline_has_jac(b))
     STF_CALL(flag, CVodeSetJacFn(s->memory, stf_baseline_jac));
   if (!b->J && p->Av) STF_CALL(flag, CVodeSetJacTimes(s->memory, NULL, stf_baseline_jv));
+  if (b->preconditioned)
+    STF_CALL(flag, CVodeSetPreconditioner(s->memory, stf_baseline_precsetup,
+                                          stf_baseline_precsolve));
   return flag;
 }
 
@@ -97,6 +100,7 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
   STEIF_TRY(stf_spec_int(run->ctx, spec, "order", 1, 5, 5, &order));
   STEIF_TRY(stf_baseline_open(b, run, "CVODE", flags));
   STEIF_TRY(stf_baseline_adaptive(b));
+  STEIF_TRY(stf_baseline_near(b));
   STEIF_TRY(stf_baseline_linear(b, stf_baseline_has_jac(b)));
   if (b->J && b->storage != run->problem->storage && stf_baseline_has_jac(b))
     STEIF_TRY(stf_baseline_native(b));
@@ -119,6 +123,7 @@ static void collect(cvode *s)
   CVodeGetNumLinSolvSetups(m, &n.nlu);
   CVodeGetNumNonlinSolvIters(m, &n.newton);
   CVodeGetNumStepSolveFails(m, &n.newton_fails);
+  CVodeGetNumLinIters(m, &n.nli);
   CVodeGetLastStep(m, &n.h_last);
   stf_baseline_count(&s->base, &n);
 }

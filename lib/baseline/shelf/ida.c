@@ -89,6 +89,20 @@ static int verdict(ida *s, int flag)
   return stf_baseline_verdict(&s->base, flag, h, order);
 }
 
+static int precsetup(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, sunrealtype c,
+                     void *user)
+{
+  const steif_problem *p = ((const stf_baseline *)user)->run->problem;
+  return p->precsetup ? p->precsetup(t, y, yp, r, c, p->user) : 0;
+}
+
+static int precsolve(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b, N_Vector z,
+                     sunrealtype c, sunrealtype delta, void *user)
+{
+  const steif_problem *p = ((const stf_baseline *)user)->run->problem;
+  return p->precsolve(t, y, yp, r, b, z, c, delta, p->user);
+}
+
 static int attach(ida *s)
 {
   stf_baseline *b = &s->base;
@@ -96,6 +110,8 @@ static int attach(ida *s)
   int flag = IDASetLinearSolver(s->memory, b->solver, b->J);
   if (b->J && stf_lower_has_jac(b)) STF_CALL(flag, IDASetJacFn(s->memory, stf_lower_jac));
   if (!b->J && p->Av) STF_CALL(flag, IDASetJacTimes(s->memory, NULL, stf_lower_jv));
+  if (b->preconditioned)
+    STF_CALL(flag, IDASetPreconditioner(s->memory, precsetup, precsolve));
   return flag;
 }
 
@@ -180,6 +196,7 @@ static void collect(ida *s)
   IDAGetNumLinSolvSetups(m, &n.nlu);
   IDAGetNumNonlinSolvIters(m, &n.newton);
   IDAGetNumStepSolveFails(m, &n.newton_fails);
+  IDAGetNumLinIters(m, &n.nli);
   IDAGetLastStep(m, &n.h_last);
   stf_baseline_count(&s->base, &n);
 }
