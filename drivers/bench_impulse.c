@@ -52,20 +52,41 @@ static int apart(struct call *call, const char *problem, steif_bench_impulse *ro
   return EXIT_FAILED;
 }
 
+/* One line for each family, where its first row stands. */
+static void grow(steif_report *r, const steif_bench_impulse *row, size_t count)
+{
+  for (size_t i = 0; i < count; i++) {
+    const steif_bench_growth g = steif_bench_exponents(row, count, i);
+    bool first = true;
+    for (size_t k = 0; k < i; k++)
+      first = first && strcmp(steif_bench_exponents(row, count, k).family, g.family);
+    if (!first || g.rows < 2) continue;
+    steif_report_row(r, "growth");
+    steif_report_text(r, "growth.family", g.family);
+    steif_report_whole(r, "growth.sizes", g.rows);
+    steif_report_real(r, "growth.cpu_exponent", g.cpu);
+    steif_report_real(r, "growth.floor_exponent", g.floor);
+  }
+}
+
 int bench_impulse(struct call *call)
 {
-  steif_bench_impulse row = {0};
+  enum { ROWS = 32 };
+  static steif_bench_impulse row[ROWS];
+  size_t rows = 0;
   steif_report *r = steif_report_new(call->ctx);
   const char *only = word_of(call, "--problems", NULL), *problem;
   int code = r ? EXIT_OK : fail(call);
-  for (size_t i = 0; !code && (problem = only && !i ? only
-                                         : only     ? NULL
-                                                    : steif_bench_system(i));
+  for (size_t i = 0; !code && i < ROWS &&
+                     (problem = only && !i ? only
+                                : only     ? NULL
+                                           : steif_bench_system(i));
        i++) {
     progress(call, "%s", problem);
-    code = apart(call, problem, &row);
-    if (!code) add(r, &row);
+    code = apart(call, problem, &row[i]);
+    if (!code) add(r, &row[i]), rows++;
   }
+  if (!code) grow(r, row, rows);
   if (!code) code = present(call, r);
   steif_report_free(&r);
   return code;

@@ -131,6 +131,16 @@ typedef struct steif_bench_impulse {
   int certified;
 } steif_bench_impulse;
 
+/* How times grow with n in the rows of the same family of problems as row `of`: exponents p of
+ * c n^p, by least squares over the logarithms; NaN below two sizes. */
+typedef struct steif_bench_growth {
+  char family[STEIF_SPEC_WORD]; /* "ladder" */
+  long rows;
+  sunrealtype cpu, floor;
+} steif_bench_growth;
+STEIF_EXPORT steif_bench_growth steif_bench_exponents(const steif_bench_impulse *row, size_t count,
+                                                      size_t of);
+
 /* Spec of row i of the usual plan, NULL past the end. */
 STEIF_EXPORT const char *steif_bench_system(size_t i);
 STEIF_EXPORT int steif_bench_circles(steif_context *ctx, const char *problem,

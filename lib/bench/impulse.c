@@ -35,6 +35,34 @@ static sunrealtype wall(void)
   return (sunrealtype)t.tv_sec + 1e-9 * (sunrealtype)t.tv_nsec;
 }
 
+/* ---- growth ----------------------------------------------------------------------------------- */
+
+/* Length of "ladder" in "ladder:n=295". */
+static size_t family(const char *problem) { return strcspn(problem, ":"); }
+
+static bool related(const steif_bench_impulse *a, const steif_bench_impulse *b)
+{
+  const size_t length = family(a->problem);
+  return length == family(b->problem) && !strncmp(a->problem, b->problem, length);
+}
+
+steif_bench_growth steif_bench_exponents(const steif_bench_impulse *row, size_t count, size_t of)
+{
+  steif_bench_growth g = {.rows = 0};
+  sunrealtype mean = 0, square = 0, cpu = 0, floor = 0;
+  snprintf(g.family, sizeof g.family, "%.*s", (int)family(row[of].problem), row[of].problem);
+  for (size_t i = 0; i < count; i++)
+    if (related(row + i, row + of)) g.rows++, mean += log((sunrealtype)row[i].n);
+  mean /= (sunrealtype)g.rows;
+  for (size_t i = 0; i < count; i++) {
+    if (!related(row + i, row + of)) continue;
+    const sunrealtype d = log((sunrealtype)row[i].n) - mean;
+    square += d * d, cpu += d * log(row[i].cpu_s), floor += d * log(row[i].floor_s);
+  }
+  g.cpu = square > 0 ? cpu / square : NAN, g.floor = square > 0 ? floor / square : NAN;
+  return g;
+}
+
 /* ---- the analysis -------------------------------------------------------------------------------- */
 
 typedef struct subject {

@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_phi[], tests_of_lyapunov[];
+extern CU_TestInfo tests_of_phi[], tests_of_lyapunov[], tests_of_growth[];
 
 SUITE_MAIN({.pName = "phi", .pTests = tests_of_phi},
+           {.pName = "growth", .pTests = tests_of_growth},
            {.pName = "lyapunov", .pTests = tests_of_lyapunov})
