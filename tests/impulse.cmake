@@ -291,8 +291,10 @@ expect(0 impulse E.mtx F.mtx --x0 x0.mtx --forcing rough.txt --names names.txt -
 member(c unknowns 2)
 near(2 x_plus 1)
 expect(0 pencil E.mtx F.mtx --names names.txt --json)
-member(three equations 0)
+member(two equations 0)
+member(three equations 1)
 member(a unknowns 0)
+member(b unknowns 1)
 forcing(plain.txt 1 2 3)
 expect(0 impulse E.mtx F.mtx --x0 x0.mtx --forcing plain.txt --output C.mtx --feedthrough D.mtx --json)
 near(17 y_plus 0) # x(0+) = (1, 2, 3): 1 + 2*2 + 3*4

@@ -103,7 +103,8 @@ static void take_lists(steif_structure *from, steif_structure *to)
   from->equations = old.equations, from->unknowns = old.unknowns;
 }
 
-/* What the pattern alone says: the structural degree, or that and where it is singular. */
+/* What the pattern alone says: the structural degree, or that and where it is singular. Where it decides
+ * the number of finite eigenvalues it also tells all that raise the index, in whatever units. */
 static int pattern(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_names *names,
                    steif_structure *structure)
 {
@@ -111,6 +112,8 @@ static int pattern(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_nam
   steif_structure found = {.degree = -1};
   int code = stf_matching(ctx, E, F, &rank, &found);
   structure->degree = found.degree;
+  if (!code && structure->index > 1 && structure->finite == found.degree)
+    take_lists(&found, structure);
   if (!code && rank < structure->n) {
     take_lists(&found, structure);
     structure->certified = 1;

@@ -39,6 +39,16 @@ static bool is_matrix(const json_t *value) { return json_is_array(json_array_get
 
 /* ---- fields ---- */
 
+/* Texts of several words need a comma between them. */
+static bool of_words(const json_t *list)
+{
+  for (size_t i = 0; i < json_array_size(list); i++) {
+    const char *text = json_string_value(json_array_get(list, i));
+    if (text && strchr(text, ' ')) return true;
+  }
+  return false;
+}
+
 /* A list of numbers over several lines; long ones are cut with their count. */
 static void list(FILE *stream, const char *key, const json_t *value, size_t indent)
 {
@@ -46,12 +56,13 @@ static void list(FILE *stream, const char *key, const json_t *value, size_t inde
   const size_t shown = count > LIST_SHOWN && stf_report_is_number(json_array_get(value, 0))
                          ? LIST_SHOWN / 2
                          : count;
+  const char *between = of_words(value) ? ", " : "  ";
   char text[CELL * 4], entry[CELL];
   size_t used = 0;
   *text = 0;
   for (size_t i = 0; i < shown && used < sizeof text; i++) {
     stf_report_cell(entry, sizeof entry, key, json_array_get(value, i));
-    used += (size_t)snprintf(text + used, sizeof text - used, i ? "  %s" : "%s", entry);
+    used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", i ? between : "", entry);
   }
   if (shown < count && used < sizeof text)
     snprintf(text + used, sizeof text - used, "  ... (%zu in all)", count);

@@ -180,6 +180,24 @@ static void one_unknown(void)
   steif_context_free(&ctx);
 }
 
+/* A source of current i feeds a coil, one of voltage a capacitor: two chains of 2, and whatever their
+ * units both equations are differentiated and both unknowns may carry impulses. Unknowns e, j, v, i;
+ * L j' - e = 0, j = f_2, C v' + i = f_3, v = f_4. */
+static void all_chains_are_named(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  for (int k = 0; k < 5; k++) {
+    const double L = pow(10, -3 * k), C = pow(10, -6 * k + 3);
+    const double E[16] = {[4] = L, [10] = C}, F[16] = {[0] = -1, [5] = 1, [11] = 1, [14] = 1};
+    steif_structure s = look(ctx, 4, E, F, STEIF_AUTOMATIC);
+    CHECK(s.index == 2 && s.finite == 0);
+    CHECK(lists(s.equations, s.equations_count, 2, (const sunindextype[]){1, 3}));
+    CHECK(lists(s.unknowns, s.unknowns_count, 2, (const sunindextype[]){0, 3}));
+    steif_structure_clear(ctx, &s);
+  }
+  steif_context_free(&ctx);
+}
+
 static void empty_rows_are_named(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -330,6 +348,7 @@ CU_TestInfo tests_of_structure[] = {
   {"index 0 and index 1 are told apart", lowest_indices},
   {"one unknown is enough", one_unknown},
   {"an empty row is named", empty_rows_are_named},
+  {"all chains are named, in whatever units", all_chains_are_named},
   {"close decisions stay undecided", close_decisions_stay_undecided},
   {"units of equations and unknowns do not matter", units_do_not_matter},
   {"sparse and dense matrices give one answer", sparse_and_dense_agree},
