@@ -100,6 +100,7 @@ typedef struct steif_impulse {
                                max |F| times the norm of c_{k-3} or x- - x+) */
   sunrealtype resolution;   /* of the structure: valid for time scales from 1 / resolution on */
   sunrealtype estimate;     /* of the relative error of x_plus: two radii, or two algorithms */
+  sunrealtype radius;       /* of the circle that x_plus and c are from; 0: of none */
   int certified;
   const char *method;
   steif_pencil_stats cost; /* of the sparse algorithms */
@@ -155,9 +156,9 @@ typedef struct steif_linear_output {
  * made on the system as it is. Chosen ones of dense and small systems of index k > 1 are made on one
  * of index 1 with the same smooth solutions, for which f is asked for derivatives up to k - 1 at all
  * times (up to k by methods with |R(inf)| > 0, such as Gauss's): tolerances are met for every index.
- * In large sparse systems an unknown of index k is judged by h^(k-1), as in RADAU5, which lets errors
- * of tol / h^(k-1) pass on the way; at the end of each segment it is found anew from what is not
- * algebraic, x(t) = Phi_{-1} E x(t) + sum_j Phi_j f^(j)(t), and has the accuracy of that. */
+ * In large sparse systems an unknown of index k is judged by h^(k-1), as in RADAU5, and the fast
+ * part is found anew at every step that is told, x(t) = Phi_{-1} E x(t) + sum_j Phi_j f^(j)(t): it has
+ * the accuracy of the slow part, which no error of the fast one enters. */
 STEIF_EXPORT int steif_linear_run(steif_context *ctx, const steif_linear *linear,
                                   const sunrealtype *x0, sunrealtype t0, const char *method,
                                   const steif_options *options, const steif_analysis *analysis,

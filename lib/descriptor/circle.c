@@ -70,16 +70,17 @@ static int check(steif_context *ctx, const steif_analysis *a)
   return STEIF_OK;
 }
 
-static int fill(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_analysis *a,
-                stf_circle *c)
+/* Batches of so many lanes that all nodes are in one. */
+static int most(const stf_circle *c) { return (c->points / 2 + STF_LANES - 1) / STF_LANES; }
+
+static int fill(steif_context *ctx, SUNMatrix E, SUNMatrix F, stf_circle *c)
 {
   stf_scaled *s = &c->scaled;
   STEIF_TRY(stf_scaled_open(ctx, E, F, s));
   s->pencil->thorough = true;
   const size_t n = (size_t)s->n, size = sizeof(sunrealtype);
   c->threads = s->n >= CROWD ? stf_threads(ctx) : 1;
-  const int most = (a->points / 2 + STF_LANES - 1) / STF_LANES;
-  c->batches = most < c->threads ? most : c->threads;
+  c->batches = most(c) < c->threads ? most(c) : c->threads;
   c->batch = stf_claim(s->pool, (size_t)c->batches, sizeof *c->batch);
   c->sum = stf_claim(s->pool, n * (size_t)c->room, size);
   c->square = stf_claim(s->pool, (size_t)c->room, size);
@@ -103,7 +104,7 @@ int stf_circle_open(steif_context *ctx, SUNMatrix E, SUNMatrix F,
   c->points = a.points, c->refinements = a.refinements;
   c->room = c->count = room > 2 ? room : 2;
   c->careful = !c->refinements;
-  const int code = fill(ctx, E, F, &a, c);
+  const int code = fill(ctx, E, F, c);
   if (code) stf_circle_close(ctx, circle);
   return code;
 }
@@ -327,6 +328,7 @@ static int around(stf_circle *c, const stf_polynomial *g, sunrealtype *error)
   for (int k = 0; k < now.count; k++) visit[k] = k;
   c->log_det = 0;
   go(&now, false);
+  c->kept = !now.count && c->batches * STF_LANES >= c->points / 2;
   while (now.count) {
     const int first = visit[0];
     const steif_shift s = node(c, first);
@@ -351,4 +353,35 @@ int stf_circle_run(stf_circle *c, sunrealtype R, const stf_polynomial *g)
   if (c->careful || error <= GOOD) return STEIF_OK;
   c->careful = true;
   return around(c, g, &error);
+}
+
+/* ---- the same circle again --------------------------------------------------------------- */
+
+int stf_circle_widen(stf_circle *c)
+{
+  c->batches = most(c);
+  c->batch = stf_claim(c->scaled.pool, (size_t)c->batches, sizeof *c->batch);
+  return c->batch ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+static void solve(void *task, int i)
+{
+  const pass *now = task;
+  stf_batch *b = &now->c->batch[i];
+  stf_batch_solve(b, now->g);
+  if (now->c->careful) stf_batch_refine(b, now->g, now->c->refinements, STF_STEADY);
+}
+
+int stf_circle_again(stf_circle *c, const stf_polynomial *g)
+{
+  int visit[MOST / 2];
+  pass now = {.c = c, .g = g, .count = c->points / 2, .visit = visit};
+  if (!c->kept) return stf_circle_run(c, c->radius, g);
+  for (int k = 0; k < now.count; k++) visit[k] = k;
+  stf_crew(c->threads, c->batches, solve, &now);
+  for (int k = 0; k < c->batches; k++) {
+    const int from = k * STF_LANES, left = now.count - from;
+    add(c, &c->batch[k], visit + from, left < STF_LANES ? left : STF_LANES, !k);
+  }
+  return STEIF_OK;
 }

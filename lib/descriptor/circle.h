@@ -47,6 +47,7 @@ bool stf_scaled_refine(stf_scaled *s, int k, bool anyway, sunrealtype *x, sunrea
 typedef struct stf_circle {
   stf_scaled scaled;
   int points, refinements, threads, batches, room, count;
+  bool kept;    /* the factors of all nodes are there */
   bool careful; /* pivots are watched and solves refined; else residuals alone are looked at */
   stf_sequence *sequence; /* pivots, of the first node or the last that needed its own */
   sunrealtype filled;     /* the size of the scales whose values it has */
@@ -72,6 +73,10 @@ bool stf_circle_adopt(stf_circle *circle, SUNMatrix E, SUNMatrix F,
 /* Factor around the circle of radius R; right-hand sides g in scaled coordinates, NULL:
  * determinant only. */
 int stf_circle_run(stf_circle *circle, sunrealtype R, const stf_polynomial *g);
+/* Before the first run: memory for the factors of all nodes at once. */
+int stf_circle_widen(stf_circle *circle);
+/* Other right-hand sides on the circle of the last run, by the factors where they are kept. */
+int stf_circle_again(stf_circle *circle, const stf_polynomial *g);
 
 /* The analysis with its defaults. */
 steif_analysis stf_analysis_filled(const steif_analysis *analysis);

@@ -21,6 +21,14 @@ static void charge(stf_passage *p, const steif_pencil_stats *more)
   p->cost.solves += more->solves;
 }
 
+static int keep_factors(stf_passage *p, sunrealtype radius)
+{
+  STEIF_TRY(stf_through_open(p->ctx, &p->linear, p->analysis, &p->structure,
+                             radius > 0 ? radius : p->structure.radius, &p->through));
+  charge(p, steif_pencil_statistics(p->through.circle->scaled.pencil));
+  return STEIF_OK;
+}
+
 /* x(t+) and the impulses of p->x = x(t-). */
 static int jump(stf_passage *p, sunrealtype t)
 {
@@ -31,6 +39,8 @@ static int jump(stf_passage *p, sunrealtype t)
   if (!code && p->jump && p->jump(t, p->x, &i, p->user))
     code = STEIF_FAIL(p->ctx, STEIF_CALLBACK, "the output stopped the run at t = %.12g", t);
   if (!code) memcpy(p->x, i.x_plus, (size_t)i.n * sizeof *p->x);
+  if (!code && p->settles && p->structure.circle && !p->through.ctx)
+    code = keep_factors(p, i.radius);
   charge(p, &i.cost);
   steif_impulse_clear(p->ctx, &i);
   return code;
@@ -38,11 +48,12 @@ static int jump(stf_passage *p, sunrealtype t)
 
 /* What the method missed the constraints by would be taken for a jump, and differentiated; and
  * what it makes of unknowns of index k, of which errors of size tol / h^(k-1) are let pass,
- * follows from the others and f. */
+ * follows from the slow part and f. */
 int stf_passage_settle(stf_passage *p, sunrealtype t, sunrealtype *x)
 {
   steif_impulse i = {0};
   const steif_linear *l = &p->cut;
+  if (p->through.ctx) return stf_through_state(&p->through, t, l->f, l->user, x);
   const int code =
     steif_impulse_find(p->ctx, l->E, l->F, x, t, l->f, l->user, p->analysis, &p->structure, &i);
   if (!code) memcpy(x, i.x_plus, (size_t)i.n * sizeof *x);
@@ -145,6 +156,7 @@ void stf_passage_close(stf_passage *p)
   stf_demand_close(&p->demand);
   steif_structure_clear(p->ctx, &p->structure);
   stf_reduced_close(&p->reduced);
+  stf_through_close(&p->through);
   stf_release(p->ctx, p->index);
   stf_release(p->ctx, p->x);
   p->index = NULL, p->x = NULL;

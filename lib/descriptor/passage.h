@@ -1,11 +1,12 @@
 /* passage.h: a run of E x' + F x = f from segment to segment: at the beginning of each a jump
- * with its impulses, then a method on the smooth solution. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * with its impulses, then a method on the smooth solution.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_PASSAGE_H
 #define STF_PASSAGE_H
 
 #include "demand.h"
 #include "reduce.h"
+#include "through.h"
 
 /* It stays where it is from open to close. */
 typedef struct stf_passage {
@@ -26,8 +27,9 @@ typedef struct stf_passage {
   sunindextype n;
   sunrealtype *x;      /* x(t-) of the next jump, x(t+) behind it, the end of a segment */
   int *index;          /* of each unknown; NULL: all 1 */
-  bool settles;        /* what the method makes of high unknowns is put on the constraints */
   stf_reduced reduced; /* what chosen steps are made on, where there is one */
+  bool settles;        /* else they leave errors in the fast part, which is then found anew */
+  stf_through through; /* with factors that are kept, where circles have found the structure */
   sunrealtype end, before; /* of the segment; the last number before it */
   steif_linear cut;        /* with f up to the end: where it breaks there, from the left */
   steif_problem problem;   /* of the segment ... */
@@ -39,8 +41,8 @@ typedef struct stf_passage {
 int stf_passage_open(stf_passage *p, const sunrealtype *x0);
 /* The jump at `from`, and a solver from there up to `to`. */
 int stf_passage_begin(stf_passage *p, sunrealtype from, sunrealtype to);
-/* What the constraints and f make of the smooth solution x (n) at t, in place; at the end of
- * the segment from the left. */
+/* The fast part of the smooth solution x (n) at t as f has it, in place; at the end of the
+ * segment from the left. */
 int stf_passage_settle(stf_passage *p, sunrealtype t, sunrealtype *x);
 /* Accepts half-opened ones. */
 void stf_passage_close(stf_passage *p);

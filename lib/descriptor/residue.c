@@ -155,6 +155,7 @@ static int analyse(residue *w, sunrealtype R, bool fixed, const steif_structure 
   STEIF_TRY(find(w, fixed, &R));
   memcpy(out->x_plus, w->at[0].x, n * sizeof *out->x_plus);
   if (count) memcpy(out->c, w->at[0].x + n, n * count * sizeof *out->c);
+  out->radius = R;
   out->certified = structure->certified && out->estimate <= CERTIFIED;
   say(w, structure, R);
   return STEIF_OK;

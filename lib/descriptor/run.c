@@ -8,26 +8,28 @@
 typedef struct run {
   stf_passage passage;
   const steif_linear_output *output;
+  N_Vector shown; /* the solution of a step, settled */
 } run;
 
-/* The value at the end is held back until it is settled. */
 static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
 {
-  const run *r = user;
+  run *r = user;
   (void)s;
-  return r->passage.settles && t >= r->passage.end ? 0
-                                                   : r->output->step(t, y, r->output->user);
+  if (r->passage.settles) {
+    N_VScale(1, y, r->shown);
+    STEIF_TRY(stf_passage_settle(&r->passage, t, N_VGetArrayPointer(r->shown)));
+    y = r->shown;
+  }
+  return r->output->step(t, y, r->output->user);
 }
 
-static int finish(run *r)
+static int open(run *r, const sunrealtype *x0)
 {
   stf_passage *p = &r->passage;
-  if (!p->settles || !r->output->step) return STEIF_OK;
-  N_Vector x = N_VMake_Serial(p->n, p->x, steif_sundials(p->ctx));
-  STEIF_CHECK(x, p->ctx, STEIF_NO_MEMORY, "no memory for a vector");
-  const int stop = r->output->step(p->end, x, r->output->user);
-  N_VDestroy(x);
-  STEIF_CHECK(!stop, p->ctx, STEIF_CALLBACK, "the output stopped the run at t = %.12g", p->end);
+  STEIF_TRY(stf_passage_open(p, x0));
+  if (!p->settles) return STEIF_OK;
+  r->shown = N_VNew_Serial(p->n, steif_sundials(p->ctx));
+  STEIF_CHECK(r->shown, p->ctx, STEIF_NO_MEMORY, "no memory for a vector");
   return STEIF_OK;
 }
 
@@ -44,8 +46,7 @@ static int segments(run *r, sunrealtype t0, sunrealtype t1, size_t count,
     STEIF_TRY(stf_passage_begin(p, t, end));
     STEIF_TRY(steif_solve_to(p->solver, end));
     memcpy(p->x, N_VGetArrayPointer(steif_solution(p->solver)), (size_t)p->n * sizeof *p->x);
-    if (i < count || p->settles) STEIF_TRY(stf_passage_settle(p, end, p->x));
-    STEIF_TRY(finish(r));
+    if (i < count) STEIF_TRY(stf_passage_settle(p, end, p->x));
     t = end;
   }
   return STEIF_OK;
@@ -69,8 +70,9 @@ int steif_linear_run(steif_context *ctx, const steif_linear *linear, const sunre
                             .jump = r.output->jump,
                             .user = r.output->user};
   if (r.output->step) r.passage.options.observe = observe, r.passage.options.observer = &r;
-  STEIF_TRY(stf_passage_open(&r.passage, x0));
-  const int code = segments(&r, t0, options->t1, break_count, breaks);
+  int code = open(&r, x0);
+  if (!code) code = segments(&r, t0, options->t1, break_count, breaks);
+  if (r.shown) N_VDestroy(r.shown);
   stf_passage_close(&r.passage);
   return code;
 }

@@ -189,60 +189,21 @@ typedef struct question {
   stf_sources sources;
 } question;
 
-/* y += E x. */
-static void multiply(SUNMatrix E, const sunrealtype *x, sunrealtype *y)
-{
-  const sunindextype n = order(E);
-  for (sunindextype j = 0; j < n; j++)
-    if (is_dense(E))
-      for (sunindextype i = 0; i < n; i++) y[i] += SM_ELEMENT_D(E, i, j) * x[j];
-    else
-      for (sunindextype p = SM_INDEXPTRS_S(E)[j]; p < SM_INDEXPTRS_S(E)[j + 1]; p++)
-        y[SM_INDEXVALS_S(E)[p]] += SM_DATA_S(E)[p] * x[j];
-}
-
-/* Why derivative j is not there, in the words of the forcing where it has any. */
-static int missing(const question *q, int j, int derivatives)
-{
-  char words[320] = "";
-  if (steif_status(q->ctx)) snprintf(words, sizeof words, ": %s", steif_message(q->ctx));
-  return STEIF_FAIL(q->ctx, STEIF_BAD_INPUT,
-                    "derivative %d of the forcing is not known at t = %g; index %d needs "
-                    "derivatives up to %d where equations are differentiated%s",
-                    j, q->t, derivatives + 1, derivatives, words);
-}
-
-static int force(question *q, int derivatives, N_Vector g, sunrealtype *rows)
-{
-  const sunindextype n = order(q->E);
-  steif_forget(q->ctx);
-  for (int j = 0; j <= derivatives; j++) {
-    const int code = q->f(q->t, j, g, &q->demand);
-    STEIF_CHECK(code >= 0, q->ctx, STEIF_CALLBACK,
-                "the forcing returned %d for derivative %d at t = %g", code, j, q->t);
-    if (code > 0) return missing(q, j, derivatives);
-    const sunrealtype *value = N_VGetArrayPointer(g);
-    STEIF_CHECK(stf_all_finite(value, (size_t)n), q->ctx, STEIF_NOT_FINITE,
-                "derivative %d of the forcing is not finite at t = %g", j, q->t);
-    for (sunindextype i = 0; i < n; i++) rows[j * n + i] = value[i];
-  }
-  return STEIF_OK;
-}
-
 /* E x(0-) and as many derivatives of f as the index asks for. */
 static int collect(question *q, int index)
 {
   const size_t n = (size_t)order(q->E), rows = q->f ? (size_t)index : 0;
   sunrealtype *all = stf_claim(q->pool, n * (rows + 1), sizeof *all);
   if (!all) return STEIF_NO_MEMORY;
-  multiply(q->E, q->x0, all);
+  stf_sources_product(q->E, q->x0, all);
   q->sources = (stf_sources){(sunindextype)n, index - 1, all, rows ? all + n : NULL};
   if (!rows) return STEIF_OK;
   N_Vector like = N_VNewEmpty_Serial((sunindextype)n, steif_sundials(q->ctx)), g;
   STEIF_CHECK(like, q->ctx, STEIF_NO_MEMORY, "no memory for a vector of %zu values", n);
   g = stf_claim_vector(q->pool, like);
   N_VDestroy(like);
-  return g ? force(q, index - 1, g, all + n) : STEIF_NO_MEMORY;
+  return g ? stf_sources_force(q->ctx, q->f, &q->demand, q->t, index - 1, g, all + n)
+           : STEIF_NO_MEMORY;
 }
 
 /* The index to work with: of an undecided one the number of deflations made, or the lower

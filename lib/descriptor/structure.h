@@ -14,6 +14,13 @@ typedef struct stf_sources {
   const sunrealtype *f;   /* (derivatives + 1) x n by rows; NULL: f = 0 */
 } stf_sources;
 
+/* y += E x. */
+void stf_sources_product(SUNMatrix E, const sunrealtype *x, sunrealtype *y);
+/* f and its derivatives up to the order given at t, by rows of n; g: room for one. A missing one is
+ * STEIF_BAD_INPUT, in the words of the forcing where it has any. */
+int stf_sources_force(steif_context *ctx, steif_forcing f, void *user, sunrealtype t,
+                      int derivatives, N_Vector g, sunrealtype *rows);
+
 /* A system of index 1 with the smooth solutions of a given one, E x' + F x = sum_j G_j f^(j): the
  * first rows of E are 0, the others have full rank. n x n by columns each. */
 typedef struct stf_reduction {

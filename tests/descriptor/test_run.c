@@ -228,16 +228,20 @@ static void jumps_are_exact(const told *k)
   }
 }
 
+/* Dense, sparse, and sparse with circles, as if it were large. */
+static const steif_analysis circles = {.algorithm = STEIF_CONTOUR};
+
 static void steps_restart_at_breaks(void)
 {
   steif_context *ctx = steif_context_new(NULL);
-  for (int sparse = 0; sparse < 2; sparse++) {
-    steif_linear l = circuit(ctx, sparse);
+  for (int way = 0; way < 3; way++) {
+    steif_linear l = circuit(ctx, way > 0);
     steif_options o = steif_defaults();
     o.t1 = 2.1, o.rtol = 1e-9;
     told k = {0};
     const steif_linear_output out = {on_jump, on_step, &k};
-    CHECK(!steif_linear_run(ctx, &l, start, 0, "radau:s=3", &o, NULL, BREAKS, tau, &out));
+    CHECK(!steif_linear_run(ctx, &l, start, 0, "radau:s=3", &o, way > 1 ? &circles : NULL,
+                            BREAKS, tau, &out));
     jumps_are_exact(&k);
     double end[3];
     exact(2.1, end);
@@ -342,7 +346,16 @@ static void bad_requests_are_refused(void)
   steif_context_free(&ctx);
 }
 
-static void every_allocation_may_fail(void)
+/* Given steps on a dense system; chosen ones on a sparse one with circles. */
+static int chosen_run(steif_context *ctx, const steif_linear *l, told *k)
+{
+  steif_options o = steif_defaults();
+  o.t1 = 0.9;
+  const steif_linear_output out = {on_jump, on_step, k};
+  return steif_linear_run(ctx, l, start, 0, "bdf", &o, &circles, 1, tau, &out);
+}
+
+static long fail_each_allocation(bool sparse)
 {
   long refused = 0;
   int code = STEIF_NO_MEMORY;
@@ -350,10 +363,10 @@ static void every_allocation_may_fail(void)
     failing f = {.refuse_at = 0};
     const steif_setup setup = failing_setup(&f);
     steif_context *ctx = steif_context_new(&setup);
-    steif_linear l = circuit(ctx, at % 2);
+    steif_linear l = circuit(ctx, sparse);
     told k = {0};
     f.refuse_at = f.served + at;
-    code = try_run(ctx, &l, 0.9, 1, tau, &k);
+    code = sparse ? chosen_run(ctx, &l, &k) : try_run(ctx, &l, 0.9, 1, tau, &k);
     CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
     if (code && code != STEIF_NO_MEMORY) printf("\n  %ld: %s", at, steif_message(ctx));
     refused += code != 0;
@@ -362,7 +375,13 @@ static void every_allocation_may_fail(void)
     CHECK(f.alive == 0);
     CU_ASSERT_FATAL(at < 2000);
   }
-  CHECK(refused > 50);
+  return refused;
+}
+
+static void every_allocation_may_fail(void)
+{
+  CHECK(fail_each_allocation(false) > 50);
+  CHECK(fail_each_allocation(true) > 50);
 }
 
 CU_TestInfo tests_of_run[] = {
