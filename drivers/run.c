@@ -65,8 +65,9 @@ static double tolerance_ratio(const steif_problem *problem, const steif_options 
 static void explain(steif_context *ctx, const steif_problem *problem, const char *method,
                     const steif_options *options, outcome *o)
 {
-  static const int codes[] = {STEIF_NOT_FINITE, STEIF_SINGULAR,   STEIF_NO_CONVERGENCE,
-                              STEIF_CALLBACK,   STEIF_STEP_LIMIT, STEIF_STEP_SIZE};
+  static const int codes[] = {STEIF_NOT_FINITE, STEIF_SINGULAR,  STEIF_NO_CONVERGENCE,
+                              STEIF_CALLBACK,   STEIF_STEP_LIMIT, STEIF_STEP_SIZE,
+                              STEIF_UNSUPPORTED};
   static steif_failure f;
   for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
     if (o->code == codes[i] && !steif_failure_find(ctx, problem, method, options, &f))

@@ -185,6 +185,25 @@ int stf_case_start(stf_case *c)
   return STEIF_OK;
 }
 
+static int name_high_index(stf_case *c)
+{
+  const steif_diagnosis *d = &c->diagnosis;
+  steif_cause *cause = c->cause;
+  char *m = cause->message;
+  size_t at = 0;
+  for (size_t j = 1; j < c->lens->n; j++)
+    if (d->number[j] > d->number[at]) at = j;
+  cause->kind = STEIF_CAUSE_INDEX, cause->unknown = (sunindextype)at;
+  cause->value[0] = d->index, cause->value[1] = d->number[at];
+  stf_diagnose_say(m, "Index is %d (%s), and nonlinear equations are served up to 3: errors of ",
+                   d->index, steif_confidence_name(d->confidence));
+  stf_diagnose_list(c->lens, m, false, d->number, 2, true);
+  stf_diagnose_say(m, " grow with powers of 1/h; differentiated on the way: ");
+  stf_diagnose_list(c->lens, m, true, d->derivatives, 1, true);
+  stf_diagnose_say(m, ". Put derivatives of these in their place until the index is 3 or less");
+  return STEIF_OK;
+}
+
 int stf_case_index(stf_case *c)
 {
   const size_t n = c->lens->n;
@@ -192,6 +211,7 @@ int stf_case_index(stf_case *c)
   char y[STEIF_SPEC_WORD];
   STEIF_TRY(stf_case_diagnose(c));
   const steif_diagnosis *d = &c->diagnosis;
+  if (d->index > 3 && !c->lens->system.linear) return name_high_index(c);
   if (d->index < 2 || c->scene->weighted || !error) return STEIF_OK;
   size_t at = 0;
   for (size_t j = 1; j < n; j++)

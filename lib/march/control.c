@@ -9,7 +9,10 @@
 #include <math.h>
 
 static const sunrealtype safety = 0.9, shrink_most = 0.125;
-enum { REFUSALS = 40 }; /* refused attempts in one step before the run stops */
+enum {
+  REFUSALS = 40, /* refused attempts in one step before the run stops */
+  HIGHEST = 3 /* index for which steps are chosen on nonlinear equations */
+};
 
 /* Of the caller, by rtol and atol, or, for given steps, of Newton's iteration alone. */
 int stf_weigh(const steif_solver *s)
@@ -248,9 +251,24 @@ static int free_step(steif_solver *s, sunrealtype t_stop)
   return STEIF_OK;
 }
 
+/* An unknown of index k carries errors tol / h^(k-1), which no weights make small from 4 on; linear
+ * systems have `descriptor`. */
+static int check_index(const steif_solver *s)
+{
+  const stf_step *step = &s->step;
+  STEIF_CHECK(step->count > 0 || !step->adaptive || s->problem->dae_index <= HIGHEST ||
+                step->system.linear,
+              s->ctx, STEIF_UNSUPPORTED,
+              "problem '%s' has index %d: steps for nonlinear equations are chosen up to index %d; "
+              "differentiate the equations that steif_diagnose names, or give steps with h",
+              s->problem->name, s->problem->dae_index, HIGHEST);
+  return STEIF_OK;
+}
+
 int stf_advance(steif_solver *s, sunrealtype t_stop)
 {
   const stf_step *step = &s->step;
+  STEIF_TRY(check_index(s));
   STEIF_CHECK(
     step->count < s->options.max_steps, s->ctx, STEIF_STEP_LIMIT,
     "%ld steps made at t = %.12g of problem '%s', the limit: raise max_steps or loosen the "

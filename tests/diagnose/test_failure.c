@@ -70,6 +70,38 @@ static void an_impasse_is_told_with_its_time(void)
   CLOSE(f.cause.t, 0.5, 5e-3);
 }
 
+/* y1 + y1^3/5 = sin t + 1/2, y2, y3, y4 its derivatives (1 + y1^2/10 times as small): index 4. */
+static int chain(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
+{
+  const double *a = N_VGetArrayPointer(y), *b = N_VGetArrayPointer(yp);
+  (void)user;
+  NV_Ith_S(r, 0) = a[0] + a[0] * a[0] * a[0] / 5 - sin(t) - .5;
+  for (int i = 1; i < 4; i++) NV_Ith_S(r, i) = b[i - 1] - a[i] * (1 + a[0] * a[0] / 10);
+  return 0;
+}
+
+static void index_four_is_refused_with_names(void)
+{
+  double y0[4], yp0[4];
+  for (int declared = 0; declared < 2; declared++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_failure f;
+    steif_start start;
+    steif_problem p = {.name = "chain", .n = 4, .t1 = 1, .F = chain, .y0 = y0, .yp0 = yp0};
+    p.dae_index = declared ? 4 : -1;
+    memset(y0, 0, sizeof y0), memset(yp0, 0, sizeof yp0);
+    CU_ASSERT_FATAL(!steif_consistent(ctx, &p, NULL, NULL, &start));
+    memcpy(y0, start.y, sizeof y0), memcpy(yp0, start.yp, sizeof yp0);
+    steif_start_clear(&start);
+    find(&p, "auto", 1e-6, &f);
+    CHECK(f.code == (declared ? STEIF_UNSUPPORTED : f.code) && f.steps == 0);
+    CHECK(f.cause.kind == STEIF_CAUSE_INDEX && f.cause.value[0] == 4 && f.cause.unknown == 3);
+    CHECK(strstr(f.message, "y2 (2), y3 (3), y4 (4)") &&
+          strstr(f.message, "e1 (3), e2 (2), e3 (1)"));
+    steif_context_free(&ctx);
+  }
+}
+
 static void an_inconsistent_start_is_told(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -224,6 +256,7 @@ static void memory_may_fail_at_any_request(void)
 }
 
 CU_TestInfo tests_of_failure[] = {
+  {"index 4 is refused with names", index_four_is_refused_with_names},
   {"a blow-up is told with its time", a_blow_up_is_told_with_its_time},
   {"an impasse is told with its time", an_impasse_is_told_with_its_time},
   {"an inconsistent start is told", an_inconsistent_start_is_told},
