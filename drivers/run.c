@@ -90,6 +90,11 @@ outcome integrate(steif_context *ctx, const steif_problem *problem, const char *
   sigaction(SIGINT, &before, NULL);
   snprintf(o.message, sizeof o.message, "%s", o.code == STEIF_OK ? "ok" : steif_message(ctx));
   if (s) o.t = steif_time(s), o.stats = *steif_statistics(s);
+  if (o.code == STEIF_OK && o.stats.rounding > 1)
+    snprintf(o.message, sizeof o.message,
+             "ok, but rounding errors are about %.2g tolerances: small components are what is left "
+             "of large ones, and no step size gives more digits in double precision",
+             o.stats.rounding);
   if (s && (o.code == STEIF_OK || o.code == STEIF_EVENT))
     o.known =
       steif_problem_digits(ctx, problem, o.t, steif_solution(s),

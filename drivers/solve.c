@@ -26,6 +26,7 @@ static void fill(steif_report *r, const char *const *word, const outcome *o, ste
   steif_report_list(r, "y", s ? tr->n : 0, s ? N_VGetArrayPointer(steif_solution(s)) : NULL);
   report_digits(r, "", o);
   report_stats(r, "stats.", o);
+  if (o->stats.rounding > 0) steif_report_real(r, "stats.rounding", o->stats.rounding);
   fill_drift(r, s);
   trajectory_fill(r, tr);
 }
@@ -35,11 +36,12 @@ static int finish(struct call *call, const outcome *o, steif_solver *s, const tr
 {
   char title[128];
   snprintf(title, sizeof title, "%s by %s", call->word[0], call->word[1]);
-  int code = o->code == STEIF_OK ? EXIT_OK : exit_of(o->code);
+  const bool rounded = o->code == STEIF_OK && o->stats.rounding > 1;
+  int code = rounded ? EXIT_UNCERTIFIED : o->code == STEIF_OK ? EXIT_OK : exit_of(o->code);
   fill(tr->report, call->word, o, s, tr);
   const bool shown = call->json || s;
   int output = shown ? show(call, tr->report) : EXIT_OK;
-  if (o->code != STEIF_OK)
+  if (o->code != STEIF_OK || rounded)
     say(call, "%s",
         tr->short_of_memory ? "no memory for the trajectory; leave out --csv, --npz and "
                               "--plot, or ask for fewer --points"

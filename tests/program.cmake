@@ -37,6 +37,7 @@ expect(2 slove vdpol be ERR "nearest is solve")
 # Names, numbers and contradictions are refused with what was meant.
 expect(2 solve vdpoll be ERR "vdpol'")
 expect(2 solve vdpol radou:s=3 ERR "radau")
+expect(5 solve e5 auto --rtol 1e-6 OUT "stats.rounding +[0-9]" ERR "ok, but rounding")
 expect(2 solve vdpol bdf:p=17 ERR "p=17")
 expect(2 compare vdpol be radou ERR "radau")
 expect(2 solve vdpol be --rtolx 1e-3 ERR "nearest is --rtol,")

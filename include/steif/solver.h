@@ -94,6 +94,10 @@ typedef struct steif_options {
 typedef struct steif_stats {
   long steps, rejected, nfe, nje, nlu, nsolve, newton, newton_fails, nli;
   sunrealtype h_last, cpu_s;
+  sunrealtype rounding; /* errors by rounding so far, in tolerances: an estimate of their size,
+                           made where absolute tolerances lie below 8 rounding errors of the largest
+                           component at the start (chosen implicit steps), else 0. Above 1 the
+                           tolerance is out of reach in double precision. */
 } steif_stats;
 
 STEIF_EXPORT steif_options steif_defaults(void);

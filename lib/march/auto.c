@@ -50,19 +50,6 @@ static bool small(const steif_problem *p, const steif_options *o, int form)
          (form == STEIF_ODE || form == STEIF_MASS);
 }
 
-/* Are absolute tolerances above the rounding of the largest component? Where they are below, small
- * components are differences of large ones, and only iterated residuals keep them. */
-static bool above_rounding(const steif_problem *p, const steif_options *o)
-{
-  const sunrealtype part = 0.01;
-  sunrealtype most = 0, least = o->atol;
-  for (sunindextype i = 0; i < p->n; i++) {
-    most = fmax(most, fabs(p->y0[i]));
-    if (o->atols) least = i ? fmin(least, o->atols[i]) : o->atols[i];
-  }
-  return STF_EPS * most <= part * least;
-}
-
 /* The Rosenbrock method for few digits of few unknowns, NULL for none: more digits, and forces that
  * oscillate, need many steps. Order 5 pays below rtol 1e-1; Rodas4 loses its order where stiff components
  * are forced, Rodas4P2 keeps 3 (G. Steinebach, in Progress in Differential-Algebraic Equations II, 2020). */
@@ -70,7 +57,8 @@ static const char *linearly(const steif_problem *p, const steif_options *o)
 {
   const bool few = p->n <= TINY;
   const sunrealtype most = few ? 1e-2 : p->autonomous ? 1e-4 : 1e-1, coarse = 1e-1;
-  if (p->dae_index > 1 || !p->jac || !p->y0 || o->ewt || !above_rounding(p, o)) return NULL;
+  if (p->dae_index > 1 || !p->jac || !p->y0 || o->ewt || !stf_above_rounding(p, o, p->y0, 100))
+    return NULL;
   if (p->n > (p->autonomous ? SOME : FEW) || o->rtol < 0.9 * most) return NULL;
   return o->rtol < 0.9 * coarse ? "rodas5p" : p->autonomous ? "rodas4" : "rodas4p2";
 }

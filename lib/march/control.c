@@ -278,7 +278,7 @@ int stf_advance(steif_solver *s, sunrealtype t_stop)
   if (s->rivals) STEIF_TRY(stf_rivals_look(s));
   const int code = step->adaptive ? free_step(s, t_stop) : given(s);
   if (code && s->rivals) stf_rivals_stay(s);
-  return code;
+  return code || !s->rounding ? code : stf_rounding_step(s);
 }
 
 sunrealtype stf_first_step(const steif_solver *s)

@@ -9,6 +9,7 @@
 #include <steif/solver.h>
 
 typedef struct stf_rivals stf_rivals;
+typedef struct stf_rounding stf_rounding;
 
 struct steif_solver {
   steif_context *ctx;
@@ -36,6 +37,8 @@ struct steif_solver {
   sunrealtype h_next, h_old, h_tried, error_old; /* chosen steps */
   bool after_reject, failed;
   int pressed; /* steps in a row that a constraint has moved */
+  stf_rounding *rounding; /* of runs near it; NULL: not followed */
+  sunrealtype rounded;    /* in tolerances */
   int failure;
   char why[400];           /* the sentence of the failure */
   sunrealtype *invariants; /* at the start, then room for as many */
@@ -62,6 +65,16 @@ bool stf_attended(const steif_solver *s);
 int stf_feasible_open(steif_solver *s);
 int stf_feasible_check(steif_solver *s, sunrealtype t, N_Vector y, const char *where);
 int stf_feasible_keep(steif_solver *s, sunrealtype h, int tries);
+
+/* Are absolute tolerances above so many times the rounding of the largest component of y? Where they
+ * are below, small components are differences of large ones. */
+bool stf_above_rounding(const steif_problem *p, const steif_options *o, const sunrealtype *y,
+                        sunrealtype times);
+/* s->rounding where it may matter; after a step, what has become of rounding errors. */
+int stf_rounding_open(steif_solver *s);
+int stf_rounding_step(steif_solver *s);
+/* What this has cost. */
+void stf_rounding_count(const steif_solver *s, steif_stats *sum);
 
 /* The invariants at the start. */
 int stf_drift_open(steif_solver *s);

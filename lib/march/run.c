@@ -212,10 +212,12 @@ const steif_stats *steif_statistics(steif_solver *s)
                          .nje = step->system.nje,
                          .newton = step->newton.sweeps,
                          .newton_fails = step->newton.fails,
-                         .h_last = step->h};
+                         .h_last = step->h,
+                         .rounding = s->rounded};
     if (pencil) out->nlu = pencil->factors + pencil->refactors, out->nsolve = pencil->solves;
     if (pencil) out->nli = pencil->iterations;
     out->nlu += step->factors, out->nsolve += step->solves;
+    stf_rounding_count(s, out);
   }
   out->cpu_s = s->cpu_s;
   return out;

@@ -196,7 +196,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   s->shown = step->y;
   if (!step->adaptive) return STEIF_OK;
   s->h_next = stf_first_step(s);
-  return STEIF_OK;
+  return stf_rounding_open(s);
 }
 
 /* Weights of the caller at the start: baselines do not look at their signs. */

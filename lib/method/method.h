@@ -19,7 +19,8 @@ enum stf_trait {
   STF_ADAPTIVE = 1, /* fills s->error */
   STF_MULTISTEP = 2, /* keeps history: steps given at open */
   STF_EXPLICIT = 4,  /* needs neither matrices nor, for given steps, weights */
-  STF_SPLITS = 8     /* the matrix is the constant linear part of a semilinear problem */
+  STF_SPLITS = 8,    /* the matrix is the constant linear part of a semilinear problem */
+  STF_UNCORRECTED = 16 /* nothing corrects the rounding of its linear solves */
 };
 
 typedef struct steif_method {

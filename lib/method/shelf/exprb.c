@@ -24,7 +24,7 @@ static int describe(steif_context *ctx, const steif_spec *spec, const steif_tabl
 const steif_method steif_method_exprb = {
   .about = "exponential Rosenbrock",
   .forms = STEIF_ODE,
-  .traits = STF_ADAPTIVE,
+  .traits = STF_ADAPTIVE | STF_UNCORRECTED,
   .size = sizeof(stf_expo),
   .open = open,
   .attempt = stf_expo_attempt,

@@ -249,7 +249,7 @@ static int describe(steif_context *ctx, const steif_spec *spec, const steif_tabl
 const steif_method steif_method_rosenbrock = {
   .about = "Rosenbrock methods of Rodas type",
   .forms = STEIF_ODE | STEIF_MASS,
-  .traits = STF_ADAPTIVE,
+  .traits = STF_ADAPTIVE | STF_UNCORRECTED,
   .size = sizeof(state),
   .open = open,
   .attempt = attempt,
