@@ -19,8 +19,9 @@
  * They are looked for on the dense output of every accepted step, of every method alike, and
  * located to 4 rounding errors of t; the time reported is the one behind the change.
  * Within a step g is sampled at five Chebyshev points; where the polynomial through them comes
- * back after a change of sign, g itself is asked. An odd number of changes between two samples is
- * never missed; an even number is when they lie closer than this polynomial tells.
+ * back after a change of sign, g itself is asked. Where g at two more points is not that of the
+ * polynomial, the parts of the step are halved, at most six times. An odd number of changes between
+ * two samples is never missed; an even number is when they lie closer than this tells.
  *   Changes within 128 rounding errors of t are one event.
  *   A function that is 0, at the start or for a while, is silent until it has left 0 and comes
  *   back; leaving is no event. Jumps and poles of g are changes of sign like any other.

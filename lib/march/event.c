@@ -186,8 +186,9 @@ static int sample(steif_solver *s, sunrealtype from, sunrealtype to)
   memcpy(w->node, w->low, bytes(w));
   for (int k = 1; k < STF_NODES - 1; k++)
     STEIF_TRY(stf_watch_value(s, from + point[k] * (to - from), w->node + k * m));
-  N_Vector end = s->engine ? s->run.y : s->step.y;
-  STEIF_TRY(stf_watch_ask(s, to, end, w->node + (STF_NODES - 1) * m));
+  sunrealtype *last = w->node + (STF_NODES - 1) * m;
+  STEIF_TRY(to < s->end ? stf_watch_value(s, to, last)
+                        : stf_watch_ask(s, to, s->engine ? s->run.y : s->step.y, last));
   for (int j = 0; j <= STF_FINE; j++) {
     sunrealtype value[STF_NODES], *row = w->fine + j * m;
     stf_interpolate(STF_NODES - 1, point, (sunrealtype)j / STF_FINE, value);
@@ -229,13 +230,52 @@ static sunrealtype hidden(const steif_solver *s, sunrealtype from, sunrealtype t
   return before;
 }
 
-int stf_watch_step(steif_solver *s, sunrealtype from)
+/* May function i, which is g at x of the part and p by the polynomial, do what that does not show? */
+static bool strays(const stf_watch *w, int i, sunrealtype g, sunrealtype p)
+{
+  const sunrealtype part = 0.05, far = 4;
+  sunrealtype low = INFINITY, high = -INFINITY, least = INFINITY;
+  for (int k = 0; k < STF_NODES; k++) {
+    const sunrealtype at = w->node[k * w->count + i];
+    low = fmin(low, at), high = fmax(high, at), least = fmin(least, fabs(at));
+  }
+  const sunrealtype range = high - low, off = fabs(g - p);
+  return off > part * range && least <= far * (range + off);
+}
+
+/* Asked at two more times: does the polynomial show all functions? Jumps and poles have no other cure than
+ * short parts. */
+static int check(steif_solver *s, sunrealtype from, sunrealtype to, bool *shown)
+{
+  static const sunrealtype x[] = {0.31, 0.72};
+  stf_watch *w = s->watch;
+  *shown = true;
+  for (int j = 0; j < 2 && *shown; j++) {
+    sunrealtype value[STF_NODES];
+    stf_interpolate(STF_NODES - 1, point, x[j], value);
+    STEIF_TRY(stf_watch_value(s, from + x[j] * (to - from), w->mid));
+    for (int i = 0; i < w->count && *shown; i++) {
+      sunrealtype p = 0;
+      for (int k = 0; k < STF_NODES; k++) p += value[k] * w->node[k * w->count + i];
+      *shown = !strays(w, i, w->mid[i], p);
+    }
+  }
+  return STEIF_OK;
+}
+
+/* Events between two times of the step, whose halves are looked at where the whole is not shown. */
+static int search(steif_solver *s, sunrealtype from, sunrealtype to, int halvings)
 {
   stf_watch *w = s->watch;
-  const sunrealtype to = s->end;
   const size_t m = (size_t)w->count;
-  w->t = from;
+  bool shown = true;
   STEIF_TRY(sample(s, from, to));
+  if (halvings > 0) STEIF_TRY(check(s, from, to, &shown));
+  if (!shown) {
+    const sunrealtype middle = from + (to - from) / 2;
+    STEIF_TRY(search(s, from, middle, halvings - 1));
+    return w->cut || s->finished ? STEIF_OK : search(s, middle, to, halvings - 1);
+  }
   for (int k = 1; k < STF_NODES; k++) {
     const sunrealtype *g = w->node + (size_t)k * m, end = from + point[k] * (to - from);
     for (sunrealtype t = from; t < end;) {
@@ -249,4 +289,11 @@ int stf_watch_step(steif_solver *s, sunrealtype from)
     }
   }
   return STEIF_OK;
+}
+
+int stf_watch_step(steif_solver *s, sunrealtype from)
+{
+  enum { HALVINGS = 6 };
+  s->watch->t = from;
+  return search(s, from, s->end, HALVINGS);
 }

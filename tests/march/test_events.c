@@ -205,6 +205,28 @@ static void no_odd_number_is_missed(void)
   steif_context_free(&ctx);
 }
 
+/* 26 changes in the interval of length 2, from two thirds of one in a step to all. */
+static int rapid(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  (void)y, (void)user;
+  *g = sin(40 * t - 0.3);
+  return 0;
+}
+
+static void steps_longer_than_the_function_are_halved(void)
+{
+  const steif_problem p = watched_problem(1, rapid);
+  static const double h[] = {0.05, 0.5, 1, 2};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int k = 0; k < 4; k++) {
+    watched w;
+    CHECK(!watched_run(ctx, &p, "radau:s=2", h[k], &w));
+    CHECK(w.count == 26);
+    for (int i = 0; i < w.count; i++) CLOSE(w.t[i], (i * acos(-1) + 0.3) / 40, 1e-13);
+  }
+  steif_context_free(&ctx);
+}
+
 static int undefined(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
   (void)t, (void)user;
@@ -300,6 +322,7 @@ CU_TestInfo tests_of_events[] = {
   {"functions that stay at zero fire once", functions_that_stay_at_zero_fire_once},
   {"a root at the end of a step is seen once", a_root_at_the_end_of_a_step_is_seen_once},
   {"no odd number of roots is missed", no_odd_number_is_missed},
+  {"steps longer than the function are halved", steps_longer_than_the_function_are_halved},
   {"NaN and refusal stop the run", nan_and_refusal_stop_the_run},
   {"a terminal event ends the run", a_terminal_event_ends_the_run},
   {"events without reaction cost no steps", events_without_reaction_cost_no_steps},
