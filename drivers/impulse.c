@@ -94,8 +94,10 @@ static int run(struct call *call)
   if (given(call, "--method") ? !given(call, "--t1") : given(call, "--t1") && !vs)
     return refuse(call, "--method and --t1 go together: the run after the jump and its end");
   if (!given(call, "--method") &&
-      (given(call, "--h") || (given(call, "--rtol") && !ends) || call->plot))
-    return refuse(call, "--h, --rtol and --plot belong to a run; add --method and --t1");
+      (given(call, "--h") || given(call, "--h0") || given(call, "--layers") ||
+       (given(call, "--rtol") && !ends) || call->plot))
+    return refuse(
+      call, "--h, --h0, --rtol, --layers and --plot belong to a run; add --method and --t1");
   if (!strcmp(call->word[0], "all")) return impulse_all(call);
   int code = linear_open(call, &l, 0, true);
   if (!code) code = linear_started(call, &l);
@@ -112,7 +114,10 @@ static const struct option options[] = {
   {"--method", WORD, "METHOD",
    "integrate from x(0+), with a jump at every declared break of f"},
   {"--t1", REAL, "T", "end of that run"},
+  {"--layers", FLAG, NULL,
+   "from x(0-) itself: chosen steps that stay equal through layers (be, bdf:p=, radau:s=)"},
   {"--h", POSITIVE, "H", "its equal steps (default: chosen)"},
+  {"--h0", POSITIVE, "H", "the first of its chosen steps (default: chosen)"},
   {"--rtol", POSITIVE, "R", "its tolerance (default 1e-6)"},
   {"--restitution", REAL, "E", "of an impact of a nonlinear problem (default 0)"},
   {"--stages", FLAG, NULL, "where its jump is not unique: positions first, then velocities"},
@@ -123,7 +128,8 @@ static const struct option options[] = {
 };
 
 static const char *const clash[][2] = {
-  {"--forcing", "--f"}, {"--h", "--rtol"}, {"--projectors", "--method"}, {NULL, NULL}};
+  {"--forcing", "--f"},         {"--h", "--rtol"}, {"--h", "--h0"}, {"--h", "--layers"},
+  {"--projectors", "--method"}, {NULL, NULL}};
 
 const struct verb verb_impulse = {
   "impulse",

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "impulse.h"
 #include <nvector/nvector_serial.h>
+#include <steif/descriptor.h>
 #include <stdlib.h>
 
 enum { BREAKS = 256, TITLE = 160, KNOWN = 100 };
@@ -16,6 +17,7 @@ struct record {
   size_t n;
   int verdict;
   long jumps, steps;
+  N_Vector view; /* of rows of a run through layers */
   size_t break_count;
   double breaks[BREAKS];
 };
@@ -90,6 +92,7 @@ static int integrate_on(struct call *call, const struct linear *l, struct record
 {
   steif_options o = steif_defaults();
   o.t1 = k->path.t1, o.h = real_of(call, "--h", 0), o.rtol = real_of(call, "--rtol", o.rtol);
+  o.h0 = real_of(call, "--h0", 0);
   const char *method = word_of(call, "--method", NULL);
   const size_t count =
     l->function ? steif_function_breaks(l->function, l->t0, o.t1, BREAKS, k->breaks) : 0;
@@ -105,6 +108,48 @@ static int integrate_on(struct call *call, const struct linear *l, struct record
            : output(k, method);
 }
 
+static int row(double t, const double *x, int layer, void *user)
+{
+  struct record *k = user;
+  if (!layer) return N_VSetArrayPointer((double *)x, k->view), step(t, k->view, k);
+  if (k->call->csv) impulse_row(k->sheet, "rows", k->column, "layer", t, k->n, x);
+  return 0;
+}
+
+static void lengths(steif_report *r, const steif_layers_stats *stats)
+{
+  steif_report_whole(r, "layer_first", stats->opening);
+  steif_report_whole(r, "layer", stats->width);
+  steif_report_whole(r, "changes", stats->changes);
+  steif_report_whole(r, "again", stats->again);
+  steif_report_whole(r, "refused", stats->refused);
+  steif_report_real(r, "h_least", stats->shortest);
+  steif_report_real(r, "h_most", stats->longest);
+}
+
+/* From x(0-) itself. */
+static int through_layers(struct call *call, const struct linear *l, struct record *k)
+{
+  steif_options o = steif_defaults();
+  steif_layers_stats stats;
+  const char *method = word_of(call, "--method", NULL);
+  const steif_analysis a = linear_analysis(call, l);
+  o.t1 = k->path.t1, o.h0 = real_of(call, "--h0", 0), o.rtol = real_of(call, "--rtol", o.rtol);
+  if (l->function && steif_function_breaks(l->function, l->t0, o.t1, BREAKS, k->breaks))
+    return refuse(call,
+                  "--layers knows no breaks of f, the first is at %g: end there, or leave "
+                  "--layers out",
+                  k->breaks[0]);
+  k->view = N_VMake_Serial((sunindextype)k->n, l->x0, steif_sundials(call->ctx));
+  if (!k->view) return linear_no_memory(call, "values");
+  const int code =
+    steif_layers_run(call->ctx, &l->system, l->x0, l->t0, method, &o, &a, row, k, &stats);
+  N_VDestroy(k->view);
+  if (code) return linear_fail(call);
+  lengths(k->shown, &stats);
+  return output(k, method);
+}
+
 int impulse_run(struct call *call, struct linear *l)
 {
   struct record k = {.call = call,
@@ -114,7 +159,9 @@ int impulse_run(struct call *call, struct linear *l)
                      .sheet = steif_report_new(call->ctx),
                      .n = (size_t)l->n,
                      .path = {.call = call, .n = (size_t)l->n, .t1 = real_of(call, "--t1", 0)}};
-  const int code = k.shown && k.sheet ? integrate_on(call, l, &k) : fail(call);
+  const int code = !k.shown || !k.sheet      ? fail(call)
+                   : given(call, "--layers") ? through_layers(call, l, &k)
+                                             : integrate_on(call, l, &k);
   trajectory_free(&k.path);
   steif_report_free(&k.sheet);
   steif_report_free(&k.shown);

@@ -368,6 +368,19 @@ member("baseline failed" vs status)
 expect(0 impulse impact --vs ida --method auto --t1 0.5 --json)
 member("baseline failed" vs status)
 
+# Through layers: k - 1 steps of backward Euler, p (k - 1) of BDF-p, once more at every change.
+expect(0 impulse ut5 --method be --layers --t1 1 --rtol 0.01 --h0 0.001 --csv layers.csv --json)
+member(2 layer_first)
+member(2 layer)
+foreach(key changes again refused h_least h_most error error_most)
+  member("*" ${key})
+endforeach()
+expect(0 impulse ut5 --method bdf:p=3 --layers --t1 1 --rtol 1e-4 --json)
+member(6 layer)
+expect(1 impulse ut5 --method gauss:s=3 --layers --t1 1 ERR "come through layers")
+expect(2 impulse ut5 --layers ERR "belong to a run")
+expect(2 impulse ut5 --method be --layers --h 0.1 --t1 1 ERR "--layers")
+
 # Weak convergence and layers of systems: UT5 with 40 digits, by recurrences of their own.
 expect(0 weak bdf:p=2 ut5 --start cq --convention C --h 0.0625 --halvings 3 --json)
 member(3 index)

@@ -96,6 +96,32 @@ STEIF_EXPORT int steif_layer_linear(steif_context *ctx, const char *method,
                                     sunrealtype *t, sunrealtype *x, sunrealtype *exact,
                                     sunrealtype *error, steif_layer_result *result);
 
+/* E x' + F x = f from x(0-) as it is, without x(0+) and impulses being found first, by be, bdf:p=P or
+ * radau:s=S with chosen steps. Of index k, a run from values that are not consistent, or changed in
+ * its length or order, makes a layer of p (k - 1) steps of BDF, k - 1 of Radau: the first one holds
+ * the impulses, later ones errors of h^(p+2-k) for k > 2. So h and the order stay as they are
+ * within layers; steps are accepted or refused outside of them only, in blocks of equal ones; and a
+ * new length is run through its layer once more from before the last value kept, and what it makes
+ * of times behind that is thrown away. Errors are kept below rtol |x| + atol by the difference of
+ * order p + 1, for unknowns of every index: an error of h^p in the slow part adds up over 1/h steps,
+ * and in the fast part has this size at once. Pointwise O(h^p) (Radau: O(h^(s+2-k))), also at k > 2.
+ * BDF of order 2 and more starts as convolution quadrature: its first layer is longer by as many
+ * steps as the other roots of the method take to die away. STEIF_STEP_SIZE where rounding, which
+ * grows as h^-(k-1) or more, leaves no step to keep the tolerance with. */
+typedef struct steif_layers_stats {
+  long steps, again, refused, changes; /* told; made to come through layers and thrown away;
+                                          refused; new lengths */
+  int width, opening;                  /* steps of a layer, of the first */
+  sunrealtype shortest, longest;       /* steps told */
+} steif_layers_stats;
+/* Tells t, x (n values) and whether they are in the first layer, t ascending; nonzero stops the run. */
+typedef int (*steif_layers_step)(sunrealtype t, const sunrealtype *x, int layer, void *user);
+STEIF_EXPORT int steif_layers_run(steif_context *ctx, const steif_linear *linear,
+                                  const sunrealtype *x0, sunrealtype t0, const char *method,
+                                  const steif_options *options, const steif_analysis *analysis,
+                                  steif_layers_step tell, void *user,
+                                  steif_layers_stats *stats);
+
 /* Impulse coefficients from a homogeneous backward Euler run x_1 .. x_{k-1} with step h, exact for
  * every h: c_q = (-1)^q h^{q+1} sum_i C(i-1, q) x_i. x by rows (k-1) x k, c likewise. */
 STEIF_EXPORT int steif_binomial_moments(steif_context *ctx, int k, sunrealtype h,

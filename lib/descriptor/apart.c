@@ -10,6 +10,7 @@
 #include "pairing.h"
 #include "reduce.h"
 #include <nvector/nvector_serial.h>
+#include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 /* G f^(order). */
@@ -61,9 +62,29 @@ void stf_apart_close(stf_apart *a)
   *a = (stf_apart){0};
 }
 
+/* out = M in. */
+static void apply(const stf_apart *a, const sunrealtype *M, int n, const sunrealtype *in,
+                  sunrealtype *out)
+{
+  if (a->linear.E)
+    stf_gemm('N', 'N', n, 1, n, 1, M, n, in, n, 0, out, n);
+  else
+    memcpy(out, in, (size_t)n * sizeof *out);
+}
+
+void stf_apart_enter(const stf_apart *a, int n, const sunrealtype *x, sunrealtype *z)
+{
+  apply(a, a->maps.to, n, x, z);
+}
+
+void stf_apart_leave(const stf_apart *a, int n, const sunrealtype *z, sunrealtype *x)
+{
+  apply(a, a->maps.back, n, z, x);
+}
+
 int stf_apart_problem(stf_apart *a, const steif_problem *given, steif_problem *problem)
 {
-  stf_gemm('N', 'N', a->n, 1, a->n, 1, a->maps.to, a->n, given->y0, a->n, 0, a->z0, a->n);
+  stf_apart_enter(a, a->n, given->y0, a->z0);
   return steif_linear_problem(a->ctx, &a->linear, a->z0, given->t0, given->t1, problem);
 }
 

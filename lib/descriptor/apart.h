@@ -23,6 +23,9 @@ int stf_apart_open(steif_context *ctx, const steif_linear *from,
 void stf_apart_close(stf_apart *apart);
 /* The problem in z, over the times and from the start values of one in x. */
 int stf_apart_problem(stf_apart *apart, const steif_problem *given, steif_problem *problem);
+/* z of x and x of z; copies where there are no coordinates. */
+void stf_apart_enter(const stf_apart *apart, int n, const sunrealtype *x, sunrealtype *z);
+void stf_apart_leave(const stf_apart *apart, int n, const sunrealtype *z, sunrealtype *x);
 /* x_m of z. */
 sunrealtype stf_apart_component(const stf_apart *apart, int m, const sunrealtype *z);
 

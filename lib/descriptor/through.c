@@ -1,9 +1,10 @@
-/* through.c: x(t) = Phi_{-1} E x + sum_j Phi_j f^(j)(t), the smooth solution that has the slow part of
- * x, by the residue of
+/* through.c: x(t) = Phi_{-1} E x + sum_j Phi_j f^(j)(t), the smooth solution that has the
+ * slow part of x, by the residue of
  *   (s E + F)^{-1} (E x + sum_j f^(j)(t) s^{-j-1})
- * at infinity: one solve for each node of a circle whose factors are kept. What a method makes of
- * the fast part is thrown away. Every method with constant coefficients works on the two parts
- * apart, diag(I, N) z' + diag(J, I) z = (g, w): errors of the fast one are not in the slow one.
+ * at infinity: one solve for each node of a circle whose factors are kept. What a method
+ * makes of the fast part is thrown away. Every method with constant coefficients works on the
+ * two parts apart, diag(I, N) z' + diag(J, I) z = (g, w): errors of the fast one are not in
+ * the slow one.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "through.h"

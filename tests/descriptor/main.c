@@ -8,7 +8,7 @@ extern CU_TestInfo tests_of_exact[], tests_of_pair[], tests_of_moments[], tests_
   tests_of_regular[], tests_of_structure[], tests_of_families[], tests_of_impulse_dense[],
   tests_of_run[], tests_of_subject[], tests_of_ida[], tests_of_array[], tests_of_units[],
   tests_of_circle[], tests_of_ends[], tests_of_impact[], tests_of_demand[],
-  tests_of_hidden[], tests_of_renewed[];
+  tests_of_hidden[], tests_of_renewed[], tests_of_steady[];
 
 SUITE_MAIN(
   {.pName = "impact", .pTests = tests_of_impact},
@@ -31,4 +31,5 @@ SUITE_MAIN(
   {.pName = "run", .pTests = tests_of_run}, {.pName = "subject", .pTests = tests_of_subject},
   {.pName = "ida", .pTests = tests_of_ida}, {.pName = "units", .pTests = tests_of_units},
   {.pName = "ends", .pTests = tests_of_ends},
-  {.pName = "renewed", .pTests = tests_of_renewed})
+  {.pName = "renewed", .pTests = tests_of_renewed},
+  {.pName = "steady", .pTests = tests_of_steady})

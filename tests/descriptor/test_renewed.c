@@ -41,8 +41,8 @@ static double error_most(steif_context *ctx, const steif_linear *l, const double
   return most;
 }
 
-/* Index 3 and 2, from inconsistent values; errors as multiples of rtol. At 1e-10 a step of bdf cannot be
- * seen to be worse than 3e-12, and 200 of them add. */
+/* Index 3 and 2, from inconsistent values; errors as multiples of rtol. At 1e-10 a step of
+ * bdf cannot be seen to be worse than 3e-12, and 200 of them add. */
 static void unknowns_of_every_index(void)
 {
   static const struct {
