@@ -154,15 +154,20 @@ static int couple(stf_newton *newton, int lane)
   return STEIF_OK;
 }
 
-/* omega: right sides in, solutions out, lane by lane from the last. */
+/* omega: right sides in, solutions out, lane by lane from the last where they are coupled. */
 static int solve_lanes(stf_newton *newton)
 {
   const stf_split *split = &newton->split;
+  N_Vector re[STEIF_STAGES], im[STEIF_STAGES];
+  for (int k = 0; k < split->lanes; k++) {
+    re[k] = newton->omega[split->row[k]];
+    im[k] = split->im[k] != 0 ? newton->omega[split->row[k] + 1] : NULL;
+  }
+  if (!split->coupling)
+    return stf_crew_solve(newton->system->pencil, split->lanes, re, im);
   for (int k = split->lanes; k-- > 0;) {
-    N_Vector *at = newton->omega + split->row[k];
-    if (split->coupling) STEIF_TRY(couple(newton, k));
-    STEIF_TRY(
-      steif_pencil_solve(newton->system->pencil, k, 1, at, split->im[k] != 0 ? at + 1 : NULL));
+    STEIF_TRY(couple(newton, k));
+    STEIF_TRY(steif_pencil_solve(newton->system->pencil, k, 1, &re[k], im[k] ? &im[k] : NULL));
   }
   return STEIF_OK;
 }

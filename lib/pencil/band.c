@@ -181,6 +181,7 @@ const stf_backend stf_backend_band = {
   .prepare = prepare,
   .factor = factor,
   .solve = solve,
+  .columns = columns,
   .product = product,
   .close = finish,
 };

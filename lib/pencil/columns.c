@@ -49,13 +49,13 @@ static int real(steif_pencil *p, int slot, int nrhs, N_Vector *re, stf_columns_s
   return STEIF_OK;
 }
 
-static void join(size_t n, const double *restrict re, const double *restrict im,
+void stf_columns_join(size_t n, const double *restrict re, const double *restrict im,
                  double *restrict w)
 {
   for (size_t i = 0; i < n; i++) w[2 * i] = re[i], w[2 * i + 1] = im[i];
 }
 
-static void part(size_t n, const double *restrict w, double *restrict re, double *restrict im)
+void stf_columns_part(size_t n, const double *restrict w, double *restrict re, double *restrict im)
 {
   for (size_t i = 0; i < n; i++) re[i] = w[2 * i], im[i] = w[2 * i + 1];
 }
@@ -69,10 +69,10 @@ int stf_columns(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im,
   for (int done = 0; done < nrhs; done += WIDTH) {
     const int now = nrhs - done < WIDTH ? nrhs - done : WIDTH;
     for (int k = 0; k < now; k++)
-      join(n, stf_array(re[done + k]), stf_array(im[done + k]), p->work + 2 * n * (size_t)k);
+      stf_columns_join(n, stf_array(re[done + k]), stf_array(im[done + k]), p->work + 2 * n * (size_t)k);
     STEIF_TRY(solve(p, slot, now, p->work, p->n));
     for (int k = 0; k < now; k++)
-      part(n, p->work + 2 * n * (size_t)k, stf_array(re[done + k]), stf_array(im[done + k]));
+      stf_columns_part(n, p->work + 2 * n * (size_t)k, stf_array(re[done + k]), stf_array(im[done + k]));
   }
   return STEIF_OK;
 }

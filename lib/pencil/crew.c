@@ -57,3 +57,57 @@ void stf_crew_factor(steif_pencil *p, int count, const int *slots, const steif_s
   stf_crew(crowd ? stf_threads(p->ctx) : 1, count, factor,
            &(factoring){.p = p, .slots = slots, .s = s, .out = out});
 }
+
+/* WIDTH: complex columns that p->work holds. A solve is shorter than a factorisation: threads pay later. */
+enum { WIDTH = STF_COLUMNS / 2, LATER = 4 };
+
+typedef struct solving {
+  steif_pencil *p;
+  int count, slots[WIDTH]; /* complex ones; the real ones together are one piece more */
+  int lanes, code[WIDTH + 1];
+  N_Vector *re, *im;
+} solving;
+
+static int solve_real(solving *s)
+{
+  for (int k = 0; k < s->lanes; k++)
+    if (!stf_is_complex(s->p->shift[k]))
+      STEIF_TRY(s->p->backend->solve(s->p, k, 1, &s->re[k], NULL));
+  return STEIF_OK;
+}
+
+static void solve(void *task, int i)
+{
+  solving *s = task;
+  steif_pencil *p = s->p;
+  const size_t n = (size_t)p->n;
+  if (i == s->count) {
+    s->code[i] = solve_real(s);
+    return;
+  }
+  const int k = s->slots[i];
+  double *re = stf_array(s->re[k]), *im = stf_array(s->im[k]), *w = p->work + 2 * n * (size_t)i;
+  stf_columns_join(n, re, im, w);
+  s->code[i] = p->backend->columns(p, k, 1, w, p->n);
+  stf_columns_part(n, w, re, im);
+}
+
+int stf_crew_solve(steif_pencil *p, int count, N_Vector *re, N_Vector *im)
+{
+  const stf_backend *b = p->backend;
+  const int threads = stf_threads(p->ctx);
+  int complex = 0;
+  for (int k = 0; k < count; k++) complex += stf_is_complex(p->shift[k]);
+  if (!b->columns || !b->crowd || p->n < LATER * b->crowd || threads < 2 || complex > WIDTH || count < 2) {
+    for (int k = 0; k < count; k++)
+      STEIF_TRY(steif_pencil_solve(p, k, 1, re + k, im[k] ? im + k : NULL));
+    return STEIF_OK;
+  }
+  solving s = {.p = p, .lanes = count, .re = re, .im = im};
+  for (int k = 0; k < count; k++)
+    if (stf_is_complex(p->shift[k])) s.slots[s.count++] = k;
+  p->stats.solves += count;
+  stf_crew(threads, s.count + (s.count < count), solve, &s);
+  for (int i = 0; i <= s.count; i++) STEIF_TRY(s.code[i]);
+  return STEIF_OK;
+}

@@ -198,6 +198,7 @@ const stf_backend stf_backend_dense = {
   .prepare = prepare,
   .factor = factor,
   .solve = solve,
+  .columns = columns,
   .product = product,
   .close = finish,
 };

@@ -23,6 +23,8 @@ typedef struct stf_outcome {
  * bytes, zeroed, allocated and released by the frame. `prepare` is called one slot after another
  * and may allocate and fail with a sentence; `factor` touches its slot and its outcome only, and
  * is called from several threads when n >= `crowd` (0: never). */
+typedef int stf_columns_solve(steif_pencil *p, int slot, int nrhs, double *b, sunindextype ld);
+
 typedef struct stf_backend {
   const char *name;
   size_t size;
@@ -33,6 +35,7 @@ typedef struct stf_backend {
   int (*prepare)(steif_pencil *p, int slot, steif_shift s);
   void (*factor)(steif_pencil *p, int slot, steif_shift s, stf_outcome *out);
   int (*solve)(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im);
+  stf_columns_solve *columns; /* from several threads for complex slots; NULL: not so */
   int (*product)(steif_pencil *p, char which, N_Vector x, N_Vector out);
   void (*close)(steif_pencil *p);
 } stf_backend;
@@ -87,14 +90,20 @@ void stf_crew(int threads, int count, void (*piece)(void *task, int i), void *ta
 void stf_crew_factor(steif_pencil *p, int count, const int *slots, const steif_shift *s,
                      stf_outcome *out);
 
+/* One right-hand side with each of the slots 0 .. count-1, re[k] + i im[k], side by side where it pays;
+ * im[k] = NULL for a real slot. What comes out does not depend on the number of threads. */
+int stf_crew_solve(steif_pencil *p, int count, N_Vector *re, N_Vector *im);
+
 /* columns.c: right-hand sides as columns of one array, `ld` apart, complex ones interleaved. Calls
  * `solve` for as many at a time as p->work holds; works in place where the vectors already are. */
-typedef int stf_columns_solve(steif_pencil *p, int slot, int nrhs, double *b, sunindextype ld);
 int stf_columns_open(steif_pencil *p);
 int stf_columns(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im,
                 stf_columns_solve *solve);
 /* All finite? Branch-free, since the answer is yes. */
 bool stf_all_finite(const double *x, size_t count);
+/* Vectors to interleaved columns and back. */
+void stf_columns_join(size_t n, const double *re, const double *im, double *w);
+void stf_columns_part(size_t n, const double *w, double *re, double *im);
 
 /* The solve of a sparse slot and nothing around it, b in its own layout (complex: interleaved):
  * the floor that benchmarks compare with. */

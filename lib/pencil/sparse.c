@@ -370,6 +370,7 @@ const stf_backend stf_backend_sparse = {
   .prepare = prepare,
   .factor = factor,
   .solve = solve,
+  .columns = columns,
   .product = stf_sparse_product,
   .close = finish,
 };

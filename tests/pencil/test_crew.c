@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "base/failing.h"
 #include "gear.h"
+#include "pencil.h"
 #include "suite.h"
 #include <stdlib.h>
 #include <string.h>
@@ -171,7 +172,53 @@ static void thrift(void)
   }
 }
 
+/* Large enough for threads, and a chain: cheap. */
+static SUNMatrix chain(int n, SUNContext sun)
+{
+  SUNMatrix M = SUNSparseMatrix(n, n, 3 * n, CSC_MAT, sun);
+  sunindextype k = 0;
+  for (int j = 0; j < n; j++) {
+    SM_INDEXPTRS_S(M)[j] = k;
+    for (int i = j ? j - 1 : 0; i < n && i <= j + 1; i++)
+      SM_INDEXVALS_S(M)[k] = i, SM_DATA_S(M)[k++] = entry(i, j, 1);
+  }
+  SM_INDEXPTRS_S(M)[n] = k;
+  return M;
+}
+
+static void solves_side_by_side(void)
+{
+  enum { LANES = 4, LONG = 8100 };
+  static const steif_shift s[LANES] = {{0.3, 2}, {1.7, 0}, {0.7, -5}, {4, 11}};
+  for (int threads = 1; threads <= 3; threads++) {
+    steif_context *c = steif_context_new(&(steif_setup){.threads = threads});
+    SUNContext sun = steif_sundials(c);
+    SUNMatrix A = chain(LONG, sun);
+    steif_pencil *p = steif_pencil_new(c, NULL, A);
+    CHECK(steif_pencil_factor(p, LANES, s) == STEIF_OK);
+    N_Vector re[LANES], im[LANES], alone[2];
+    for (int k = 0; k < LANES; k++) {
+      re[k] = gear_vector(LONG, 5u + (unsigned)k, sun);
+      im[k] = s[k].im != 0 ? gear_vector(LONG, 17u + (unsigned)k, sun) : NULL;
+    }
+    CHECK(stf_crew_solve(p, LANES, re, im) == STEIF_OK);
+    CHECK(steif_pencil_statistics(p)->solves == LANES);
+    for (int k = 0; k < LANES; k++) {
+      alone[0] = gear_vector(LONG, 5u + (unsigned)k, sun);
+      alone[1] = gear_vector(LONG, 17u + (unsigned)k, sun);
+      CHECK(steif_pencil_solve(p, k, 1, alone, im[k] ? alone + 1 : NULL) == STEIF_OK);
+      CHECK(!memcmp(NV_DATA_S(re[k]), NV_DATA_S(alone[0]), LONG * sizeof(double)));
+      if (im[k]) CHECK(!memcmp(NV_DATA_S(im[k]), NV_DATA_S(alone[1]), LONG * sizeof(double)));
+      N_VDestroy(re[k]), N_VDestroy(alone[0]), N_VDestroy(alone[1]);
+      if (im[k]) N_VDestroy(im[k]);
+    }
+    steif_pencil_free(&p), SUNMatDestroy(A);
+    steif_context_free(&c);
+  }
+}
+
 CU_TestInfo tests_of_crew[] = {
+  {"solves side by side are those one by one, bit for bit", solves_side_by_side},
   {"one, two and four threads agree bit for bit", side_by_side},
   {"a failure beside others is told, the others stand", one_of_many_fails},
   {"every allocation may fail without crash or leak", hunger},
