@@ -1,6 +1,7 @@
 /* space.c: vector kernels.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "space.h"
+#include "simd.h"
 #include <math.h>
 
 void stf_space_open(stf_space *space, N_Vector like)
@@ -56,18 +57,65 @@ void stf_sum(const stf_space *space, sunrealtype a, N_Vector x, sunrealtype b, N
   for (sunindextype i = 0; i < space->n; i++) w[i] = a * u[i] + b * v[i];
 }
 
-/* Components are taken in blocks that stay in the first cache while the terms pass over them. */
-enum { BLOCK = 256 };
+/* Components are taken in blocks that stay in the first cache while the terms pass over them, four at
+ * a time; each is the sum of its terms in their order, on every machine. */
+enum { BLOCK = 256, TERMS = 4 };
 
-static void block_sum(int count, const sunrealtype *c, N_Vector *x, sunindextype from,
-                      sunindextype size, sunrealtype *restrict sum)
+INLINE void add_terms(int terms, const sunrealtype *f, const sunrealtype *const *a, int size,
+                      sunrealtype *restrict sum)
 {
-  for (sunindextype i = 0; i < size; i++) sum[i] = 0;
-  for (int j = 0; j < count; j++) {
-    const sunrealtype *a = STF_ARRAY(x[j]) + from, f = c[j];
-    if (f == 0) continue;
-    for (sunindextype i = 0; i < size; i++) sum[i] += f * a[i];
+  const sunrealtype *restrict a0 = a[0], *restrict a1 = a[1], *restrict a2 = a[2],
+                              *restrict a3 = a[3];
+  switch (terms) {
+  case 1:
+    for (int i = 0; i < size; i++) sum[i] += f[0] * a0[i];
+    break;
+  case 2:
+    for (int i = 0; i < size; i++) sum[i] = sum[i] + f[0] * a0[i] + f[1] * a1[i];
+    break;
+  case 3:
+    for (int i = 0; i < size; i++)
+      sum[i] = sum[i] + f[0] * a0[i] + f[1] * a1[i] + f[2] * a2[i];
+    break;
+  case 4:
+    for (int i = 0; i < size; i++)
+      sum[i] = sum[i] + f[0] * a0[i] + f[1] * a1[i] + f[2] * a2[i] + f[3] * a3[i];
   }
+}
+
+INLINE void add_all(int count, const sunrealtype *c, N_Vector *x, sunindextype from, int size,
+                    sunrealtype *restrict sum)
+{
+  for (int j = 0; j < count;) {
+    sunrealtype f[TERMS];
+    const sunrealtype *a[TERMS] = {NULL};
+    int terms = 0;
+    for (; j < count && terms < TERMS; j++)
+      if (c[j] != 0) f[terms] = c[j], a[terms++] = STF_ARRAY(x[j]) + from;
+    add_terms(terms, f, a, size, sum);
+  }
+}
+
+#ifdef STF_SIMD_X86
+__attribute__((target("avx2"))) static void add_all_avx2(int count, const sunrealtype *c,
+                                                         N_Vector *x, sunindextype from,
+                                                         int size, sunrealtype *sum)
+{
+  add_all(count, c, x, from, size, sum);
+}
+#endif
+
+/* sum += the terms in components from .. from + size - 1. */
+static void block_sum(int count, const sunrealtype *c, N_Vector *x, sunindextype from, int size,
+                      sunrealtype *sum)
+{
+#ifdef STF_SIMD_X86
+  if (stf_simd_width() > 2) {
+    add_all_avx2(count, c, x, from, size, sum);
+    return;
+  }
+#endif
+  add_all(count, c, x, from, size, sum);
 }
 
 /* Few components: one after another in a register; terms in the same order, so the same bits. */
@@ -84,58 +132,59 @@ static void few_sums(sunindextype n, int count, const sunrealtype *c, N_Vector *
   }
 }
 
-static sunindextype block_size(sunindextype n, sunindextype from)
+static int block_size(sunindextype n, sunindextype from)
 {
-  return n - from < BLOCK ? n - from : BLOCK;
+  return n - from < BLOCK ? (int)(n - from) : BLOCK;
+}
+
+/* Rows of a block one after another, so that its x are read from the first cache. */
+static void mix_blocks(const stf_space *space, int rows, int columns, const sunrealtype *M,
+                       N_Vector *x, N_Vector *z, bool add)
+{
+  sunrealtype sum[BLOCK];
+  for (sunindextype from = 0; from < space->n; from += BLOCK) {
+    const int size = block_size(space->n, from);
+    for (int i = 0; i < rows; i++) {
+      sunrealtype *out = STF_ARRAY(z[i]) + from;
+      for (int k = 0; k < size; k++) sum[k] = 0;
+      block_sum(columns, M + i * columns, x, from, size, sum);
+      for (int k = 0; k < size; k++) out[k] = add ? out[k] + sum[k] : sum[k];
+    }
+  }
 }
 
 void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vector *x,
                  N_Vector z)
 {
-  if (!space->serial) {
-    if (count == 0)
-      N_VConst(0, z);
-    else
-      N_VLinearCombination(count, (sunrealtype *)c, x, z);
-    return;
-  }
-  sunrealtype sum[BLOCK], *out = STF_ARRAY(z);
-  if (space->n <= FEW) {
-    few_sums(space->n, count, c, x, out);
-    return;
-  }
-  for (sunindextype from = 0; from < space->n; from += BLOCK) {
-    const sunindextype size = block_size(space->n, from);
-    block_sum(count, c, x, from, size, sum);
-    for (sunindextype i = 0; i < size; i++) out[from + i] = sum[i];
-  }
+  if (space->serial && space->n <= FEW)
+    few_sums(space->n, count, c, x, STF_ARRAY(z));
+  else if (space->serial)
+    mix_blocks(space, 1, count, c, x, &z, false);
+  else if (count == 0)
+    N_VConst(0, z);
+  else
+    N_VLinearCombination(count, (sunrealtype *)c, x, z);
 }
 
 void stf_mix(const stf_space *space, int rows, int columns, const sunrealtype *M, N_Vector *x,
              N_Vector *z)
 {
-  for (int i = 0; i < rows; i++) stf_combine(space, columns, M + i * columns, x, z[i]);
-}
-
-static void combine_add(const stf_space *space, int count, const sunrealtype *c, N_Vector *x,
-                        N_Vector z)
-{
-  if (!space->serial) {
-    for (int j = 0; j < count; j++) N_VLinearSum(c[j], x[j], 1, z, z);
+  if (space->serial && space->n > FEW) {
+    mix_blocks(space, rows, columns, M, x, z, false);
     return;
   }
-  sunrealtype sum[BLOCK], *out = STF_ARRAY(z);
-  for (sunindextype from = 0; from < space->n; from += BLOCK) {
-    const sunindextype size = block_size(space->n, from);
-    block_sum(count, c, x, from, size, sum);
-    for (sunindextype i = 0; i < size; i++) out[from + i] += sum[i];
-  }
+  for (int i = 0; i < rows; i++) stf_combine(space, columns, M + i * columns, x, z[i]);
 }
 
 void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtype *M,
                  N_Vector *x, N_Vector *z)
 {
-  for (int i = 0; i < rows; i++) combine_add(space, columns, M + i * columns, x, z[i]);
+  if (space->serial) {
+    mix_blocks(space, rows, columns, M, x, z, true);
+    return;
+  }
+  for (int i = 0; i < rows; i++)
+    for (int j = 0; j < columns; j++) N_VLinearSum(M[i * columns + j], x[j], 1, z[i], z[i]);
 }
 
 sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w)
