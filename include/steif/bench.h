@@ -18,12 +18,15 @@ extern "C" {
  *   "sparse"   step_s: a fixed step of a linear sparse problem; floor_s: its KLU solves, called
  *              directly, and its products with E and A (the right-hand side); limit 1.3
  *   "stages"   a step with s collocation stages; floor_s: its floor(s/2) complex and s mod 2 real KLU
- *              solves alone; limit 1.3
+ *              solves alone, one after another; limit 1.3
  *   "small"    step_s: a step (n <= 10) less its measured f, J, factorisations and solves; floor_s: a
  *              whole step of CVODE on the same problem at rtol 1e-6, as the library found at run time
  *              has it; limit 1
  *   "splitting" a step of verlet with n = 1e6; floor_s: the force once, and y += h f twice for all of y;
  *              limit 1.2
+ *   "threads"  step_s: a step with new factors by two threads, by the clock; floor_s: the same by
+ *              one, with the same numbers bit for bit (else STEIF_NOT_CERTIFIED); limit 1/1.3; s = 3
+ *              has one complex system, which takes nearly all the time
  *   "lyapunov" (steif_bench_lyapunov) step_s: a step with all n Lyapunov exponents, 10 where n is
  *              10000; floor_s: the step alone, J and its product with as many columns for every
  *              stage, the systems of the stages (one of order s n for s collocation stages), Q R by

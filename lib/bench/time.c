@@ -5,12 +5,16 @@
 #include <steif/collection.h>
 #include <time.h>
 
-sunrealtype stf_now(void)
+static sunrealtype seconds(clockid_t clock)
 {
   struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  clock_gettime(clock, &t);
   return (sunrealtype)t.tv_sec + 1e-9 * (sunrealtype)t.tv_nsec;
 }
+
+sunrealtype stf_now(void) { return seconds(CLOCK_PROCESS_CPUTIME_ID); }
+
+sunrealtype stf_clock(void) { return seconds(CLOCK_MONOTONIC); }
 
 static sunrealtype batch(void (*work)(void *), void *data, long count)
 {
