@@ -16,7 +16,7 @@
  *
  * Derivatives of F along a curve are taken from values of F, E and A at Chebyshev nodes:
  * nothing beyond the callbacks of steif_problem is asked for. The structure and the growth
- * are computed for any n; the array, starts and explanations are dense and serve n <= 300.
+ * are computed for any n; the array, starts and most causes of failures are dense and serve n <= 300.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_DIAGNOSE_H

@@ -32,7 +32,9 @@ typedef struct steif_failure {
     sunrealtype allowed;     /* ... 1 / weight, times h^(1 - index) as in the error test */
     sunrealtype residual;    /* of the equation of that number at t */
   } worst[STEIF_WORST];
-  steif_cause cause;         /* STEIF_CAUSE_UNKNOWN also for more than STEIF_DIAGNOSE_LARGEST unknowns */
+  steif_cause cause;         /* with more than STEIF_DIAGNOSE_LARGEST unknowns only of values
+                                that are not finite, blow-up, jumps, tolerance and ringing; with
+                                Krylov storage STEIF_CAUSE_UNKNOWN */
   char message[2 * STEIF_SENTENCE]; /* all of it */
 } steif_failure;
 

@@ -260,6 +260,8 @@ typedef struct stf_case {
   steif_diagnosis diagnosis;
   bool gathered;
 } stf_case;
+/* More unknowns than the dense tests serve. */
+bool stf_case_large(const stf_case *c);
 /* Each looks for one cause and fills *cause if it is there. */
 int stf_case_blow_up(stf_case *c);
 int stf_case_impasse(stf_case *c);

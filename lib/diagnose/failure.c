@@ -6,12 +6,13 @@
 #include <steif/failure.h>
 #include <string.h>
 
-enum { KEPT = 400, RECENT = 100 }; /* points; the last ones, which are not thinned */
+/* Points; the last quarter is not thinned. Large problems keep fewer, of so many numbers in all. */
+enum { KEPT = 400, FEWEST = 24, NUMBERS = 20000000 };
 
 typedef struct record {
   const steif_problem *problem;
-  size_t n, count;
-  sunrealtype *t, *y, *yp; /* KEPT times, KEPT x n values by rows */
+  size_t n, count, room;
+  sunrealtype *t, *y, *yp; /* room times, room x n values by rows */
   bool ode;
   N_Vector slope;
 } record;
@@ -21,7 +22,7 @@ static void thin(record *r)
 {
   size_t to = 0;
   for (size_t k = 0; k < r->count; k++) {
-    if (k + RECENT < r->count && k % 2) continue;
+    if (k + r->room / 4 < r->count && k % 2) continue;
     r->t[to] = r->t[k];
     memmove(r->y + to * r->n, r->y + k * r->n, r->n * sizeof *r->y);
     memmove(r->yp + to * r->n, r->yp + k * r->n, r->n * sizeof *r->yp);
@@ -49,7 +50,7 @@ static int keep(steif_solver *s, sunrealtype t, N_Vector y, void *user)
   record *r = user;
   (void)s;
   if (r->count > 0 && !(t > r->t[r->count - 1])) r->count--; /* the same time anew */
-  if (r->count == KEPT) thin(r);
+  if (r->count == r->room) thin(r);
   const size_t k = r->count++;
   r->t[k] = t;
   memcpy(r->y + k * r->n, N_VGetArrayPointer(y), r->n * sizeof *r->y);
@@ -60,10 +61,11 @@ static int keep(steif_solver *s, sunrealtype t, N_Vector y, void *user)
 static int open_record(stf_pool *pool, const steif_problem *p, int form, N_Vector y, record *r)
 {
   const size_t n = (size_t)p->n;
-  *r = (record){.problem = p, .n = n, .ode = form == STEIF_ODE};
-  r->t = stf_claim(pool, KEPT, sizeof *r->t);
-  r->y = stf_claim(pool, KEPT * n, sizeof *r->y);
-  r->yp = stf_claim(pool, KEPT * n, sizeof *r->yp);
+  const size_t room = NUMBERS / n > KEPT ? KEPT : NUMBERS / n < FEWEST ? FEWEST : NUMBERS / n;
+  *r = (record){.problem = p, .n = n, .room = room, .ode = form == STEIF_ODE};
+  r->t = stf_claim(pool, room, sizeof *r->t);
+  r->y = stf_claim(pool, room * n, sizeof *r->y);
+  r->yp = stf_claim(pool, room * n, sizeof *r->yp);
   r->slope = stf_claim_vector(pool, y);
   return r->t && r->y && r->yp && r->slope ? STEIF_OK : STEIF_NO_MEMORY;
 }
@@ -165,7 +167,7 @@ static int explain(steif_solver *s, const record *r, steif_failure *f)
 static int repeat(steif_solver *s, record *r, steif_failure *f)
 {
   const steif_problem *p = s->problem;
-  const bool looked = p->n <= STEIF_DIAGNOSE_LARGEST && p->storage != STEIF_KRYLOV;
+  const bool looked = p->storage != STEIF_KRYLOV;
   keep(s, p->t0, s->shown, r);
   f->code = steif_solve_to(s, s->t1);
   steif_statistics(s);

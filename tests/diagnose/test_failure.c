@@ -219,6 +219,51 @@ static void noise_in_differences_is_told_by_name(void)
   CHECK(strstr(f.message, "it moves force by") != NULL);
 }
 
+/* u_t = 20 u_xx + u^2 on a sparse chain, and what stops it: its own growth, NaN behind t = 0.3, a refusal. */
+enum { LINKS = 1000 };
+typedef struct link {
+  int kind;
+} link_kind;
+
+static int links(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  const int kind = ((link_kind *)user)->kind;
+  const sunrealtype *u = N_VGetArrayPointer(y);
+  sunrealtype *out = N_VGetArrayPointer(r);
+  for (int i = 0; i < LINKS; i++) {
+    const sunrealtype left = u[i ? i - 1 : 0], right = u[i < LINKS - 1 ? i + 1 : i];
+    out[i] = 20 * (left - 2 * u[i] + right) + u[i] * u[i];
+  }
+  if (t > 0.3 && kind == 1) out[700] = NAN;
+  return t > 0.3 && kind == 2 ? -5 : 0;
+}
+
+static void large_problems_are_looked_at_too(void)
+{
+  sunrealtype y0[LINKS];
+  for (int i = 0; i < LINKS; i++) y0[i] = 1;
+  link_kind kind = {0};
+  const steif_problem p = {.name = "links",
+                           .n = LINKS,
+                           .t1 = 2,
+                           .y0 = y0,
+                           .f = links,
+                           .storage = STEIF_BAND,
+                           .lower = 1,
+                           .upper = 1,
+                           .user = &kind};
+  steif_failure f;
+  find(&p, "radau:s=3", 1e-5, &f);
+  CHECK(f.cause.kind == STEIF_CAUSE_BLOW_UP);
+  CLOSE(f.cause.t, 1, 1e-4);
+  for (kind.kind = 1; kind.kind <= 2; kind.kind++) {
+    find(&p, "bdf", 1e-5, &f);
+    CHECK(f.cause.kind == STEIF_CAUSE_NOT_FINITE);
+    CHECK(f.cause.equation == (kind.kind == 1 ? 700 : -1));
+    CLOSE_FLOOR(f.cause.t, 0.3, 0.1, 1);
+  }
+}
+
 static void good_runs_have_no_failure(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -263,6 +308,7 @@ CU_TestInfo tests_of_failure[] = {
   {"impulses of the start are told", impulses_of_the_start_are_told},
   {"steps that stability holds are told", steps_that_stability_holds_are_told},
   {"noise in differences is told by name", noise_in_differences_is_told_by_name},
+  {"large problems are looked at too", large_problems_are_looked_at_too},
   {"good runs have no failure", good_runs_have_no_failure},
   {"memory may fail at any request", memory_may_fail_at_any_request},
   CU_TEST_INFO_NULL};
