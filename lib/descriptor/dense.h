@@ -82,6 +82,10 @@ int stf_split_impulse(const stf_split *split, int k, const stf_sources *sources,
 int stf_split_give(stf_pool *pool, const stf_split *split, const stf_pieces *parts);
 /* ||F_inf^{-1} [I L] P^T||, by which changes of equations enter N. */
 int stf_split_rows(stf_pool *pool, const stf_split *split, sunrealtype *norm);
+/* Finite eigenvalues by Jensen's formula from LU decompositions, where none is between these sizes,
+ * `inner` 0: there are none, `outer` INFINITY: no infinite one shows; NaN where a matrix is singular. */
+int stf_jensen(stf_pool *pool, int n, const sunrealtype *E, const sunrealtype *F,
+               sunrealtype inner, sunrealtype outer, sunrealtype *count);
 /* Equations and unknowns that carry the leading Laurent coefficient Phi_{k-1}. */
 int stf_split_offenders(stf_pool *pool, stf_split *split, int k, steif_structure *structure);
 

@@ -22,6 +22,7 @@ void dormqr_(const char *side, const char *trans, const int *m, const int *n, co
              size_t trans_length);
 
 void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *ipiv, int *info);
+void zgetrf_(const int *m, const int *n, void *a, const int *lda, int *ipiv, int *info);
 void dgetrs_(const char *trans, const int *n, const int *nrhs, const double *a, const int *lda,
              const int *ipiv, double *b, const int *ldb, int *info, size_t trans_length);
 void dgecon_(const char *norm, const int *n, const double *a, const int *lda,

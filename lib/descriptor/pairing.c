@@ -113,7 +113,10 @@ static int second(pairing *p)
   STEIF_TRY(stf_scales_degree(p->ctx, p->n, p->E, p->F, &degree));
   p->resolution = fmin(p->stairs.resolution, p->schur.resolution);
   if (p->stairs.finite == degree) p->resolution = INFINITY;
-  return STEIF_OK;
+  p->stairs.count = NAN;
+  if (p->schur.index < 0) return STEIF_OK;
+  return stf_jensen(p->pool, p->n, p->E, p->F, p->schur.radius, p->schur.resolution,
+                    &p->stairs.count);
 }
 
 static sunrealtype distance(pairing *p, const sunrealtype *a, const sunrealtype *b)
@@ -175,6 +178,11 @@ static const char *verdict(pairing *p, char *room, size_t length)
   if (a->index != b->index)
     snprintf(room, length, "the staircase finds index %d, the generalised Schur form %d",
              a->index, b->index);
+  else if (fabs(a->count - (sunrealtype)a->finite) > 0.5)
+    snprintf(room, length,
+             "%lld finite eigenvalues by staircase and generalised Schur form, but %.3f by "
+             "Jensen's formula",
+             (long long)a->finite, a->count);
   else if (!(p->resolution >= b->radius))
     snprintf(
       room, length,

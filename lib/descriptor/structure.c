@@ -151,7 +151,8 @@ static int find(steif_context *ctx, stf_pool *pool, SUNMatrix E, SUNMatrix F,
   stf_units u;
   if (by_dense(analysis)) {
     STEIF_TRY(stf_dense_structure(ctx, E, F, analysis, whole, structure));
-    structure->count = NAN, structure->degree = -1;
+    if (!whole || !structure->regular) structure->count = NAN;
+    structure->degree = -1;
     if (!whole) return STEIF_OK;
   }
   STEIF_TRY(stf_units_open(ctx, pool, E, F, &u));
@@ -215,6 +216,18 @@ static int working(const steif_structure *s)
   return s->index_least > 1 ? s->index_least : 1;
 }
 
+/* There is no answer, and why: all that can be said is found out now. */
+static int singular(question *q, const steif_structure *s)
+{
+  steif_structure why = {.count = NAN, .degree = -1};
+  if (!*s->message) STEIF_TRY(find(q->ctx, q->pool, q->E, q->F, &q->analysis, true, &why));
+  const int code =
+    STEIF_FAIL(q->ctx, STEIF_SINGULAR, "x(0+) does not exist or is not unique: %s",
+               *s->message ? s->message : why.message);
+  steif_structure_clear(q->ctx, &why);
+  return code;
+}
+
 static int know(question *q, const steif_structure *structure, int *index)
 {
   const bool given =
@@ -225,11 +238,7 @@ static int know(question *q, const steif_structure *structure, int *index)
               (long long)structure->n, (long long)order(q->E));
   if (!given) STEIF_TRY(find(q->ctx, q->pool, q->E, q->F, &q->analysis, false, &q->found));
   const steif_structure *s = given ? structure : &q->found;
-  STEIF_CHECK(
-    s->regular, q->ctx, STEIF_SINGULAR,
-    "the pencil is singular (reciprocal condition %.1e at best): x(0+) does not exist "
-    "or is not unique; see its structure for equations and unknowns to look at",
-    s->rcond);
+  if (!s->regular) return singular(q, s);
   *index = working(s);
   q->demand.finite = s->finite;
   if (given) {

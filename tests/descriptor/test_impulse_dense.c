@@ -316,7 +316,8 @@ static void bad_questions_are_refused(void)
   CHECK(steif_impulse_find(ctx, E, F, before, 0, NULL, NULL, NULL, NULL, NULL) ==
         STEIF_BAD_INPUT);
   for (int j = 0; j < 5; j++) SM_ELEMENT_D(E, 3, j) = SM_ELEMENT_D(F, 3, j) = 0;
-  refused(ctx, before, E, F, force, NULL, NULL, STEIF_SINGULAR, "the pencil is singular");
+  refused(ctx, before, E, F, force, NULL, NULL, STEIF_SINGULAR,
+          "singular pencil: equation 4 is empty");
   refused(ctx, before, E, F, force, NULL, &s, STEIF_SINGULAR, "the pencil is singular");
   steif_structure_clear(ctx, &s);
   SUNMatDestroy(E), SUNMatDestroy(F);

@@ -31,7 +31,7 @@ static void five_by_five(void)
     CHECK(lists(s.unknowns, s.unknowns_count, 3, (const sunindextype[]){0, 1, 2}));
     CHECK(lists(s.equations, s.equations_count, 4, (const sunindextype[]){1, 2, 3, 4}));
     CLOSE(s.radius, sqrt(9.25), 1e-13);
-    CHECK(s.gap > 1e12 && s.rcond > 1e-4 && s.rcond < 1 && isnan(s.count));
+    CHECK(s.gap > 1e12 && s.rcond > 1e-4 && s.rcond < 1 && fabs(s.count - 2) < 1e-5);
     CHECK(s.degree >= 2 && s.degree <= 5);
     CHECK(!strcmp(s.method, i ? "qz" : "staircase"));
     CHECK(strstr(s.message, "regular, index 3: 2 finite eigenvalues (largest 3.04), "
