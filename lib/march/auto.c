@@ -7,8 +7,8 @@
  *     y' = f(y) or M y' = f(y), n <= 24           Rosenbrock down to rtol 1e-4
  *     others, n <= 8                              Rosenbrock at rtol 1e-1
  *   small dense systems (vector lanes)            radau:s=7, but s=5 at rtol 1e-1, and at 1e-2 for n > 8;
- *                                                 and s=5 for M y' = f below 5e-11: the split of s=7 has
- *                                                 fourteen times its condition
+ *                                                 and s=5 for index above 1 below 5e-11: the split of s=7
+ *                                                 has fourteen times its condition
  *   dense systems up to n = 300                   radau:s=5 down to rtol 1e-6, else s=7: oscillations
  *                                                 defeat BDF there
  *   index 3 up to n = 300                         radau:s=5: multipliers have order s - 2
@@ -108,9 +108,8 @@ const char *stf_choose(const steif_problem *p, const steif_options *o, int form,
     reason = "few unknowns, few digits: no iteration";
   else if (small(p, o, form) && o->rtol >= (p->n > FEW ? 0.9e-2 : 0.9e-1))
     method = "radau:s=5", reason = "small and dense: all shifts in vector registers";
-  else if (small(p, o, form) && form == STEIF_MASS && o->rtol < 5e-11)
-    method = "radau:s=5",
-    reason = "near rounding, which algebraic unknowns feel more with s = 7";
+  else if (small(p, o, form) && high && o->rtol < 5e-11)
+    method = "radau:s=5", reason = "near rounding, which multipliers feel more with s = 7";
   else if (small(p, o, form))
     method = "radau:s=7", reason = "small and dense, many digits wanted";
   else if (!high && storage_of(p, o) == STEIF_DENSE && p->n <= MEDIUM)

@@ -26,10 +26,11 @@ int stf_share_open(stf_step *s, const char *name, int q, int p)
   const sunrealtype wanted = stf_share(s, q, p, none) * s->options->rtol;
   s->error_order = q;
   if (!s->adaptive) return STEIF_OK;
-  STEIF_CHECK(wanted > none, s->ctx, STEIF_UNSUPPORTED,
-              "'%s' of order %d cannot keep rtol = %g: the error of one step would have to be below "
-              "rounding; take a method of higher order, radau:s=3 or more, or a larger rtol",
-              name, p, s->options->rtol);
+  STEIF_CHECK(
+    wanted > none, s->ctx, STEIF_UNSUPPORTED,
+    "'%s' of order %d cannot keep rtol = %g: the error of one step would have to be below "
+    "rounding; take a method of higher order, radau:s=3 or more, or a larger rtol",
+    name, p, s->options->rtol);
   s->error_tolerance = stf_share(s, q, p, rounding);
   stf_share_newton(s, rounding);
   return STEIF_OK;
@@ -58,8 +59,8 @@ void stf_trust_open(stf_trust *trust, const steif_table *T, const stf_split *spl
   trust->legendre = 1;
   for (int k = 1; k <= s; k++) trust->legendre *= (sunrealtype)k / (s + k);
   const sunrealtype part = fmin(0.05, 0.002 * s * s);
-  trust->loosest = part * pow(anchor, (s + 1.0) / (2 * s)) *
-                   pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
+  trust->loosest =
+    part * pow(anchor, (s + 1.0) / (2 * s)) * pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
 }
 
 void stf_trust_set(stf_step *s, const stf_trust *trust, sunrealtype top, sunrealtype below)
@@ -107,12 +108,18 @@ void stf_trust_levels(stf_step *s)
     if (index[i] > 1) error[i] *= s->error_tolerance / strict;
 }
 
-int stf_test_undamped(stf_step *s, N_Vector first, bool diverged)
+enum { PATIENCE = 2 };
+
+int stf_filter_rounds(const stf_step *s)
 {
-  enum { PATIENCE = 2 };
+  return s->refused && s->undamped > PATIENCE ? 3 : 1;
+}
+
+int stf_test_undamped(stf_step *s, N_Vector first, int rounds, bool diverged)
+{
   const stf_space *space = &s->system.space;
   const sunrealtype bound = 0.1;
-  stf_axpy(space, -1, s->error, first);
+  stf_axpy(space, -rounds, s->error, first);
   const sunrealtype part = stf_norm(space, first, s->weights);
   if (!s->refused) s->undamped = 0;
   if (part > bound) s->undamped++;

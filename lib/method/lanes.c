@@ -146,7 +146,7 @@ INLINE void right_sides(stf_lanes *L, const int n, const int lanes, double h)
       add(lanes, r, L->Vinv[j], f);
     }
     if (L->M) {
-      for (int j = 0; j < n; j++) {
+      for (int j = 0; j < n && !L->bare; j++) {
         const double e = L->M[i * n + j];
         if (e == 0) continue;
         for (int k = 0; k < 2 * lanes; k++) m[k] += e * L->omega[j * 2 * lanes + k];

@@ -40,6 +40,7 @@ typedef struct stf_lanes {
   double *F, *Y;                        /* s x n, by stages: callbacks write and read them */
   const double *M;                      /* n x n by rows; NULL: identity */
   bool whole;                           /* filter keeps stiff components: by the real part */
+  bool bare; /* F holds whole residuals F - M Z'/h: nothing of omega is taken off them */
 } stf_lanes;
 
 /* Lanes of an eigen split (no coupling) for n components; claimed from the pool. */

@@ -135,9 +135,12 @@ bool stf_filters_twice(const stf_step *s);
 /* Error test of methods that do not damp, at the end of a step: what the second filter took from the
  * first estimate is the deviation of stiff and algebraic components, which later steps will return
  * with the same size; it must be small against the tolerance itself. Where shorter steps do not make it
- * so, or Newton diverged in this step, it is taken from s->next. `first` holds the first estimate and is
- * overwritten, s->error the second one. */
-int stf_test_undamped(stf_step *s, N_Vector first, bool diverged);
+ * so, or Newton diverged in this step, it is taken from s->next. s->error is the estimate after the
+ * filters, `first` the sum of the `rounds` before it and is overwritten. */
+int stf_test_undamped(stf_step *s, N_Vector first, int rounds, bool diverged);
+/* How many estimates are taken off before the one that counts: 1, more where refusals do not help, since
+ * each leaves a part of a deviation that a nonlinear f or an old matrix keeps. */
+int stf_filter_rounds(const stf_step *s);
 
 /* Refuses chosen steps on problems of index 3: methods whose stages have order 1 or
  * that do not damp do not find the multipliers there, and no estimate of theirs would tell. */

@@ -18,6 +18,8 @@ typedef struct stf_small {
   double K[STF_SMALL_STAGES][STF_WIDE]; /* a_k = sum_j K[j][k] Z_j */
   double d[STF_SMALL_STAGES], end[STF_SMALL_STAGES];
   double *f0, *before, *M;
+  double *last_Z; /* n x wide, with M: stages before a correction */
+  const sunrealtype *B; /* A^{-1}, s x s by rows */
   stf_trust trust;
   double h_factored, theta, eta, kappa, first; /* first: ||first correction|| / ||omega|| */
   bool accurate;                               /* the end is a stage */

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "small.h"
 #include <math.h>
+#include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 /* -- Jacobian and factors ----------------------------------------------------------------------------- */
@@ -85,6 +86,43 @@ static double power(double x, int n)
   return p;
 }
 
+/* F_j <- F_j - M sum_k b_jk Z_k / h, b of A^{-1}. */
+static void whole_residuals(stf_small *e, double h)
+{
+  const int n = e->n, wide = e->L.wide;
+  double d[STF_SMALL_LARGEST];
+  stf_lanes_end(&e->L);
+  for (int j = 0; j < e->s; j++) {
+    double *F = STF_ARRAY(e->F[j]);
+    for (int i = 0; i < n; i++) {
+      d[i] = 0;
+      for (int k = 0; k < e->s; k++) d[i] += e->B[j * e->s + k] * e->L.Z[i * wide + k];
+      d[i] /= h;
+    }
+    for (int i = 0; i < n; i++) {
+      double sum = 0;
+      for (int k = 0; k < n; k++) sum += e->M[i * n + k] * d[k];
+      F[i] -= sum;
+    }
+  }
+}
+
+/* The correction just made in the stages themselves; those before it are in Z. Of omega, rounding looks
+ * as many times larger as V^{-1} is large. */
+static double moved(stf_small *e, const double *w)
+{
+  const size_t count = (size_t)e->n * (size_t)e->L.wide;
+  double sum = 0;
+  memcpy(e->last_Z, e->L.Z, count * sizeof *e->last_Z);
+  stf_lanes_end(&e->L);
+  for (int i = 0; i < e->n; i++)
+    for (int j = 0; j < e->s; j++) {
+      const double d = w[i] * (e->L.Z[i * e->L.wide + j] - e->last_Z[i * e->L.wide + j]);
+      sum += d * d;
+    }
+  return sqrt(sum / (double)(e->s * e->n));
+}
+
 static int evaluate(stf_step *s, double h)
 {
   stf_small *e = s->state;
@@ -92,7 +130,16 @@ static int evaluate(stf_step *s, double h)
     const int code = stf_system_rhs(&s->system, s->t + e->table->c[j] * h, e->Y[j], e->F[j]);
     if (code) return e->fails++, e->renew = true, s->shrink = 0.25, code;
   }
+  if (e->L.bare) whole_residuals(e, h);
   return STEIF_OK;
+}
+
+/* In the coordinates of the lanes M omega and F, both large where M y' is, are rounded apart, and their
+ * rounding is multiplied by the condition of V; what rows of M cancel, the algebraic part, is then
+ * rounding. Where that may be all that is left, it goes on with residuals by stages. */
+static bool goes_on_by_stages(const stf_step *s, const stf_small *e, double norm)
+{
+  return e->M && !e->L.bare && s->problem->dae_index < 2 && norm <= 1e-9 / s->options->rtol;
 }
 
 /* Corrections that no longer shrink, or grow once they are small, are rounding: so is then what the
@@ -115,7 +162,8 @@ static bool worth(const stf_step *s, const stf_small *e, double norm, double the
 {
   const double slow = 0.1;
   const int price = 2 + e->n / 2;
-  if (e->sharpened || !e->accurate || s->system.linear || s->problem->dae_index > 1) return false;
+  if (e->sharpened || !e->accurate || s->system.linear || s->problem->dae_index > 1)
+    return false;
   return theta > slow && theta < 1 && power(theta, price) * e->eta * norm > tolerance;
 }
 
@@ -139,10 +187,11 @@ int stf_small_iterate(stf_step *s, double h)
   const double tolerance = floor_of(s, e), mean = 1 / (double)(e->s * e->n);
   const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
   double last = 0, quotient = 0, theta = 0;
-  e->eta = stf_power(fmax(e->eta, STF_EPS), 0.8), e->rough = e->sharpened = false;
+  e->eta = stf_power(fmax(e->eta, STF_EPS), 0.8), e->rough = e->sharpened = e->L.bare = false;
   for (int m = 1, since = 1;; m++, since++) {
     STEIF_TRY(evaluate(s, h));
-    const double norm = sqrt(stf_lanes_sweep(&e->L, y, w, h) * mean);
+    double norm = sqrt(stf_lanes_sweep(&e->L, y, w, h) * mean);
+    if (e->L.bare) norm = moved(e, w);
     s->newton.sweeps++, s->solves += (e->s + 1) / 2, e->iterations = m;
     if (!(norm <= 1e100)) return refuse(s, h, norm, theta, 0.25);
     if (m == 1) e->first = norm;
@@ -158,12 +207,19 @@ int stf_small_iterate(stf_step *s, double h)
         since = 0, e->eta = 1, last = fmax(norm, STF_EPS);
         continue;
       }
-      if (!(theta < 0.99)) return refuse(s, h, norm, theta, 0.5);
       const int left = e->itmax - 1 - m;
       const double excess = e->eta * norm * power(theta, left) / tolerance;
+      const bool slow = !(theta < 0.99) || left < 0 || excess >= 1;
+      if (slow && goes_on_by_stages(s, e, norm)) {
+        e->L.bare = true;
+        m = since = 0, e->eta = 1, last = fmax(norm, STF_EPS);
+        continue;
+      }
+      if (!(theta < 0.99)) return refuse(s, h, norm, theta, 0.5);
       if (left < 0 || excess >= 1) {
         const double q = fmax(1e-4, fmin(20, excess));
-        return refuse(s, h, norm, theta, 0.8 * stf_power(q, -1.0 / (4 + (left > 0 ? left : 0))));
+        return refuse(s, h, norm, theta,
+                      0.8 * stf_power(q, -1.0 / (4 + (left > 0 ? left : 0))));
       }
     } else if (e->eta * norm <= tolerance)
       break;

@@ -25,9 +25,9 @@ typedef struct state {
   sunrealtype *slope;    /* weights in Z of u' where F is looked at for the error, times h */
   bool accurate;         /* the end is a stage */
   stf_trust trust;
-  sunrealtype omega; /* frequency of the fastest part if that oscillates; 0: it does not */
-  long heard;        /* Jacobians made when omega was found */
-  long fails;        /* of Newton up to the accepted step */
+  sunrealtype omega;   /* frequency of the fastest part if that oscillates; 0: it does not */
+  long heard;          /* Jacobians made when omega was found */
+  long fails;          /* of Newton up to the accepted step */
   N_Vector *Z, *trial; /* of the last step and of the attempt, relative to y_n */
   N_Vector *base, *offset, *X;
   N_Vector before; /* y_n of the last step */
@@ -229,10 +229,14 @@ static int estimate_end(stf_step *s, sunrealtype h)
   const stf_space *space = &s->system.space;
   N_Vector first = e->X[0];
   STEIF_TRY(filtered(s, h, s->t + h, s->next));
-  stf_copy(space, s->error, first);
-  stf_sum(space, 1, s->next, 1, first, s->newton.Y);
-  STEIF_TRY(filtered(s, h, s->t + h, s->newton.Y));
-  return stf_test_undamped(s, first, s->newton.fails > e->fails);
+  const int rounds = stf_filter_rounds(s);
+  N_VConst(0, first);
+  for (int k = 0; k < rounds; k++) {
+    stf_axpy(space, 1, s->error, first);
+    stf_sum(space, 1, s->next, 1, first, s->newton.Y);
+    STEIF_TRY(filtered(s, h, s->t + h, s->newton.Y));
+  }
+  return stf_test_undamped(s, first, rounds, s->newton.fails > e->fails);
 }
 
 /* Of the components of index 1: others begin at the error of the last step. */

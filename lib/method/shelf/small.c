@@ -57,6 +57,8 @@ static int claim(stf_step *s, state *e)
   e->moved = stf_claim_vector(s->pool, s->y);
   e->f0 = stf_claim(s->pool, n, sizeof *e->f0);
   e->before = stf_claim(s->pool, n, sizeof *e->before);
+  if (e->M) e->last_Z = stf_claim(s->pool, n * (size_t)e->L.wide, sizeof *e->last_Z);
+  if (e->M && !e->last_Z) return STEIF_NO_MEMORY;
   return e->Y && e->F && e->moved && e->a && e->f0 && e->before ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
@@ -69,6 +71,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->accurate = table->claims & STEIF_STIFFLY_ACCURATE;
   if (!e->accurate) STEIF_TRY(stf_refuse_index(s, table->name));
   STEIF_TRY(stf_split_build(s->pool, s->ctx, table, &split));
+  e->B = split.B;
   STEIF_TRY(fill_M(s, e));
   STEIF_TRY(stf_lanes_open(s->pool, &split, e->n, e->M, &e->L));
   STEIF_TRY(claim(s, e));
@@ -149,8 +152,10 @@ static int estimate_end(stf_step *s, double h)
   defect(e, f, h, STF_ARRAY(s->error));
   stf_lanes_filter(&e->L, STF_ARRAY(s->error));
   STEIF_TRY(filter_again(s, s->t + h, s->next, h));
+  const int rounds = stf_filter_rounds(s);
+  for (int k = 1; k < rounds; k++) STEIF_TRY(filter_again(s, s->t + h, e->moved, h));
   stf_sum(space, 1, e->moved, -1, s->next, e->moved);
-  return stf_test_undamped(s, e->moved, e->fails > 0);
+  return stf_test_undamped(s, e->moved, rounds, e->fails > 0);
 }
 
 static void trust(stf_step *s, const state *e)
