@@ -106,21 +106,21 @@ static void assemble(field *f, SUNMatrix E, SUNMatrix F, int blocks)
   for (sunindextype k = 0; k < count; k++) f->weight[f->row[k]]++;
 }
 
-/* Columns in an order with little fill for any choice of rows. */
+/* Columns in an order with little fill for any choice of rows; COLAMD has integers of its own. */
 static int arrange(field *f)
 {
-  const sunindextype count = f->ptr[f->n];
-  const size_t room = colamd_l_recommended(count, f->n, f->n);
+  const sunindextype n = f->n, count = f->ptr[n];
+  const size_t room = colamd_l_recommended(count, n, n);
   SuiteSparse_long stats[COLAMD_STATS];
-  sunindextype *row = stf_allocate(f->ctx, room ? room : 1, sizeof *row);
+  SuiteSparse_long *row = stf_allocate(f->ctx, room + (size_t)n + 1, sizeof *row);
   if (!row) return STEIF_NO_MEMORY;
-  memcpy(row, f->row, (size_t)count * sizeof *row);
-  memcpy(f->order, f->ptr, ((size_t)f->n + 1) * sizeof *f->order);
-  const bool good =
-    room && colamd_l(f->n, f->n, (SuiteSparse_long)room, row, f->order, NULL, stats);
+  SuiteSparse_long *ptr = row + room;
+  for (sunindextype k = 0; k < count && room; k++) row[k] = f->row[k];
+  for (sunindextype j = 0; j <= n; j++) ptr[j] = f->ptr[j];
+  const bool good = room && colamd_l(n, n, (SuiteSparse_long)room, row, ptr, NULL, stats);
+  for (sunindextype j = 0; j <= n; j++) f->order[j] = (sunindextype)ptr[j];
   stf_release(f->ctx, row);
-  STEIF_CHECK(good, f->ctx, STEIF_NO_MEMORY, "no memory to order %lld columns",
-              (long long)f->n);
+  STEIF_CHECK(good, f->ctx, STEIF_NO_MEMORY, "no memory to order %lld columns", (long long)n);
   return STEIF_OK;
 }
 
