@@ -62,7 +62,7 @@ static int prepare(steif_pencil *p, int slot, steif_shift s)
   }
   if (f->a && (f->wide || !wide)) return STEIF_OK;
   stf_release(p->ctx, f->a);
-  f->a = stf_allocate(p->ctx, n * (wide ? 2 : 1), n * sizeof(double));
+  f->a = stf_allocate(p->ctx, n * n * (wide ? 2 : 1) + STF_SMALL_PAD, sizeof(double));
   f->wide = wide;
   return f->a ? STEIF_OK : STEIF_NO_MEMORY;
 }

@@ -45,17 +45,7 @@ static inline void up(const int n, const int k, const double *restrict a, double
   subtract(n, k, 0, k, a, x);
 }
 
-static inline void solve(const int n, const double *restrict a, const int *restrict perm,
-                         double *restrict b)
-{
-  double x[STF_SMALL];
-  for (int i = 0; i < n; i++) x[i] = b[perm[i]];
-  for (int k = 0; k < n; k++) subtract(n, k, k + 1, n, a, x);
-  for (int k = n - 1; k >= 0; k--) up(n, k, a, x);
-  for (int i = 0; i < n; i++) b[i] = x[i];
-}
-
-/* The same for n <= 8 without a loop over k: with n constant every step is straight code. */
+/* Without a loop over k: with n constant every step is straight code. */
 static inline void solve_short(const int n, const double *restrict a, const int *restrict perm,
                                double *restrict b)
 {
@@ -181,6 +171,7 @@ static inline void zsolve(const int n, const double *restrict re, const double *
 int stf_small_factor(int n, double *a, int *perm)
 {
   int info;
+  if (n > 8) return stf_medium_factor(n, a, perm);
   OF_EACH_SIZE(info =, factor, a, perm)
   return info;
 }
@@ -203,7 +194,7 @@ void stf_small_solve(int n, const double *lu, const int *perm, double *b)
   case 6: solve_short(6, lu, perm, b); break;
   case 7: solve_short(7, lu, perm, b); break;
   case 8: solve_short(8, lu, perm, b); break;
-  default: solve(n, lu, perm, b);
+  default: stf_medium_solve(n, lu, perm, b);
   }
 }
 
