@@ -172,6 +172,13 @@ struct steif_problem {
 STEIF_EXPORT int steif_problem_form(steif_context *ctx, const steif_problem *problem);
 STEIF_EXPORT const char *steif_form_name(int form);
 
+/* The pattern of df/dy, or of dF/dy and dF/dy', with the diagonal: rows that change when one unknown
+ * moves, near the start at t0. n evaluations (2 n of F). What is 0 there is missed; a run with the pattern
+ * goes on checking it. STEIF_NOT_FINITE: no values near the start. Free it after its last use. */
+STEIF_EXPORT int steif_pattern_find(steif_context *ctx, const steif_problem *problem,
+                                    steif_pattern **pattern);
+STEIF_EXPORT void steif_pattern_free(steif_context *ctx, steif_pattern **pattern);
+
 #ifdef __cplusplus
 }
 #endif

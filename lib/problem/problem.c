@@ -66,7 +66,8 @@ int stf_storage_check(steif_context *ctx, const steif_problem *p, enum steif_sto
                 (long long)p->lower, (long long)p->upper, p->name, (long long)p->n - 1);
   if (storage == STEIF_SPARSE)
     STEIF_CHECK(p->pattern || p->nnz > 0, ctx, STEIF_BAD_INPUT,
-                "problem '%s' is stored sparse: set .nnz for its Jacobian or a .pattern for "
+                "problem '%s' is stored sparse: set .nnz for its Jacobian or a .pattern (which "
+                "steif_pattern_find finds) for "
                 "differences",
                 p->name);
   return STEIF_OK;

@@ -2,11 +2,12 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_form[], tests_of_system[], tests_of_differ[], tests_of_operator[],
-  tests_of_start[];
+extern CU_TestInfo tests_of_form[], tests_of_system[], tests_of_differ[], tests_of_pattern[],
+  tests_of_operator[], tests_of_start[];
 
 SUITE_MAIN({.pName = "form", .pTests = tests_of_form},
            {.pName = "system", .pTests = tests_of_system},
            {.pName = "differences", .pTests = tests_of_differ},
+           {.pName = "patterns", .pTests = tests_of_pattern},
            {.pName = "operators", .pTests = tests_of_operator},
            {.pName = "start", .pTests = tests_of_start})
