@@ -1,6 +1,7 @@
 /* Given steps: equal ones and meshes, and the order of the solution at the end.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "smooth.h"
+#include <sunmatrix/sunmatrix_dense.h>
 
 static void equal_steps_are_lowered_to_fit(void)
 {
@@ -157,6 +158,39 @@ static void fixed_steps_reach_their_order(void)
   steif_context_free(&ctx);
 }
 
+static int unit(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  SM_ELEMENT_D(E, 0, 0) = SM_ELEMENT_D(E, 1, 1) = 1;
+  return 0;
+}
+
+/* Without y' the way from y_0 to y_1, of size h, is no error of bdf: its first step is as long as
+ * with y' within a factor, h ~ rtol^(1/2) and not rtol. */
+static void first_steps_without_slopes(void)
+{
+  static const double rtol[] = {1e-4, 1e-8}, y0[] = {1 / 1.0625, 0.247403959254522930};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int i = 0; i < 2; i++) {
+    double first[2];
+    for (int mass = 0; mass < 2; mass++) {
+      steif_problem p = smooth;
+      p.start = NULL, p.y0 = y0;
+      if (mass) p.E = unit;
+      steif_options o = steif_defaults();
+      o.rtol = rtol[i], o.h0 = 0.1;
+      steif_solver *s = smooth_open(ctx, &p, "bdf", &o);
+      CHECK(!steif_solve_step(s));
+      first[mass] = steif_time(s) - p.t0;
+      CHECK(!steif_solve_to(s, 2));
+      CLOSE_FLOOR(smooth_error(2, steif_solution(s)), 0, 5 * rtol[i], 1);
+      steif_solver_free(&s);
+    }
+    CHECK(first[1] > first[0] / 2 && first[1] < 8 * first[0]);
+  }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_steps[] = {
   {"equal steps are lowered to fit", equal_steps_are_lowered_to_fit},
   {"the clock does not drift over 1e5 steps", the_clock_does_not_drift},
@@ -164,5 +198,6 @@ CU_TestInfo tests_of_steps[] = {
   {"a mesh may end at zero", a_mesh_may_end_at_zero},
   {"bad meshes are refused", bad_meshes_are_refused},
   {"steps below the clock are refused", steps_below_the_clock_are_refused},
+  {"bdf without slopes starts with steps as long", first_steps_without_slopes},
   {"fixed steps reach their order", fixed_steps_reach_their_order},
   CU_TEST_INFO_NULL};
