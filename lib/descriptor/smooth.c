@@ -54,6 +54,7 @@ static int carry(stf_subject *s, const sunrealtype *x0, size_t count, const sunr
   steif_problem p;
   const steif_linear *l = s->reduced.linear.E ? &s->reduced.linear : &s->linear;
   STEIF_TRY(steif_linear_problem(s->ctx, l, x0, mesh[0], mesh[count - 1], &p));
+  p.dae_index = s->reduced.linear.E ? 1 : s->index;
   steif_options o = steif_defaults();
   o.mesh = mesh, o.mesh_size = count;
   o.observe = take, o.observer = user;

@@ -77,6 +77,7 @@ static int follow(truth *w, size_t parts)
   w->at = 0, w->parts = parts, w->reduced.from = &cut;
   const steif_linear *l = w->reduced.linear.E ? &w->reduced.linear : &cut;
   int code = steif_linear_problem(w->ctx, l, w->now, w->start, w->end, &p);
+  p.dae_index = w->reduced.linear.E ? 1 : w->structure.index;
   steif_options o = steif_defaults();
   o.mesh = mesh, o.mesh_size = steps + 1, o.max_steps = (long)steps + 1;
   o.observe = take, o.observer = w;

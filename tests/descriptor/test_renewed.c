@@ -61,6 +61,8 @@ static void unknowns_of_every_index(void)
     {"ladder:n=120", "gauss:s=3", 1e-6, 1e-5, 0.3},
     {"ladder:n=120", "gauss:s=3", 1e-10, 1e-5, 1},
     {"stokes:m=12", "radau:s=5", 1e-6, 2e-4, 0.3},
+    {"stokes:m=12", "bdf", 1e-10, 2e-4, 40},
+    {"stokes:m=12", "gauss:s=3", 1e-10, 2e-4, 1},
   };
   for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
     steif_context *ctx = steif_context_new(NULL);
