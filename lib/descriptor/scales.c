@@ -97,9 +97,10 @@ int stf_scales_choose(steif_context *ctx, stf_pool *pool, const steif_analysis *
   scaled a = {.E = e, .F = f, .row = row, .column = column}, b = {.E = NULL};
   enum stf_fitted fitted;
   bool second = true;
-  int *none = stf_claim(pool, 4 * (size_t)n, sizeof *none), *exponent = none + 2 * n;
+  int *none = stf_claim(pool, 4 * (size_t)n, sizeof *none);
   sunrealtype *room = stf_claim(pool, (size_t)n, sizeof *room);
   if (!none || !room) return STEIF_NO_MEMORY;
+  int *exponent = none + 2 * n;
   *torn = -1;
   STEIF_TRY(stf_fit(ctx, E, F, exponent, &fitted));
   spread(E, n, e), spread(F, n, f);
