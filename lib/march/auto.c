@@ -14,8 +14,11 @@
  *   index 3 up to n = 300                         radau:s=5: multipliers have order s - 2
  *   others of index above 1                       radau:s=3, but s=5 below 1e-4 up to n = 300
  *   band and sparse systems
- *     whose LU costs a few solves                 rodas5p down to rtol 1e-6, with a given Jacobian
- *     others                                      radau:s=3 down to rtol 1e-5, radau:s=5 below
+ *     with a given Jacobian
+ *       whose LU costs a few solves               Rosenbrock down to rtol 1e-6, 1e-3 if constant
+ *       whose LU costs more, constant             Rosenbrock down to rtol 1e-7
+ *     others                                      radau:s=3 down to rtol 1e-5, radau:s=5 below and for
+ *                                                 linear systems
  *   large dense systems, operators                bdf down to rtol 1e-8, radau:s=5 below
  * Beside it y' = f(t, y) has an explicit method, which begins where that is cheaper, and the two change
  * places when stiffness comes or goes (rival.c).
@@ -50,17 +53,22 @@ static bool small(const steif_problem *p, const steif_options *o, int form)
          (form == STEIF_ODE || form == STEIF_MASS);
 }
 
+/* Order 5 pays below rtol 1e-1; Rodas4 loses its order where stiff components are forced, Rodas4P2
+ * keeps 3 (G. Steinebach, in Progress in Differential-Algebraic Equations II, 2020). */
+static const char *rosenbrock(const steif_problem *p, const steif_options *o)
+{
+  return o->rtol < 0.9e-1 ? "rodas5p" : p->autonomous ? "rodas4" : "rodas4p2";
+}
+
 /* The Rosenbrock method for few digits of few unknowns, NULL for none: more digits, and forces that
- * oscillate, need many steps. Order 5 pays below rtol 1e-1; Rodas4 loses its order where stiff components
- * are forced, Rodas4P2 keeps 3 (G. Steinebach, in Progress in Differential-Algebraic Equations II, 2020). */
+ * oscillate, need many steps. */
 static const char *linearly(const steif_problem *p, const steif_options *o)
 {
-  const bool few = p->n <= TINY;
-  const sunrealtype most = few ? 1e-2 : p->autonomous ? 1e-4 : 1e-1, coarse = 1e-1;
+  const sunrealtype most = p->n <= TINY ? 1e-2 : p->autonomous ? 1e-4 : 1e-1;
   if (p->dae_index > 1 || !p->jac || !p->y0 || o->ewt || !stf_above_rounding(p, o, p->y0, 100))
     return NULL;
   if (p->n > (p->autonomous ? SOME : FEW) || o->rtol < 0.9 * most) return NULL;
-  return o->rtol < 0.9 * coarse ? "rodas5p" : p->autonomous ? "rodas4" : "rodas4p2";
+  return rosenbrock(p, o);
 }
 
 /* Does an LU cost no more than a few solves? */
@@ -85,14 +93,22 @@ static bool jumps(const steif_problem *p, const steif_options *o, int form)
          !o->like;
 }
 
+/* Down to which rtol a Rosenbrock method pays. A constant matrix it factors anew for other lengths of
+ * steps only, but collocation does so too, which takes complex shifts then: dear where an LU is. */
+static sunrealtype linearly_to(const steif_problem *p, const steif_options *o, int form)
+{
+  if ((form != STEIF_ODE && form != STEIF_MASS) || !p->jac) return INFINITY;
+  return p->linear ? cheap(p, o) ? 1e-3 : 1e-7 : cheap(p, o) ? 1e-6 : INFINITY;
+}
+
 static const char *on_grids(const steif_problem *p, const steif_options *o, int form,
                             const char **reason)
 {
-  const bool linearly = (form == STEIF_ODE || form == STEIF_MASS) && p->jac;
-  if (linearly && o->rtol >= 0.9e-6 && cheap(p, o))
-    return *reason = "an LU costs a few solves: one in each step, no iteration", "rodas5p";
+  if (o->rtol >= 0.9 * linearly_to(p, o, form))
+    return *reason = "an LU costs a few solves, or little beside complex ones: no iteration",
+           rosenbrock(p, o);
   *reason = "sparse: one real matrix, kept for many steps";
-  return o->rtol >= 0.9e-5 ? "radau:s=3" : "radau:s=5";
+  return o->rtol >= 0.9e-5 && !p->linear ? "radau:s=3" : "radau:s=5";
 }
 
 const char *stf_choose(const steif_problem *p, const steif_options *o, int form, char *why,

@@ -49,18 +49,20 @@ static double jacobian(const stf_step *s, const stf_price *p)
   }
 }
 
-/* Of a usual step: Newton's iteration converges in four sweeps, linear systems need one, the blended
- * iteration takes ten and keeps its factors; a Rosenbrock method has eight stages at most. */
+/* Of a usual step: Newton's iteration converges in four sweeps, the blended one takes ten and keeps its
+ * factors; a Rosenbrock method has eight stages at most. Linear systems need one sweep, and no factors
+ * while the length of steps stays; a complex shift costs three real ones. */
 static double usual(const stf_step *s, const stf_price *p)
 {
   const double stages = s->table ? s->table->s : 1, lanes = (stages + 1) / 2;
   if (s->newton.gamma > 0)
     return 0.3 * (p->factor + p->jacobian) + 10 * stages * (p->solve + p->f / 2);
-  if (s->table && s->system.linear) return lanes * (0.5 * p->factor + p->solve) + stages * p->f;
+  if (s->table && s->system.linear)
+    return (3 * lanes - 2) * (0.5 * p->factor + p->solve) + stages * p->f;
   if (s->table) return lanes * (p->factor + 4 * p->solve) + 4 * stages * p->f + p->jacobian;
   if (s->method->traits & STF_MULTISTEP)
     return 0.1 * (p->factor + p->jacobian) + 2 * (p->solve + p->f);
-  return p->factor + 8 * (p->solve + p->f) + p->jacobian;
+  return (s->system.linear ? 0.5 * p->factor : p->factor + p->jacobian) + 8 * (p->solve + p->f);
 }
 
 void stf_price_of(const stf_step *s, int stages, stf_price *p)
@@ -71,8 +73,8 @@ void stf_price_of(const stf_step *s, int stages, stf_price *p)
   case STEIF_BAND: band(s, p); break;
   default: sparse(s, p);
   }
-  p->f = 20 + 0.2 * p->entries;
+  p->f = 10 + 0.16 * p->entries;
   p->jacobian = jacobian(s, p);
   p->step = usual(s, p);
-  p->explicit_step = stages * (p->f + 50 + 0.25 * n * stages / 2);
+  p->explicit_step = stages * (p->f + 20 + 0.25 * n * stages / 2);
 }
