@@ -62,8 +62,9 @@ int stf_linear_grade(steif_context *ctx, const steif_linear *l, const steif_anal
   *index = NULL;
   if (!structure->regular || structure->index == 0 || structure->index == 1) return STEIF_OK;
   steif_impulse answer = {0};
-  sunrealtype *work = stf_allocate(ctx, 2 * (size_t)n, sizeof *work), *v = work + n;
+  sunrealtype *work = stf_allocate(ctx, 2 * (size_t)n, sizeof *work);
   if (!work) return STEIF_NO_MEMORY;
+  sunrealtype *v = work + n;
   for (sunindextype i = 0; i < n; i++)
     work[i] = 0, v[i] = 1 + 0.5 * sin(1 + 2.399963 * (sunrealtype)i); /* the golden angle */
   int code =

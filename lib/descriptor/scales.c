@@ -73,8 +73,10 @@ static int compare(steif_context *ctx, SUNMatrix E, SUNMatrix F, const scaled *a
 static int claim(stf_pool *pool, int n, scaled *s)
 {
   s->E = stf_claim_square(pool, n), s->F = stf_claim_square(pool, n);
-  s->row = stf_claim(pool, 2 * (size_t)n, sizeof *s->row), s->column = s->row + n;
-  return s->E && s->F && s->row ? STEIF_OK : STEIF_NO_MEMORY;
+  s->row = stf_claim(pool, 2 * (size_t)n, sizeof *s->row);
+  if (!s->E || !s->F || !s->row) return STEIF_NO_MEMORY;
+  s->column = s->row + n;
+  return STEIF_OK;
 }
 
 static int look(steif_context *ctx, int n, const steif_analysis *analysis, scaled *s)

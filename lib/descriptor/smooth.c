@@ -205,7 +205,7 @@ static int pair_smooth(stf_subject *s, sunrealtype *value, sunrealtype *accuracy
               s->problem.t0);
   sunrealtype *work = stf_allocate(s->ctx, n * (2 + (size_t)s->index), sizeof *work);
   sum.value = N_VNew_Serial(s->n, steif_sundials(s->ctx));
-  sum.x = work, sum.f = work + n;
+  if (work) sum.x = work, sum.f = work + n;
   int code = work && sum.value ? STEIF_OK
                                : STEIF_FAIL(s->ctx, STEIF_NO_MEMORY,
                                             "no memory to integrate %d unknowns", s->n);

@@ -32,9 +32,8 @@ static int scale(steif_context *ctx, stf_pool *pool, const int *exponent, SUNMat
   STEIF_TRY(own(ctx, pool, S));
   STEIF_CHECK(!SUNMatCopy(from, S), ctx, STEIF_NO_MEMORY, "no memory for a copy of a matrix");
   for (sunindextype j = 0; j < n; j++)
-    for (sunindextype k = SM_INDEXPTRS_S(S)[j]; k < SM_INDEXPTRS_S(S)[j + 1]; k++)
-      SM_DATA_S(S)
-      [k] = ldexp(SM_DATA_S(S)[k], exponent[SM_INDEXVALS_S(S)[k]] + exponent[n + j]);
+    for (sunindextype k = SM_INDEXPTRS_S(S)[j]; k < SM_INDEXPTRS_S(S)[j + 1]; k++) SM_DATA_S(S)
+  [k] = ldexp(SM_DATA_S(S)[k], exponent[SM_INDEXVALS_S(S)[k]] + exponent[n + j]);
   *M = S;
   return STEIF_OK;
 }
@@ -60,8 +59,9 @@ int stf_units_enter(stf_pool *pool, const stf_units *u, const sunrealtype **x0,
 {
   if (!u->exponent) return STEIF_OK;
   const size_t n = (size_t)sources->n, rows = sources->f ? (size_t)sources->derivatives + 1 : 0;
-  sunrealtype *all = stf_claim(pool, n * (rows + 2), sizeof *all), *Ex0 = all + n, *f = Ex0 + n;
+  sunrealtype *all = stf_claim(pool, n * (rows + 2), sizeof *all);
   if (!all) return STEIF_NO_MEMORY;
+  sunrealtype *Ex0 = all + n, *f = Ex0 + n;
   for (size_t i = 0; i < n; i++) {
     all[i] = ldexp((*x0)[i], -u->exponent[n + i]);
     Ex0[i] = ldexp(sources->Ex0[i], u->exponent[i]);

@@ -69,7 +69,8 @@ static matvar_t *create(const variable *v)
   float single[16];
   int16_t integer[16];
   for (int k = 0; k < 16; k++)
-    copy[k] = v->value[k], single[k] = (float)v->value[k], integer[k] = (int16_t)v->value[k];
+    copy[k] = v->value[k], single[k] = (float)v->value[k],
+    integer[k] = (int16_t)(v->kind == 'i' ? v->value[k] : 0);
   mat_complex_split_t parts = {copy, copy};
   switch (v->kind) {
   case 's': return sparse_variable(v, dims);
