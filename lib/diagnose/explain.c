@@ -108,12 +108,23 @@ int stf_case_singular(stf_case *c)
 {
   STEIF_TRY(stf_case_diagnose(c));
   const steif_diagnosis *d = &c->diagnosis;
-  if (d->verdict != STEIF_NO_SOLUTION && d->verdict != STEIF_NOT_UNIQUE) return STEIF_OK;
   const stf_growth *g = &c->evidence.at[0].growth;
+  const bool none = d->verdict == STEIF_NO_SOLUTION || d->verdict == STEIF_NOT_UNIQUE;
+  if (!none && !g->singular) return STEIF_OK;
   c->cause->kind = STEIF_CAUSE_SINGULAR;
   c->cause->value[0] = g->row ? g->rcond : 0;
-  stf_diagnose_say(c->cause->message, "Singular pencil: %s. No step size can help.",
-                   d->message);
+  if (none) {
+    stf_diagnose_say(c->cause->message, "Singular pencil: %s. No step size can help.",
+                     d->message);
+    return STEIF_OK;
+  }
+  stf_diagnose_say(c->cause->message,
+                   "s E - A is singular for every s, so that no step can be solved, though the "
+                   "solution is determined: index %d (%s) of matrices that turn with time; "
+                   "differentiated on the way: ",
+                   d->index, steif_confidence_name(d->confidence));
+  stf_diagnose_list(c->lens, c->cause->message, true, d->derivatives, 1, true);
+  stf_diagnose_say(c->cause->message, ". Put derivatives of these in their place");
   return STEIF_OK;
 }
 

@@ -106,8 +106,12 @@ static void singular_systems(void)
 {
   static const failure table[] = {
     {.name = "ungrounded", .rtol = 1e-6, .t1 = 1, .kind = STEIF_CAUSE_SINGULAR},
-    {.name = "twice", .rtol = 1e-6, .t1 = 1, .kind = STEIF_CAUSE_SINGULAR}};
+    {.name = "twice", .rtol = 1e-6, .t1 = 1, .kind = STEIF_CAUSE_SINGULAR},
+    {.name = "ltvb", .rtol = 1e-6, .t1 = 1, .kind = STEIF_CAUSE_SINGULAR}};
   ALL(table)
+  steif_cause cause;
+  fail_and_explain(&table[2], &cause); /* solvable, of index 2 */
+  CHECK(strstr(cause.message, "index 2") && strstr(cause.message, "turn with time"));
 }
 
 static void blow_ups(void)

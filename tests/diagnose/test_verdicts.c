@@ -1,8 +1,10 @@
 /* test_verdicts.c: index, degrees of freedom, numbers and offending equations of known
  * problems.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "diagnose.h"
 #include "models.h"
 #include "suite.h"
+#include <steif/solver.h>
 #include <string.h>
 
 /* Numbers and derivatives as words of digits; "" : not looked at. */
@@ -100,6 +102,23 @@ static void problems_of_the_collection(void)
   steif_context_free(&ctx);
 }
 
+/* E/h - A of ltvb is singular for every h, though the index is 2 and the solution unique. */
+static void no_step_of_ltvb_can_be_solved(void)
+{
+  static const double h[] = {.1, 1e-3, 1e-5};
+  const steif_problem from = model_problem(model_find("ltvb"), 1);
+  for (int k = 0; k < 3; k++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_problem p = from;
+    p.t1 = p.t0 + h[k];
+    steif_solver *s = steif_solver_new(ctx, &p, "be", &(steif_options){.h = h[k]});
+    const int code = s ? steif_solve_to(s, p.t1) : steif_status(ctx);
+    CHECK(code == STEIF_SINGULAR || (k == 2 && code == STEIF_NO_CONVERGENCE)); /* rounding */
+    steif_solver_free(&s);
+    steif_context_free(&ctx);
+  }
+}
+
 /* Structure and growth: what the first says of problems where it is wrong. */
 static void structure_over_and_under_estimates(void)
 {
@@ -123,6 +142,35 @@ static void structure_over_and_under_estimates(void)
     if (!rows[k].regular) CHECK(strstr(d.message, "cancellation") != NULL);
     steif_diagnosis_clear(&d);
   }
+  steif_context_free(&ctx);
+}
+
+/* yl = yr at the start: growth there alone gives vl and vr number 1; a little beside it 2, which is
+ * what the diagnosis says. The amplifier's J is singular: structure
+ * says 0. */
+static void one_point_of_the_car_axis_misleads(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_diagnosis d;
+  stf_lens lens;
+  stf_evidence e;
+  CHECK(!steif_problem_find(ctx, "caraxis", &p));
+  CU_ASSERT_FATAL(!stf_diagnose_open(ctx, &p, NULL, &lens));
+  CHECK(!stf_evidence_gather(&lens, &e));
+  CHECK(e.at[0].growth.row[5] <= 0 && e.at[0].growth.row[7] <= 0); /* number 1 + degree */
+  CHECK(e.at[1].growth.row[5] == 1 && e.at[1].growth.row[7] == 1); /* another point */
+  stf_evidence_free(&e);
+  stf_diagnose_close(&lens);
+  CHECK(!steif_diagnose(ctx, &p, NULL, &d));
+  CHECK(d.number[5] == 2 && d.number[7] == 2);
+  steif_diagnosis_clear(&d);
+  steif_problem_clear(ctx, &p);
+  CHECK(!steif_problem_find(ctx, "transamp", &p));
+  CHECK(!steif_diagnose(ctx, &p, NULL, &d));
+  CHECK(d.structural == 0 && d.rcond < 1e-9 && d.index == 1);
+  steif_diagnosis_clear(&d);
+  steif_problem_clear(ctx, &p);
   steif_context_free(&ctx);
 }
 
@@ -234,6 +282,8 @@ CU_TestInfo tests_of_verdicts[] = {
   {"local problems", local_problems},
   {"problems of the collection", problems_of_the_collection},
   {"structure over- and under-estimates", structure_over_and_under_estimates},
+  {"no step of ltvb can be solved", no_step_of_ltvb_can_be_solved},
+  {"one point of the car axis misleads", one_point_of_the_car_axis_misleads},
   {"differentiations of each unknown", differentiations_of_each_unknown},
   {"indices without Jacobians", indices_without_jacobians},
   {"solutions that are not unique", solutions_that_are_not_unique},
