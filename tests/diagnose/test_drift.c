@@ -97,6 +97,11 @@ static void tiny_steps_at_index_three_converge(void)
     for (int j = 7; j < 14; j++) moved = fmax(moved, fabs(y[j] - p.y0[j]));
     CHECK(moved > 0 && moved < 2e4 * h[k]); /* velocities, by accelerations of 14222 at most */
     steif_solver_free(&s);
+    p.index = NULL; /* in plain weights that rounding never falls below a tolerance */
+    s = steif_solver_new(ctx, &p, "be", &o);
+    const int plain = s ? steif_solve_to(s, h[k]) : steif_status(ctx);
+    CHECK(plain == STEIF_NO_CONVERGENCE);
+    steif_solver_free(&s);
     steif_problem_clear(ctx, &p);
     steif_context_free(&ctx);
   }
