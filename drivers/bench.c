@@ -34,6 +34,11 @@ static int against_kernels(struct call *call, const char *name,
 
 int bench_step(struct call *call) { return against_kernels(call, "step", steif_bench_step); }
 
+static int bench_books(struct call *call)
+{
+  return against_kernels(call, "books", steif_bench_books);
+}
+
 static int bench_lyapunov(struct call *call)
 {
   return against_kernels(call, "lyapunov", steif_bench_lyapunov);
@@ -43,6 +48,7 @@ static const struct {
   const char *name;
   int (*run)(struct call *call);
 } benchmarks[] = {{"step", bench_step},
+                  {"books", bench_books},
                   {"workprec", bench_workprec},
                   {"impulse", bench_impulse},
                   {"phi", bench_phi},
@@ -76,7 +82,7 @@ static const struct option options[] = {
 const struct verb verb_bench = {
   "bench",
   "Measure steps against their kernels, solves against CVODE, IDA, ARKODE",
-  "[step|workprec|impulse|phi|lyapunov|lorenz]",
+  "[step|books|workprec|impulse|phi|lyapunov|lorenz]",
   0,
   1,
   options,

@@ -41,6 +41,10 @@ typedef struct steif_bench_row {
 /* Row i; STEIF_BAD_INPUT without a sentence past the end. */
 STEIF_EXPORT int steif_bench_step(steif_context *ctx, size_t i, steif_bench_row *row);
 STEIF_EXPORT int steif_bench_lyapunov(steif_context *ctx, size_t i, steif_bench_row *row);
+/* Whole runs of `auto` on the dense problems of 3 to 30 unknowns, at the tolerance that stands in kind;
+ * floor_s: what f, J, factorisations and solves take of a step, by the run's counters and their times at
+ * its end; step_s: the rest of the step, limit 1. */
+STEIF_EXPORT int steif_bench_books(steif_context *ctx, size_t i, steif_bench_row *row);
 
 /* The exponents of Lorenz' equations over `time` behind a transient, by equal steps. The tolerance rtol
  * is one with which an adaptive method of order 8 keeps their sum about as well; its exact value is

@@ -1,6 +1,6 @@
 /* small_newton.c: Jacobians, factors and Newton's iteration of the family `small`.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "small.h"
+#include "small_state.h"
 #include <math.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>

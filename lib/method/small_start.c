@@ -1,6 +1,6 @@
 /* small_start.c: the collocation polynomial of the last step as a start for the next one.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "small.h"
+#include "small_state.h"
 #include <math.h>
 
 /* Coefficients of x^1 .. x^s of the Lagrange basis on 0, c_1 .. c_s at 1 + x, and its slope at 0,

@@ -11,7 +11,7 @@
  * Hairer and Wanner, Solving ODEs II, IV.8.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "small.h"
+#include "small_state.h"
 #include <math.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>

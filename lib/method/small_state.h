@@ -1,7 +1,7 @@
-/* small.h: the state of the family `small`, the polynomial it predicts with and its iteration.
+/* small_state.h: the state of the family `small`, the polynomial it predicts with and its iteration.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef STF_SMALL_H
-#define STF_SMALL_H
+#ifndef STF_SMALL_STATE_H
+#define STF_SMALL_STATE_H
 
 #include "lanes.h"
 #include "method.h"
