@@ -1,5 +1,6 @@
 /* test_jumps.c: jumps of nonlinear systems: unique ones against closed forms, others refused.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/failing.h"
 #include "models.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
@@ -95,7 +96,6 @@ static void leap(scene *s, const char *name, const double *y, steif_jump_request
     CU_ASSERT_FATAL(!steif_problem_find(s->ctx, name, &s->p));
   const steif_inquiry q = {.y = y ? y : s->p.y0, .t = s->p.t0};
   s->code = steif_jump_find(s->ctx, &s->p, &q, &request, &s->jump);
-  if (s->code) printf("\n  %s: %s", name, steif_message(s->ctx));
 }
 
 static void land(scene *s)
@@ -259,6 +259,26 @@ static void moving_matrices_are_said(void)
   land(&s);
 }
 
+/* Whichever allocation fails: the code says so, and nothing is kept. */
+static void hunger_is_survived(void)
+{
+  const steif_problem p = model_problem(jumping + 1, 1);
+  int code = STEIF_NO_MEMORY;
+  for (long k = 1; code && k < 1000000; k += 1 + k / 6) {
+    failing memory = {.refuse_at = k};
+    const steif_setup setup = failing_setup(&memory);
+    steif_context *ctx = steif_context_new(&setup);
+    steif_jump jump;
+    if (!ctx) continue;
+    code = steif_jump_find(ctx, &p, NULL, NULL, &jump);
+    CHECK(code == STEIF_NO_MEMORY || (!code && memory.served < k));
+    steif_jump_clear(&jump);
+    steif_context_free(&ctx);
+    CHECK(memory.alive == 0);
+  }
+  CHECK(!code);
+}
+
 /* -- runs -------------------------------------------------------------------------------- */
 
 /* y1' = a z, y2' = z, y1 + y2 = 1/2, from t = 0.3 on 1; a = y2 or 0.7 */
@@ -355,4 +375,5 @@ CU_TestInfo tests_of_jumps[] = {{"breaks are crossed by jumps", breaks_are_cross
                                 {"charges are kept", charges_are_kept},
                                 {"index 1 keeps what E sees", index_one_keeps_what_E_sees},
                                 {"moving matrices are said", moving_matrices_are_said},
+                                {"hunger is survived", hunger_is_survived},
                                 CU_TEST_INFO_NULL};
