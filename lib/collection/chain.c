@@ -92,8 +92,9 @@ static int jump(steif_context *ctx, const stf_linear *l, const sunrealtype *x0,
 {
   const chain *h = l->data;
   stf_schur *s = NULL;
-  sunrealtype *work = stf_allocate(ctx, 2 * (size_t)l->n, sizeof *work), *z = work + l->n;
+  sunrealtype *work = stf_allocate(ctx, 2 * (size_t)l->n, sizeof *work);
   if (!work) return STEIF_NO_MEMORY;
+  sunrealtype *z = work + l->n;
   memcpy(out->x_plus, x0, (size_t)l->n * sizeof *x0);
   memset(out->x_plus + 2 * h->n, 0, (size_t)h->c * sizeof *x0);
   int code = stf_schur_open(ctx, &l->F, 2 * h->n, h->c, 0, h->n, h->lightness, &s);

@@ -116,8 +116,9 @@ int stf_random_solution(const stf_spectrum *s, const stf_partner *p, int sign, u
 {
   const int n = s->n;
   const size_t square = (size_t)n * (size_t)n;
-  stf_number *Q = stf_allocate(s->ctx, 4 * square, sizeof *Q), *B = Q + 3 * square;
+  stf_number *Q = stf_allocate(s->ctx, 4 * square, sizeof *Q);
   if (!Q) return STEIF_NO_MEMORY;
+  stf_number *B = Q + 3 * square;
   int code = STEIF_OK;
   *found = true;
   for (int j = 0; code == STEIF_OK && *found && j < s->count; j++) {

@@ -49,8 +49,9 @@ static int jump(steif_context *ctx, const stf_linear *l, const sunrealtype *x0,
 {
   const ladder *q = l->data;
   const sunindextype m = middle(q), i0 = current(q), V = source(q);
-  sunrealtype *f0 = stf_allocate(ctx, 2 * (size_t)l->n, sizeof *f0), *f1 = f0 + l->n;
+  sunrealtype *f0 = stf_allocate(ctx, 2 * (size_t)l->n, sizeof *f0);
   if (!f0) return STEIF_NO_MEMORY;
+  sunrealtype *f1 = f0 + l->n;
   sunrealtype *x = out->x_plus;
   stf_linear_force(l, 0, 0, f0);
   stf_linear_force(l, 0, 1, f1);
