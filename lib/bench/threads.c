@@ -66,7 +66,7 @@ static bool agree(const rider *r)
 int stf_bench_threads(steif_context *ctx, const char *problem, const char *method,
                       sunrealtype h, steif_bench_row *row)
 {
-  rider r[2] = {{NULL}, {NULL}};
+  rider r[2] = {{0}};
   sunrealtype least[2] = {INFINITY, INFINITY};
   int code = STEIF_OK;
   for (int i = 0; i < 2 && !code; i++) code = open(&r[i], i + 1, problem, method, h);
