@@ -112,7 +112,8 @@ STEIF_EXPORT int steif_consistent(steif_context *ctx, const steif_problem *probl
                                   steif_start *start);
 STEIF_EXPORT void steif_start_clear(steif_start *start);
 
-/* Causes of a failure in the order in which they are looked for. */
+/* Causes of a failure in the order in which they are looked for; noise that spoils a Jacobian made by
+ * differences, a limit of ACCURACY, comes before BLOW_UP. */
 enum steif_cause_kind {
   STEIF_CAUSE_UNKNOWN,
   STEIF_CAUSE_NOT_FINITE,

@@ -52,43 +52,98 @@ static void blame_differences(stf_case *c, size_t i, size_t j, sunrealtype noise
     noise, stf_diagnose_equation(c->lens, i, e), stf_diagnose_unknown(c->lens, j, y), part);
 }
 
-/* |(E/h - A)^{-1}| noise against the weights, numbers taken off: h^(number - 1); where the Jacobian is
- * made by differences also against their increments at the start, since that is its relative error. */
-static int uncertainty(stf_case *c, stf_factor *f, const stf_view *v, sunrealtype rate,
-                       bool noisy)
+static bool loud(const stf_case *c, size_t i)
+{
+  return c->noise[i] > 1e3 * STF_EPS * c->scale[i];
+}
+
+/* x = (E/h - A)^{-1} e_i times the noise of equation i. */
+static int response(const stf_case *c, stf_factor *f, size_t i, sunrealtype *x)
+{
+  memset(x, 0, c->lens->n * sizeof *x);
+  x[i] = fmax(c->noise[i], STF_EPS * c->scale[i]);
+  return stf_factor_solve(f, false, x);
+}
+
+/* The factors at 1/h, and the fast rate; close both in any case. */
+static int factors(stf_case *c, stf_view *v, stf_factor **f, sunrealtype *rate)
+{
+  stf_lens *s = c->lens;
+  sunrealtype slow;
+  STEIF_TRY(stf_view_take(s, s->t, s->y0, s->yp0, v));
+  STEIF_TRY(stf_factor_open(s, v, f));
+  stf_view_rates(s, v, &slow, rate);
+  return stf_factor_shift(*f, v, 1 / fabs(c->scene->h));
+}
+
+/* Against the increments at the start, since that is the relative error of a Jacobian made by differences.
+ * It lets unknowns run away as in a blow-up, with steps that get as small. */
+static int spoilt(stf_case *c, stf_factor *f)
 {
   const size_t n = c->lens->n;
-  const sunrealtype h = fabs(c->scene->h), increment = sqrt(STF_EPS);
-  sunrealtype *x = c->lens->scratch + 5 * n, most = 0.1, spoilt = 1;
-  size_t at = n, from = 0, column = n, row = 0;
-  STEIF_TRY(stf_factor_shift(f, v, 1 / h));
+  sunrealtype *x = c->lens->scratch + 5 * n, most = 1;
+  size_t column = n, row = 0;
   for (size_t i = 0; i < n; i++) {
-    const sunrealtype rounding = STF_EPS * c->scale[i];
-    const bool loud = c->noise[i] > 1e3 * rounding;
-    if (loud != noisy) continue;
-    memset(x, 0, n * sizeof *x);
-    x[i] = fmax(c->noise[i], rounding);
-    STEIF_TRY(stf_factor_solve(f, false, x));
+    if (!loud(c, i)) continue;
+    STEIF_TRY(response(c, f, i, x));
     for (size_t j = 0; j < n; j++) {
-      const sunrealtype order = c->diagnosis.number[j] - 1;
-      const sunrealtype part = fabs(x[j]) * pow(fmin(1, h * rate), order) / c->weight[j];
-      if (part > most) most = part, at = j, from = i;
       const sunrealtype first = c->scene->count ? fabs(c->scene->y[j]) : 0;
-      const sunrealtype moved = fabs(x[j]) / (increment * fmax(first, c->lens->floor[j]));
-      if (loud && !c->lens->analytic && moved > spoilt) spoilt = moved, column = j, row = i;
+      const sunrealtype part =
+        fabs(x[j]) / (sqrt(STF_EPS) * fmax(first, c->lens->floor[j]));
+      if (part > most) most = part, column = j, row = i;
     }
   }
-  if (column < n) {
-    blame_differences(c, row, column, c->noise[row], spoilt);
-    return STEIF_OK;
+  if (column < n) blame_differences(c, row, column, c->noise[row], most);
+  return STEIF_OK;
+}
+
+/* Against the weights, numbers taken off: h^(number - 1). */
+static int uncertainty(stf_case *c, stf_factor *f, sunrealtype rate, bool noisy)
+{
+  const size_t n = c->lens->n;
+  sunrealtype *x = c->lens->scratch + 5 * n, most = 0.1;
+  size_t at = n, from = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (loud(c, i) != noisy) continue;
+    STEIF_TRY(response(c, f, i, x));
+    for (size_t j = 0; j < n; j++) {
+      const sunrealtype order = c->diagnosis.number[j] - 1;
+      const sunrealtype part =
+        fabs(x[j]) * pow(fmin(1, fabs(c->scene->h) * rate), order) / c->weight[j];
+      if (part > most) most = part, at = j, from = i;
+    }
   }
   if (at < n) blame_noise(c, from, at, fmax(c->noise[from], STF_EPS * c->scale[from]), most);
   return STEIF_OK;
 }
 
+/* A point where factors cannot be had tells nothing here. */
+static int close_factors(stf_case *c, stf_view *v, stf_factor *f, int code)
+{
+  stf_factor_free(&f);
+  stf_view_free(c->lens, v);
+  return code > 0 || code == STEIF_SINGULAR ? STEIF_OK : code;
+}
+
+int stf_case_differences(stf_case *c)
+{
+  stf_view v = {0};
+  stf_factor *f = NULL;
+  sunrealtype rate;
+  bool any = false;
+  for (size_t i = 0; i < c->lens->n; i++) any = any || loud(c, i);
+  if (!any || c->lens->analytic || !(fabs(c->scene->h) > 0)) return STEIF_OK;
+  int code = factors(c, &v, &f, &rate);
+  if (!code) code = spoilt(c, f);
+  return close_factors(c, &v, f, code);
+}
+
 int stf_case_accuracy(stf_case *c)
 {
   stf_lens *s = c->lens;
+  stf_view v = {0};
+  stf_factor *f = NULL;
+  sunrealtype rate;
   for (size_t j = 0; j < s->n; j++)
     if (8 * STF_EPS * fabs(s->y0[j]) > c->weight[j]) {
       blame_tolerance(c, j);
@@ -96,17 +151,10 @@ int stf_case_accuracy(stf_case *c)
     }
   if (!(fabs(c->scene->h) > 0) || stf_case_large(c)) return STEIF_OK;
   STEIF_TRY(stf_case_diagnose(c));
-  stf_view v = {0};
-  stf_factor *f = NULL;
-  sunrealtype slow, fast;
-  int code = stf_view_take(s, s->t, s->y0, s->yp0, &v);
-  if (!code) code = stf_factor_open(s, &v, &f);
-  if (!code) stf_view_rates(s, &v, &slow, &fast);
+  int code = factors(c, &v, &f, &rate);
   for (int noisy = 1; noisy >= 0 && !code && c->cause->kind == STEIF_CAUSE_UNKNOWN; noisy--)
-    code = uncertainty(c, f, &v, fast, noisy);
-  stf_factor_free(&f);
-  stf_view_free(s, &v);
-  return code > 0 || code == STEIF_SINGULAR ? STEIF_OK : code;
+    code = uncertainty(c, f, rate, noisy);
+  return close_factors(c, &v, f, code);
 }
 
 /* -- order ------------------------------------------------------------------------------- */
@@ -189,10 +237,10 @@ static int look(stf_case *c)
     int (*test)(stf_case *);
     bool large; /* for any number of unknowns; the others are dense */
   } tests[] = {
-    {not_finite, true},        {stf_case_blow_up, true},   {stf_case_impasse, false},
-    {stf_case_jump, true},     {stf_case_jacobian, false}, {stf_case_singular, false},
-    {stf_case_accuracy, true}, {stf_case_stiff, false},    {stf_case_start, false},
-    {stf_case_ringing, true},  {stf_case_index, false}};
+    {not_finite, true},         {stf_case_differences, false}, {stf_case_blow_up, true},
+    {stf_case_impasse, false},  {stf_case_jump, true},         {stf_case_jacobian, false},
+    {stf_case_singular, false}, {stf_case_accuracy, true},     {stf_case_stiff, false},
+    {stf_case_start, false},    {stf_case_ringing, true},      {stf_case_index, false}};
   const size_t count = c->scene ? sizeof tests / sizeof *tests : 0;
   const int code = open_case(c);
   if (code < 0) return code;

@@ -268,6 +268,7 @@ int stf_case_impasse(stf_case *c);
 int stf_case_jump(stf_case *c);
 int stf_case_jacobian(stf_case *c);
 int stf_case_singular(stf_case *c);
+int stf_case_differences(stf_case *c);
 int stf_case_accuracy(stf_case *c);
 int stf_case_stiff(stf_case *c);
 int stf_case_start(stf_case *c);
