@@ -118,17 +118,23 @@ static void block_sum(int count, const sunrealtype *c, N_Vector *x, sunindextype
   add_all(count, c, x, from, size, sum);
 }
 
-/* Few components: one after another in a register; terms in the same order, so the same bits. */
-enum { FEW = 8 };
+/* Few components: four at a time in registers, the last one again where less are left; terms in the same
+ * order, so the same bits. */
+enum { FEW = 8, TOGETHER = 4 };
 
 static void few_sums(sunindextype n, int count, const sunrealtype *c, N_Vector *x,
                      sunrealtype *out)
 {
-  for (sunindextype i = 0; i < n; i++) {
-    sunrealtype sum = 0;
-    for (int j = 0; j < count; j++)
-      if (c[j] != 0) sum += c[j] * STF_ARRAY(x[j])[i];
-    out[i] = sum;
+  for (sunindextype i = 0; i < n; i += TOGETHER) {
+    sunindextype at[TOGETHER];
+    sunrealtype sum[TOGETHER] = {0};
+    for (int q = 0; q < TOGETHER; q++) at[q] = i + q < n ? i + q : n - 1;
+    for (int j = 0; j < count; j++) {
+      const sunrealtype *from = STF_ARRAY(x[j]);
+      if (c[j] == 0) continue;
+      for (int q = 0; q < TOGETHER; q++) sum[q] += c[j] * from[at[q]];
+    }
+    for (int q = 0; q < TOGETHER; q++) out[at[q]] = sum[q];
   }
 }
 
