@@ -101,7 +101,7 @@ static int keep_impulses(stf_leap *w, sunrealtype **c)
   const size_t count = (size_t)w->answer.count * w->lens.n;
   *c = stf_claim(w->jump->memory, count + 1, sizeof **c);
   if (!*c) return STEIF_NO_MEMORY;
-  for (size_t k = 0; k < count; k++) (*c)[k] = -w->answer.c[k]; /* of y(t-) - y(t+) = -d */
+  for (size_t k = 0; k < count; k++) (*c)[k] = 0 - w->answer.c[k]; /* of y(t-) - y(t+) = -d */
   return STEIF_OK;
 }
 
