@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Names of those with flag[i] >= least: "e3" or "y2"; NULL when memory is short. */
-static void names(steif_report *r, const char *key, char letter, const int *flag, int least,
-                  size_t n)
+/* Names of those with flag[i] >= least: given ones, or "e3" or "y2"; none when memory is short. */
+static void names(steif_report *r, const char *key, const char *const *given, char letter,
+                  const int *flag, int least, size_t n)
 {
   enum { LONGEST = 24 };
   char *text = malloc(n * LONGEST);
@@ -16,7 +16,7 @@ static void names(steif_report *r, const char *key, char letter, const int *flag
   for (size_t i = 0; text && list && i < n; i++) {
     if (flag[i] < least) continue;
     snprintf(text + count * LONGEST, LONGEST, "%c%zu", letter, i + 1);
-    list[count] = text + count * LONGEST;
+    list[count] = given ? given[i] : text + count * LONGEST;
     count++;
   }
   steif_report_texts(r, key, count, list);
@@ -31,14 +31,16 @@ static void numbers(steif_report *r, const char *key, const int *value, size_t n
   free(x);
 }
 
-static void fill(steif_report *r, const steif_diagnosis *d, const steif_start *s, size_t n)
+static void fill(steif_report *r, const steif_problem *p, const steif_diagnosis *d,
+                 const steif_start *s)
 {
-  const size_t there = s->y ? n : 0;
+  const size_t n = (size_t)p->n, there = s->y ? n : 0;
+  const steif_names given = p->names ? *p->names : (steif_names){0};
   steif_report_whole(r, "index", d->index);
   steif_report_text(r, "confidence", steif_confidence_name(d->confidence));
   numbers(r, "numbers", d->number, n);
-  names(r, "equations", 'e', d->derivatives, 1, n);
-  names(r, "unknowns", 'y', d->number, 2, n);
+  names(r, "equations", given.equation, 'e', d->derivatives, 1, n);
+  names(r, "unknowns", given.unknown, 'y', d->number, 2, n);
   steif_report_whole(r, "freedom", (long)d->freedom);
   steif_report_list(r, "start.y", there, s->y);
   steif_report_list(r, "start.yp", there, s->yp);
@@ -65,7 +67,7 @@ static int look(struct call *call, const steif_problem *p, const steif_inquiry *
       steif_consistent(call->ctx, p, q, NULL, &s) != STEIF_OK)
     say(call, "%s", steif_message(call->ctx));
   steif_report *r = steif_report_new(call->ctx);
-  fill(r, &d, &s, (size_t)p->n);
+  fill(r, p, &d, &s);
   const int code = r ? present(call, r) : fail(call);
   steif_report_free(&r);
   if (verdict != EXIT_OK)

@@ -145,6 +145,9 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   return STEIF_OK;
 }
 
+static const char *const unknown[] = {"x", "y", "u", "v", "lambda", "mu"};
+static const steif_names names = {.unknown = unknown};
+
 const steif_problem steif_problem_pendulum3 = {
   .about = "planar pendulum in Cartesian coordinates, index=3 (or 2, 1, ggl); C. W. Gear, B. "
            "Leimkuhler and G. K. Gupta, J. Comput. Appl. Math. 12 (1985) 77-90",
@@ -154,6 +157,7 @@ const steif_problem steif_problem_pendulum3 = {
   .F = F,
   .idajac = idajac,
   .autonomous = 1,
+  .names = &names,
   .exact = exact,
   .invariants = 3,
   .invariant = conserved,
