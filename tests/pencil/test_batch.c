@@ -88,9 +88,9 @@ static void product(int lane, const number *M, number *LU)
   memset(L, 0, sizeof L), memset(U, 0, sizeof U);
   for (int k = 0; k < N; k++) {
     L[k + N * k] = 1, U[k + N * k] = 1 / at(batch.pivot, k, lane);
-    for (sunindextype t = q->lower[k]; t < q->lower[k + 1]; t++)
+    for (SuiteSparse_long t = q->lower[k]; t < q->lower[k + 1]; t++)
       L[q->below[t] + N * k] = at(batch.l, t, lane);
-    for (sunindextype t = q->upper[k]; t < q->upper[k + 1]; t++)
+    for (SuiteSparse_long t = q->upper[k]; t < q->upper[k + 1]; t++)
       U[q->above[t] + N * k] = at(batch.u, t, lane);
   }
   for (int b = 0; b < q->blocks; b++)
@@ -110,7 +110,7 @@ static double least_growth(int lane, const number *M)
     for (int k = q->first[b]; k < q->first[b + 1]; k++) {
       double of_m = 0, of_u = 1 / cabs(at(batch.pivot, k, lane));
       for (int i = q->first[b]; i < q->first[b + 1]; i++) of_m = fmax(of_m, cabs(M[i + N * k]));
-      for (sunindextype t = q->upper[k]; t < q->upper[k + 1]; t++)
+      for (SuiteSparse_long t = q->upper[k]; t < q->upper[k + 1]; t++)
         of_u = fmax(of_u, cabs(at(batch.u, t, lane)));
       least = fmin(least, of_m / of_u);
     }
