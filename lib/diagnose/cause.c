@@ -20,41 +20,43 @@ static void blame_tolerance(stf_case *c, size_t j)
     c->weight[j], stf_diagnose_unknown(c->lens, j, y), c->lens->y0[j]);
 }
 
-static void blame_noise(stf_case *c, size_t i, size_t j, sunrealtype noise, sunrealtype part)
+/* Against rounding at the scale of the equation. */
+static bool loud(const stf_case *c, size_t i)
 {
-  char e[STEIF_SPEC_WORD], y[STEIF_SPEC_WORD];
+  return c->noise[i] > 1e3 * STF_EPS * c->scale[i];
+}
+
+static void blame(stf_case *c, size_t i, size_t j, sunrealtype noise, sunrealtype part)
+{
   steif_cause *cause = c->cause;
   cause->kind = STEIF_CAUSE_ACCURACY;
   cause->equation = (sunindextype)i, cause->unknown = (sunindextype)j;
   cause->value[0] = noise, cause->value[1] = part;
+}
+
+static void blame_noise(stf_case *c, size_t i, size_t j, sunrealtype noise, sunrealtype part)
+{
+  char e[STEIF_SPEC_WORD], y[STEIF_SPEC_WORD];
+  blame(c, i, j, noise, part);
   stf_diagnose_say(
-    cause->message,
+    c->cause->message,
     "Tolerance cannot be met: %s %.2g in %s makes an uncertainty of %.2g weights in "
     "%s; smallest useful rtol about %.0e.",
-    noise > 1e3 * STF_EPS * c->scale[i] ? "noise" : "rounding", noise,
-    stf_diagnose_equation(c->lens, i, e), part, stf_diagnose_unknown(c->lens, j, y),
-    10 * part * c->scene->rtol);
+    loud(c, i) ? "noise" : "rounding", noise, stf_diagnose_equation(c->lens, i, e),
+    part, stf_diagnose_unknown(c->lens, j, y), 10 * part * c->scene->rtol);
 }
 
 static void blame_differences(stf_case *c, size_t i, size_t j, sunrealtype noise,
                               sunrealtype part)
 {
   char e[STEIF_SPEC_WORD], y[STEIF_SPEC_WORD];
-  steif_cause *cause = c->cause;
-  cause->kind = STEIF_CAUSE_ACCURACY;
-  cause->equation = (sunindextype)i, cause->unknown = (sunindextype)j;
-  cause->value[0] = noise, cause->value[1] = part;
+  blame(c, i, j, noise, part);
   stf_diagnose_say(
-    cause->message,
+    c->cause->message,
     "Noise %.2g in %s spoils the Jacobian, which is made by differences: it moves %s by %.2g "
     "times their increment, so that Newton's iteration cannot succeed with any step. Give the "
     "Jacobian, or make the equation smoother.",
     noise, stf_diagnose_equation(c->lens, i, e), stf_diagnose_unknown(c->lens, j, y), part);
-}
-
-static bool loud(const stf_case *c, size_t i)
-{
-  return c->noise[i] > 1e3 * STF_EPS * c->scale[i];
 }
 
 /* x = (E/h - A)^{-1} e_i times the noise of equation i. */

@@ -94,15 +94,7 @@ static int analyse(steif_pencil *p)
 static int update(steif_pencil *p)
 {
   incomplete *s = p->state;
-  if (!s->ptr || !stf_pattern_same(p, &s->pattern)) {
-    const int code = analyse(p);
-    if (code) forget(p);
-    STEIF_TRY(code);
-  }
-  if (p->E) STEIF_TRY(stf_sparse_finite(p, "E", p->E));
-  STEIF_TRY(stf_sparse_finite(p, "A", p->A));
-  stf_pattern_fill(p, &s->pattern);
-  return STEIF_OK;
+  return stf_pattern_update(p, &s->pattern, s->ptr, analyse, forget);
 }
 
 static int prepare(steif_pencil *p, int slot, steif_shift shift)

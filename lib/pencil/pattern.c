@@ -108,7 +108,7 @@ static bool same(const stf_pattern *u, SUNMatrix M, const sunindextype *ptr,
   return !differ;
 }
 
-bool stf_pattern_same(const steif_pencil *p, const stf_pattern *u)
+static bool unchanged(const steif_pencil *p, const stf_pattern *u)
 {
   return (!p->E || same(u, p->E, u->ptrE, u->placeE)) && same(u, p->A, u->ptrA, u->placeA);
 }
@@ -140,7 +140,7 @@ static double largest(const double *restrict a, sunindextype count)
   return most;
 }
 
-void stf_pattern_fill(const steif_pencil *p, stf_pattern *u)
+static void fill(const steif_pencil *p, stf_pattern *u)
 {
   if (u->e) gather(u->e, u->nnz, SM_DATA_S(p->E), u->placeE, u->ptrE[u->n]);
   if (u->a) gather(u->a, u->nnz, SM_DATA_S(p->A), u->placeA, u->ptrA[u->n]);
@@ -186,4 +186,32 @@ void stf_pattern_assemble(const steif_pencil *p, const stf_pattern *u, steif_shi
   else
     for (sunindextype k = 0; k < nnz; k++) v[k] = -a[k];
   if (!e) shift_identity(u, s, complex, v);
+}
+
+/* The first entry of M that is NaN or infinite. */
+static int finite(steif_pencil *p, const char *name, SUNMatrix M)
+{
+  const sunindextype *ptr = SM_INDEXPTRS_S(M);
+  const double *x = SM_DATA_S(M);
+  if (stf_all_finite(x, (size_t)ptr[p->n])) return STEIF_OK;
+  sunindextype k = 0, j = 0;
+  while (stf_all_finite(x + k, 1)) k++;
+  while (ptr[j + 1] <= k) j++;
+  return STEIF_FAIL(p->ctx, STEIF_NOT_FINITE,
+                    "%s[%lld,%lld] (from 0) is %g: look at the function that fills %s", name,
+                    (long long)SM_INDEXVALS_S(M)[k], (long long)j, x[k], name);
+}
+
+int stf_pattern_update(steif_pencil *p, stf_pattern *u, bool analysed,
+                       int (*analyse)(steif_pencil *), void (*forget)(steif_pencil *))
+{
+  if (!analysed || !unchanged(p, u)) {
+    const int code = analyse(p);
+    if (code) forget(p);
+    STEIF_TRY(code);
+  }
+  if (p->E) STEIF_TRY(finite(p, "E", p->E));
+  STEIF_TRY(finite(p, "A", p->A));
+  fill(p, u);
+  return STEIF_OK;
 }

@@ -19,10 +19,12 @@ typedef struct stf_pattern {
 /* Build for p->E and p->A, after checking their index arrays; p->E NULL counts as the
  * diagonal. */
 int stf_pattern_build(steif_pencil *p, stf_pattern *u);
-bool stf_pattern_same(const steif_pencil *p, const stf_pattern *u);
 void stf_pattern_free(steif_pencil *p, stf_pattern *u);
-/* The values of E and A as they are now; duplicate entries add up. */
-void stf_pattern_fill(const steif_pencil *p, stf_pattern *u);
+/* The values of E and A as they are now, duplicate entries added up, after `analyse` (which builds)
+ * where it has not been done for this pattern; `forget` when that fails. STEIF_NOT_FINITE with
+ * the first entry that is NaN or infinite. */
+int stf_pattern_update(steif_pencil *p, stf_pattern *u, bool analysed,
+                       int (*analyse)(steif_pencil *), void (*forget)(steif_pencil *));
 /* A on the union. */
 const double *stf_pattern_A(const steif_pencil *p, const stf_pattern *u);
 /* s E - A on the union, interleaved when s is complex, of the values filled in. */
@@ -31,9 +33,7 @@ void stf_pattern_assemble(const steif_pencil *p, const stf_pattern *u, steif_shi
 /* No entry of s E - A can overflow. */
 bool stf_pattern_moderate(const stf_pattern *u, steif_shift s);
 
-/* sparse.c. STEIF_NOT_FINITE with the first entry of a sparse M that is NaN or infinite. */
-int stf_sparse_finite(steif_pencil *p, const char *name, SUNMatrix M);
-/* out = E x or A x. */
+/* sparse.c: out = E x or A x. */
 int stf_sparse_product(steif_pencil *p, char which, N_Vector x, N_Vector out);
 /* The pattern of a sparse pencil and KLU's analysis of it; of a factored slot s E - A
  * on it, and its factors. */

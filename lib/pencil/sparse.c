@@ -124,31 +124,10 @@ static int analyse(steif_pencil *p)
   return STEIF_OK;
 }
 
-int stf_sparse_finite(steif_pencil *p, const char *name, SUNMatrix M)
-{
-  const sunindextype *ptr = SM_INDEXPTRS_S(M);
-  const double *x = SM_DATA_S(M);
-  if (stf_all_finite(x, (size_t)ptr[p->n])) return STEIF_OK;
-  sunindextype k = 0, j = 0;
-  while (stf_all_finite(x + k, 1)) k++;
-  while (ptr[j + 1] <= k) j++;
-  return STEIF_FAIL(p->ctx, STEIF_NOT_FINITE,
-                    "%s[%lld,%lld] (from 0) is %g: look at the function that fills %s", name,
-                    (long long)SM_INDEXVALS_S(M)[k], (long long)j, x[k], name);
-}
-
 static int update(steif_pencil *p)
 {
   sparse *s = p->state;
-  if (!s->symbolic || !stf_pattern_same(p, &s->pattern)) {
-    const int code = analyse(p);
-    if (code) forget(p);
-    STEIF_TRY(code);
-  }
-  if (p->E) STEIF_TRY(stf_sparse_finite(p, "E", p->E));
-  STEIF_TRY(stf_sparse_finite(p, "A", p->A));
-  stf_pattern_fill(p, &s->pattern);
-  return STEIF_OK;
+  return stf_pattern_update(p, &s->pattern, s->symbolic, analyse, forget);
 }
 
 /* Fronts take over real shifts of large patterns, where an entry of the factors meets enough work to
