@@ -1,6 +1,5 @@
 # What steif links, as two targets; read by steif's own build and by its installed package, after
-# SUNDIALS, KLU, LAPACK, Threads, jansson and, where steif_matio and steif_spqr are set, matio and
-# SuiteSparseQR (GPL) have been looked for.
+# SUNDIALS, KLU, LAPACK, Threads, jansson and, where steif_matio is set, matio have been looked for.
 #
 #   steif::sundials   vectors and matrices: part of steif's interface
 #   steif::private    the rest: to build steif, or to link libsteif.a
@@ -33,7 +32,4 @@ if(steif_matio)
   set_property(TARGET steif::private APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${MATIO_LIBRARY})
   set_property(TARGET steif::private APPEND PROPERTY
                INTERFACE_INCLUDE_DIRECTORIES ${MATIO_INCLUDE_DIR})
-endif()
-if(steif_spqr)
-  set_property(TARGET steif::private APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${SPQR_LIBRARY})
 endif()

@@ -1,57 +1,57 @@
-/* d2c.c: the continuous system behind a zero-order hold.
+/* d2c.c: the continuous system whose samples by a zero-order hold are given.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "matrix.h"
+#include "members.h"
 #include <stdlib.h>
 
-static int tell(struct call *call, int n, int m, const double *A, const double *B)
+struct answer {
+  int n, m;
+  double *A, *B;
+};
+
+static void fill(steif_report *r, const struct call *call, const void *result)
 {
-  steif_report *r = steif_report_new(call->ctx);
-  if (!r) return fail(call);
-  steif_report_real(r, "dt", real_of(call, "--dt", 0));
-  report_dense(r, "A", n, n, A);
-  report_dense(r, "B", n, m, B);
-  const int code = present(call, r);
-  steif_report_free(&r);
-  return code;
+  const struct answer *a = result;
+  steif_report_real(r, "dt", real_of(call, "--dt"));
+  report_dense(r, "A", a->n, a->n, a->A);
+  report_dense(r, "B", a->n, a->m, a->B);
 }
 
 static int invert(struct call *call, const struct matrix *Ad, const struct matrix *Bd)
 {
-  const int n = (int)Ad->rows, m = (int)Bd->columns;
-  const size_t square = (size_t)n * (size_t)n;
-  double *A = malloc((square + (size_t)n * (size_t)m + 1) * sizeof *A);
-  int code = EXIT_FAILED;
-  if (!A)
-    say(call, "no memory for matrices of order %d; take fewer states", n);
-  else if (steif_d2c(call->ctx, n, m, Ad->x, Bd->x, real_of(call, "--dt", 0), A, A + square))
-    code = fail(call);
-  else
-    code = tell(call, n, m, A, A + square);
-  free(A);
+  struct answer a = {.n = (int)Ad->rows, .m = (int)Bd->columns};
+  const size_t square = (size_t)a.n * (size_t)a.n;
+  a.A = malloc((square + (size_t)a.n * (size_t)a.m + 1) * sizeof *a.A);
+  if (!a.A) return no_memory(call, "the matrices", "take fewer states");
+  a.B = a.A + square;
+  const int code = steif_d2c(call->ctx, a.n, a.m, Ad->x, Bd->x, real_of(call, "--dt"), a.A, a.B)
+                     ? fail(call)
+                     : present_result(call, fill, &a);
+  free(a.A);
   return code;
 }
 
 static int run(struct call *call)
 {
   struct matrix Ad = {0}, Bd = {0};
-  if (call->plot) return refuse(call, "d2c has no picture; leave --plot out");
-  if (!given(call, "--dt"))
-    return refuse(call, "--dt H, the step, is needed: steif d2c Ad.mtx Bd.mtx --dt 0.1");
   int code = matrix_square(call, call->word[0], "Ad of x(k+1) = Ad x(k) + Bd u(k)", &Ad);
   if (!code && call->words > 1) code = matrix_read(call, call->word[1], Ad.rows, 0, &Bd);
   if (!code) code = invert(call, &Ad, &Bd);
-  free(Ad.x), free(Bd.x);
+  free(Ad.x);
+  free(Bd.x);
   return code;
 }
 
-static const struct option options[] = {{"--dt", POSITIVE, "H", "the step"},
-                                        {NULL, FLAG, NULL, NULL}};
+static const struct option options[] = {{"--dt", POSITIVE, "H", "step of the grid", NULL},
+                                        OPTIONS_END};
+static const struct rule rules[] = {{"--dt", REQUIRED, NULL}, RULES_END};
 
-const struct verb verb_d2c = {"d2c",
-                              "Find the continuous system behind a zero-order hold",
-                              "Ad.mtx [Bd.mtx] --dt H",
-                              1,
-                              2,
-                              options,
-                              NULL,
-                              run};
+const struct verb verb_d2c = {
+  .name = "d2c",
+  .about = "Find x' = A x + B u from its discretisation by a zero-order hold",
+  .usage = "Ad.mtx [Bd.mtx] --dt H",
+  .least = 1,
+  .most = 2,
+  .option = options,
+  .rule = rules,
+  .run = run};

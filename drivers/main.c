@@ -1,61 +1,28 @@
-/* main.c: the program steif: one verb per file, listed here.
+/* main.c: the program steif: one verb per file.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "face.h"
+#include "program.h"
+#include "verbs.h"
+#include <stdio.h>
 #include <string.h>
 
-#define VERBS(X)                                                                               \
-  X(list)                                                                                      \
-  X(solve)                                                                                     \
-  X(compare)                                                                                   \
-  X(order)                                                                                     \
-  X(layer) X(weak) X(pencil) X(impulse) X(region) X(c2d) X(d2c) X(diagnose) X(energy)          \
-    X(hamiltonian) X(lyapunov) X(supervise) X(counterexample) X(experiment) X(demo) X(bench)
-
-#define DECLARE(name) extern const struct verb verb_##name;
-#define ENTRY(name) &verb_##name,
-VERBS(DECLARE)
-static const struct verb *const verbs[] = {VERBS(ENTRY) NULL};
-
-static const char *verb_at(const void *list, size_t i)
+static int help(const struct verb *verb)
 {
-  const struct verb *verb = ((const struct verb *const *)list)[i];
-  return verb ? verb->name : NULL;
-}
-
-static int overview(FILE *out)
-{
-  fputs("steif VERB ...: stiff ODEs, DAEs and descriptor systems\n\n", out);
-  for (const struct verb *const *v = verbs; *v; v++)
-    fprintf(out, "  %-11s %s\n", (*v)->name, (*v)->about);
-  fputs(
-    "\n'steif VERB --help' tells the words and options of a verb, 'steif list' what methods\n"
-    "and problems there are, 'steif --version' the version.\n",
-    out);
-  return out == stdout ? EXIT_OK : EXIT_USAGE;
-}
-
-static const struct verb *find(const char *name)
-{
-  for (const struct verb *const *v = verbs; *v; v++)
-    if (!strcmp((*v)->name, name)) return *v;
-  return NULL;
+  if (verb)
+    call_help(verb);
+  else
+    verbs_overview(stdout);
+  return EXIT_OK;
 }
 
 static int run(struct call *call, int argc, char **argv)
 {
   int code = call_parse(call, argc, argv);
   if (code != EXIT_OK) return code;
-  if (call->help) {
-    call_help(call->verb);
-    return EXIT_OK;
-  }
+  if (call->help) return help(call->verb);
   code = check_outputs(call);
   if (code != EXIT_OK) return code;
   call->ctx = steif_context_new(NULL);
-  if (!call->ctx) {
-    say(call, "no memory to begin with; give the process more");
-    return EXIT_FAILED;
-  }
+  if (!call->ctx) return no_memory(call, "a context", "give the process more");
   code = call->verb->run(call);
   steif_context_free(&call->ctx);
   return code;
@@ -64,22 +31,20 @@ static int run(struct call *call, int argc, char **argv)
 int main(int argc, char **argv)
 {
   struct call call = {0};
-  if (argc < 2) return overview(stderr);
-  const char *name = argv[1];
-  const bool help = !strcmp(name, "help") || !strcmp(name, "--help");
-  if (help && argc == 2) return overview(stdout);
-  if (!strcmp(name, "--version")) return printf("steif %s\n", steif_version()) < 0;
-  if (help) name = argv[2];
-  call.verb = find(name);
-  if (!call.verb)
-    return refuse(&call, "no verb \"%s\"; the nearest is %s, and 'steif --help' lists them all",
-                  name, nearest(name, verb_at, verbs));
-  int code = EXIT_OK;
-  if (help)
-    call_help(call.verb);
-  else
-    code = run(&call, argc - 2, argv + 2);
+  if (argc < 2) {
+    verbs_overview(stderr);
+    return EXIT_USAGE;
+  }
+  const bool asked = !strcmp(argv[1], "help") || !strcmp(argv[1], "--help");
+  const char *name = asked ? argv[2] : argv[1];
+  if (!strcmp(argv[1], "--version")) return printf("steif %s\n", steif_version()) < 0;
+  call.verb = name ? verb_find(name) : NULL;
+  if (name && !call.verb)
+    return unknown_name(&call,
+                        "no verb \"%s\"; the nearest is %s, and 'steif --help' lists them",
+                        name, verb_nearest(name));
+  const int code = asked ? help(call.verb) : run(&call, argc - 2, argv + 2);
   if (fflush(stdout) == 0 && !ferror(stdout)) return code;
-  say(&call, "standard output could not be written; is the disk full or the reader gone?");
+  say(&call, "standard output could not be written; is the disk full? [STEIF_IO]");
   return EXIT_FAILED;
 }

@@ -2,68 +2,68 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "curves.h"
 
-static void fill(steif_report *r, const char *problem, const steif_method_info *m, size_t count,
-                 const steif_order_row *row)
+struct answer {
+  steif_method_info method;
+  size_t count;
+  steif_order_row row[HALVINGS];
+};
+
+static void fill(steif_report *r, const struct call *call, const void *result)
 {
-  steif_report_text(r, "problem", problem);
-  if (m->order) steif_report_whole(r, "claimed", m->order);
-  for (size_t i = 0; i < count; i++) {
+  const struct answer *a = result;
+  steif_report_text(r, "method", call->word[0]);
+  steif_report_text(r, "problem", word_of(call, "--problem"));
+  if (a->method.order) steif_report_whole(r, "claimed", a->method.order);
+  for (size_t i = 0; i < a->count; i++) {
     steif_report_row(r, "rows");
-    steif_report_real(r, "rows.h", row[i].h);
-    steif_report_real(r, "rows.error", row[i].error);
-    steif_report_real(r, "rows.order", row[i].order);
+    steif_report_real(r, "rows.h", a->row[i].h);
+    steif_report_real(r, "rows.error", a->row[i].error);
+    steif_report_real(r, "rows.order", a->row[i].order);
   }
 }
 
-static int tell(struct call *call, const char *problem, const steif_method_info *m,
-                size_t count, const steif_order_row *row)
+static int draw(const struct call *call, const struct answer *a)
 {
   error_curves errors = {.title = call->word[0], .y_label = "error"};
   errors_open(&errors, call->word[0]);
-  for (size_t i = 0; i < count; i++) errors_add(&errors, row[i].h, row[i].error);
-  steif_report *r = steif_report_new(call->ctx);
-  steif_report_text(r, "method", call->word[0]);
-  fill(r, problem, m, count, row);
-  const int code = r ? present(call, r) : fail(call);
-  steif_report_free(&r);
-  return code ? code : errors_plot(call, &errors, call->plot);
+  for (size_t i = 0; i < a->count; i++) errors_add(&errors, a->row[i].h, a->row[i].error);
+  return errors_plot(call, &errors, call->plot);
 }
 
 static int run(struct call *call)
 {
-  const char *name = word_of(call, "--problem", "harmonic"), *method = call->word[0];
-  const size_t count = (size_t)whole_of(call, "--halvings", 4) + 1;
-  steif_order_row row[HALVINGS];
-  steif_method_info m;
-  steif_problem p;
-  if (count > HALVINGS)
-    return refuse(call, "--halvings is %zu and must be below %d", count - 1, HALVINGS);
-  if (steif_method_find(call->ctx, method, &m) != STEIF_OK) return fail(call);
-  if (steif_problem_find(call->ctx, name, &p) != STEIF_OK) return fail(call);
-  /* High orders reach rounding soon: they begin with longer steps. */
-  const double h = real_of(call, "--h", m.order > 5 ? 0.5 : m.order > 2 ? 0.25 : 0.0625);
+  const char *name = word_of(call, "--problem"), *method = call->word[0];
+  struct answer a = {.count = (size_t)whole_of(call, "--halvings") + 1};
   const steif_options o = options_of(call);
+  steif_problem p;
+  if (steif_method_find(call->ctx, method, &a.method) != STEIF_OK) return fail(call);
+  if (steif_problem_find(call->ctx, name, &p) != STEIF_OK) return fail(call);
   progress(call, "%s on %s", method, name);
-  const int code = steif_order_measure(call->ctx, &p, method, &o, h, count, row) == STEIF_OK
-                     ? tell(call, name, &m, count, row)
+  const int code = steif_order_measure(call->ctx, &p, method, &o, real_of(call, "--h"), a.count,
+                                       a.row) == STEIF_OK
+                     ? present_result(call, fill, &a)
                      : fail(call);
   steif_problem_clear(call->ctx, &p);
-  return code;
+  return code ? code : draw(call, &a);
 }
 
 static const struct option options[] = {
-  {"--problem", WORD, "P", "with an exact solution or a reference (default harmonic)"},
-  {"--h", POSITIVE, "H", "first step"},
-  {"--halvings", NATURAL, "M", "how often it is halved (default 4)"},
+  {"--problem", WORD, "P", "problem with an exact solution or a reference", "harmonic"},
+  {"--h", POSITIVE, "H", "first step size (default: 1/16; 1/4 and 1/2 for high orders)", NULL},
+  {"--halvings", NATURAL, "M", "how often it is halved", "4"},
   RUN_OPTIONS,
-  {NULL, FLAG, NULL, NULL},
+  OPTIONS_END,
 };
+static const struct rule rules[] = {{"--halvings", AT_MOST, "39"}, RULES_END};
 
-const struct verb verb_order = {"order",
-                                "Measure the order of a method by halving its step",
-                                "METHOD [--problem P] [--h H --halvings M]",
-                                1,
-                                1,
-                                options,
-                                NULL,
-                                run};
+const struct verb verb_order = {
+  .name = "order",
+  .about = "Measure the order of a method by halving its step size",
+  .usage = "METHOD [--problem P] [--h H --halvings M]",
+  .least = 1,
+  .most = 1,
+  .picture = true,
+  .option = options,
+  .rule = rules,
+  .run = run,
+};

@@ -1,6 +1,6 @@
 # Install steif into a fresh prefix, move it, and use it there as an outsider: through
 # find_package(steif CONFIG), shared and static, and through pkg-config. A version that is too new
-# must be refused, and nothing installed may name the source or build folder.
+# must be rejected, and nothing installed may name the source or build folder.
 #   cmake -DBUILD= -DSOURCE= -DLIBDIR= -DVERSION= -DCC= -P consumer.cmake
 set(stage ${BUILD}/consumer)
 set(prefix ${stage}/moved)
@@ -41,10 +41,10 @@ foreach(program shared static)
   endif()
 endforeach()
 
-execute_process(COMMAND ${configure} -B ${stage}/refused -DWANTED=99.1
+execute_process(COMMAND ${configure} -B ${stage}/rejected -DWANTED=99.1
                 RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE out)
 if(code EQUAL 0 OR NOT out MATCHES "99\\.1")
-  message(FATAL_ERROR "a request for version 99.1 was not refused: ${out}")
+  message(FATAL_ERROR "a request for version 99.1 was not rejected: ${out}")
 endif()
 
 find_program(PKG_CONFIG NAMES pkg-config pkgconf)

@@ -7,6 +7,8 @@ endfunction()
 
 house_test(arrows -DSOURCE=${PROJECT_SOURCE_DIR})
 house_test(measure -DSOURCE=${PROJECT_SOURCE_DIR})
+house_test(format -DSOURCE=${PROJECT_SOURCE_DIR})
+set_tests_properties(format PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
 
 include(CheckLanguage)
 check_language(CXX)
@@ -29,9 +31,17 @@ house_test(consumer -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
            -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DVERSION=${PROJECT_VERSION} -DCC=${CMAKE_C_COMPILER}
            -DFLAGS=${flags})
 
+# With a compiler cache the objects there are serve again, else no optimisation is the quickest.
+set(how -DTYPE=Debug -DWERROR=OFF -DLAUNCHER=)
+if(CMAKE_C_COMPILER_LAUNCHER)
+  set(how -DTYPE=${CMAKE_BUILD_TYPE} -DWERROR=${STEIF_WERROR} -DLAUNCHER=${CMAKE_C_COMPILER_LAUNCHER})
+endif()
+house_test(extend -DSOURCE=${PROJECT_SOURCE_DIR} -DFOLDER=${PROJECT_BINARY_DIR}/extend
+           -DCC=${CMAKE_C_COMPILER} ${how})
+
 if(TARGET steif_program)
   house_test(program -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/program)
-  house_test(impulse -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/impulse)
+  house_test(impulses -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/impulses)
   house_test(workprec -DPROGRAM=$<TARGET_FILE:steif_program>)
   house_test(c2d -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/c2d)
   find_program(PYTHON3 python3)
@@ -40,8 +50,8 @@ if(TARGET steif_program)
   house_test(energy -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/energy)
   house_test(experiments -DPROGRAM=$<TARGET_FILE:steif_program>
              -DFOLDER=${PROJECT_BINARY_DIR}/experiments)
-  house_test(hamiltonian -DPROGRAM=$<TARGET_FILE:steif_program>
-             -DFOLDER=${PROJECT_BINARY_DIR}/hamiltonian)
+  house_test(hamiltonians -DPROGRAM=$<TARGET_FILE:steif_program>
+             -DFOLDER=${PROJECT_BINARY_DIR}/hamiltonians)
   house_test(commands -DPROGRAM=$<TARGET_FILE:steif_program> -DREADME=${PROJECT_SOURCE_DIR}/README.md)
 endif()
 

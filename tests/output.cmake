@@ -44,7 +44,7 @@ if(NOT head MATCHES "^t,xl,yl,xr,yr,xl',.*,lambda1,lambda2$" OR NOT first MATCHE
    OR NOT second MATCHES "^1(\\.0+[0-9]*)?e-0?5," OR count LESS 12)
   message(SEND_ERROR "axis.csv: ${head} / ${first} / ${second} (${count} lines)")
 endif()
-expect(2 solve bounce rk4 --h 0.1 --at 0.5,0.4 ERR "0\\.4 is not one")
+expect(2 solve bounce rk4 --h 0.1 --at 0.5,0.4 ERR "0\\.4 is out of order")
 expect(2 solve bounce rk4 --h 0.1 --at 4 ERR "ascend within \\[0, 3\\]")
 expect(2 solve bounce rk4 --h 0.1 --at 1 --points 3 ERR "contradict")
 

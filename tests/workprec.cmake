@@ -1,5 +1,5 @@
 # steif bench workprec on two problems and two tolerances: the keys of its JSON, failures that are
-# listed, refusals.
+# listed, rejections.
 #   cmake -DPROGRAM= -P workprec.cmake
 cmake_minimum_required(VERSION 3.19)
 
@@ -60,7 +60,7 @@ member(all classes 3 class)
 member(NUMBER classes 3 geomean)
 member(NUMBER geomean)
 
-# An end by the clock is told as such, and no tighter tolerance is tried.
+# An end for its time is reported as such, and no tighter tolerance is tried.
 call(0 workprec --problems rober --methods rodas4 --rtols 1e-9,1e-10 --longest 1e-9 --json)
 member("time is up" failures 0 status)
 member("1e-09" failures 0 rtols)

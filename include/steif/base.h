@@ -39,7 +39,7 @@ enum steif_code {
   STEIF_UNKNOWN_NAME = -3,   /* no method, problem, table or parameter of that name */
   STEIF_NOT_FINITE = -4,     /* NaN or infinity in data or in what a callback returned */
   STEIF_SINGULAR = -5,       /* s E - A could not be factored */
-  STEIF_NO_CONVERGENCE = -6, /* Newton's iteration was refused */
+  STEIF_NO_CONVERGENCE = -6, /* Newton's iteration did not converge */
   STEIF_CALLBACK = -7,       /* a callback asked to stop, or kept failing recoverably */
   STEIF_UNSUPPORTED = -8,    /* the method does not fit the form of the problem or the matrix */
   STEIF_STEP_LIMIT = -9,     /* options.max_steps reached */
@@ -56,10 +56,10 @@ typedef struct steif_context steif_context;
 
 /* What a context may be given; {0} or NULL means the C allocator and all cores. */
 typedef struct steif_setup {
-  void *(*allocate)(size_t bytes, void *user);   /* must return NULL on failure, never abort */
-  void (*release)(void *block, void *user);      /* accepts NULL */
-  void *user;                                    /* handed to both */
-  int threads;                                   /* for independent factorisations; 0: all cores */
+  void *(*allocate)(size_t bytes, void *user); /* must return NULL on failure, never abort */
+  void (*release)(void *block, void *user);    /* accepts NULL */
+  void *user;                                  /* handed to both */
+  int threads; /* for independent factorisations; 0: all cores */
 } steif_setup;
 
 /* NULL if memory is short. steif_context_free accepts NULL and sets the pointer to NULL; free

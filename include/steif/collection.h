@@ -13,11 +13,12 @@
 extern "C" {
 #endif
 
-/* Problem i of the shelf with its default parameters in mind; NULL past the end. */
+/* Name of problem i, as a spec with the default parameters; NULL past the end. */
 STEIF_EXPORT const char *steif_problem_name(size_t i);
 
-/* Fill *problem from a spec; steif_problem_clear releases what build took and zeroes it. */
-STEIF_EXPORT int steif_problem_find(steif_context *ctx, const char *spec, steif_problem *problem);
+/* Fill *problem from a spec; steif_problem_clear releases its memory and zeroes it. */
+STEIF_EXPORT int steif_problem_find(steif_context *ctx, const char *spec,
+                                    steif_problem *problem);
 STEIF_EXPORT void steif_problem_clear(steif_context *ctx, steif_problem *problem);
 
 /* Digits of y against the problem's reference or exact solution at time t:

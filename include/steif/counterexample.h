@@ -31,12 +31,21 @@ typedef struct steif_counterexample {
   sunrealtype cosine;   /* the same for 2 rate cos(2 pi t / h) - rate */
 } steif_counterexample;
 
-/* The equation as a problem with x(0) = 1, t1 = 200 h and its exact solution. method: any with a step that glm.h knows. h, rate > 0. facts may be NULL.
- * STEIF_UNSUPPORTED where h rate lies in the stability region: shorten h. */
+/* The equation as a problem with x(0) = 1, t1 = 200 h and its exact solution. method: any with a step
+ * that glm.h knows. h, rate > 0. facts may be NULL. STEIF_UNSUPPORTED where h rate lies in the
+ * stability region: shorten h. */
 STEIF_EXPORT int steif_counterexample_new(steif_context *ctx, const char *method, sunrealtype h,
                                           sunrealtype rate, steif_problem *problem,
                                           steif_counterexample *facts);
 STEIF_EXPORT void steif_counterexample_clear(steif_context *ctx, steif_problem *problem);
+
+/* `steps` steps of length h with exact start values: after each of them its time, |x| of the method and
+ * the solution itself. t, x, solution: room for `steps` numbers each; *made: how many there are, fewer where the
+ * run stops early. */
+STEIF_EXPORT int steif_counterexample_run(steif_context *ctx, const steif_problem *problem,
+                                          const char *method, sunrealtype h, long steps,
+                                          sunrealtype *t, sunrealtype *x, sunrealtype *solution,
+                                          long *made);
 
 #ifdef __cplusplus
 }

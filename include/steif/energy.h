@@ -1,8 +1,9 @@
-/* steif/energy.h: what a method keeps: drift of invariants over a run, and the map of one step.
+/* steif/energy.h: does an invariant drift (grow) or oscillate over a run, and is the map of one step
+ * symplectic?
  *
- * A symplectic method with a constant step keeps a modified energy: the energy itself stays
- * in a band whose width shrinks with the step, for a very long time. Other methods drift:
- * the energy leaves along a line. Which of the two a run shows is judged by the slope of the
+ * A symplectic method with a constant step size keeps a modified energy: the energy itself
+ * oscillates in a band whose width shrinks with the step size, for a very long time. With other
+ * methods the energy drifts along a line. Which of the two a run shows is judged by the slope of the
  * line through the means of 16 equal parts of the run, against the scatter of the means about it,
  * and nine tenths of the way that the means go must be one way: oscillations within a part cancel,
  * and a random walk of rounding turns back.
@@ -23,31 +24,34 @@ extern "C" {
 
 /* Of one invariant I: max, min, final and mean of I(t) - I(t0) over all steps, start included. */
 typedef struct steif_drift {
-  sunrealtype start;               /* I(t0) */
+  sunrealtype start; /* I(t0) */
   sunrealtype max, min, final, mean;
-  sunrealtype slope, slope_error;  /* per unit of time, and its standard error */
-  sunrealtype per_period;          /* slope times the period; NaN where there is none */
-  int drifts;                      /* 1: above 5 standard errors, and one way */
+  sunrealtype slope, slope_error; /* per unit of time, and its standard error */
+  sunrealtype per_period;         /* slope times the period; NaN where there is none */
+  int drifts;                     /* 1: above 5 standard errors, and one way */
 } steif_drift;
 
 typedef struct steif_energy {
-  sunrealtype period;  /* in: the period if known, 0: the mean distance of the maxima of the first
+  sunrealtype
+    period; /* in: the period if known, 0: the mean distance of the maxima of the first
                           component; out: the one used, NaN for fewer than two maxima */
-  steif_drift *drift;  /* in: room for problem.invariants */
-  size_t rows;         /* in: room in `row`; out: rows filled */
-  sunrealtype *row;    /* rows of 1 + invariants numbers: t and the drifts, evenly chosen steps */
-  long steps;          /* out */
+  steif_drift *drift; /* in: room for problem.invariants */
+  size_t rows;        /* in: room in `row`; out: rows filled */
+  sunrealtype
+    *row;     /* rows of 1 + invariants numbers: t and the drifts, of steps at even distances */
+  long steps; /* out */
 } steif_energy;
 
-/* Integrate to options.t1 (0: the problem's) and watch. options.observe is called as ever. */
-STEIF_EXPORT int steif_energy_watch(steif_context *ctx, const steif_problem *problem,
-                                    const char *method, const steif_options *options,
-                                    steif_energy *energy);
+/* Integrate to options.t1 (0: the problem's) and measure the drifts. options.observe is called as in
+ * any run. */
+STEIF_EXPORT int steif_energy_measure(steif_context *ctx, const steif_problem *problem,
+                                      const char *method, const steif_options *options,
+                                      steif_energy *energy);
 
 typedef struct steif_step_map {
   sunrealtype determinant; /* of J */
   sunrealtype symplectic;  /* largest entry of |J^T Omega J - Omega|; NaN without positions */
-  sunrealtype reversal;    /* largest component of R Phi R Phi(y) - y with R (q, p) = (q, -p), for
+  sunrealtype reversal; /* largest component of R Phi R Phi(y) - y with R (q, p) = (q, -p), for
                               systems that R reverses; NaN without positions */
 } steif_step_map;
 

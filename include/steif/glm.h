@@ -47,23 +47,23 @@
 extern "C" {
 #endif
 
-enum { STEIF_STAGES = 32 };     /* largest number of stages */
-enum { STEIF_PAST = 16 };       /* largest number of external values */
+enum { STEIF_STAGES = 32 }; /* largest number of stages */
+enum { STEIF_PAST = 16 };   /* largest number of external values */
 
 /* Matrices by rows without gaps. */
 typedef struct steif_glm {
   char name[STEIF_SPEC_VALUE];
-  int k, r;                     /* external values, stages */
+  int k, r; /* external values, stages */
   int order, stage_order;
-  sunrealtype U[STEIF_STAGES * STEIF_PAST], V[STEIF_PAST * STEIF_PAST];      /* r x k, k x k */
-  sunrealtype C[STEIF_STAGES * STEIF_STAGES], D[STEIF_PAST * STEIF_STAGES];  /* r x r, k x r */
+  sunrealtype U[STEIF_STAGES * STEIF_PAST], V[STEIF_PAST * STEIF_PAST];     /* r x k, k x k */
+  sunrealtype C[STEIF_STAGES * STEIF_STAGES], D[STEIF_PAST * STEIF_STAGES]; /* r x r, k x r */
   sunrealtype xi[STEIF_STAGES];
   sunrealtype W[STEIF_PAST * (STEIF_PAST + 1)]; /* k x (order + 1) */
   sunrealtype ell[STEIF_PAST];
-  sunrealtype second;           /* largest modulus of the other eigenvalues of V */
+  sunrealtype second; /* largest modulus of the other eigenvalues of V */
   /* X runs ahead of the exact solution by error h^{p+1} y^{(p+1)} u in a step, and lies off
-   * W (y, h y', ..) by shift h^{p+1} y^{(p+1)} after many equal steps; 0 where stage_order <
-   * order. */
+   * W (y, h y', ..) by shift h^{p+1} y^{(p+1)} after many steps of constant size; 0 where
+   * stage_order < order. */
   sunrealtype error, shift[STEIF_PAST];
 } steif_glm;
 
@@ -75,7 +75,8 @@ STEIF_EXPORT steif_glm *steif_glm_new(steif_context *ctx, const char *method);
 STEIF_EXPORT void steif_glm_free(steif_context *ctx, steif_glm **glm);
 
 /* Of any table: Runge-Kutta tables are k = 1, U = V = 1, C = A, D = b^T, xi = c. */
-STEIF_EXPORT int steif_table_glm(steif_context *ctx, const struct steif_table *table, steif_glm *glm);
+STEIF_EXPORT int steif_table_glm(steif_context *ctx, const struct steif_table *table,
+                                 steif_glm *glm);
 
 /* sum_{j=0}^steps alpha_j x_{n+j} = h sum_j beta_j f_{n+j}: X holds x and, where needed, h f of
  * the last `steps` times, oldest first. */

@@ -9,7 +9,7 @@
  *   invariant    some P = P^T, not 0: x^T P x is conserved. Two eigenvalues (or one and itself)
  *                have the sum 0.
  *
- * No one of them stands for all: diag(1, -1) has H = q p and no definite P; H = p^2/2 has no P of
+ * None of them implies all others: diag(1, -1) has H = q p and no definite P; H = p^2/2 has no P of
  * full rank; a skew A of odd order has P = 1 and no K. Where A is invertible, nonsingular and
  * symplectic are the same, K = P A^{-1}.
  *

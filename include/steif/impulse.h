@@ -23,20 +23,17 @@
 #define STEIF_IMPULSE_H
 
 #include <steif/pencil.h>
-#include <steif/solver.h>
+#include <steif/problem.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 enum steif_algorithm {
-  STEIF_AUTOMATIC,  /* staircase up to n = 400 when dense or small, else contour */
-  STEIF_STAIRCASE,  /* dense, checked by STEIF_QZ */
-  STEIF_QZ,         /* dense, generalised Schur form reordered */
-  STEIF_CONTOUR,    /* sparse */
-  STEIF_DRAZIN,     /* sparse, one real factorisation and a Krylov space */
-  STEIF_ARRAY       /* sparse, QR of the impulse array by SuiteSparseQR, which is under the GPL:
-                       STEIF_UNSUPPORTED unless steif was built with STEIF_SPQR */
+  STEIF_AUTOMATIC, /* staircase up to n = 400 when dense or small, else contour */
+  STEIF_STAIRCASE, /* dense, checked by STEIF_QZ */
+  STEIF_QZ,        /* dense, generalised Schur form reordered */
+  STEIF_CONTOUR    /* sparse */
 };
 
 typedef struct steif_analysis {
@@ -51,36 +48,40 @@ typedef struct steif_analysis {
 
 /* What was found. Lists are owned by the structure. */
 typedef struct steif_structure {
-  sunindextype n, rank_E;   /* rank_E -1: not computed (circles: see steif_structure_ranks) */
-  int regular;              /* 1, 0 */
-  int index;                /* -1: undecided, then index_least is a lower bound */
+  sunindextype n, rank_E; /* rank_E -1: not computed (circles: see steif_structure_ranks) */
+  int regular;            /* 1, 0 */
+  int index;              /* -1: undecided, then index_least is a lower bound */
   int index_least;
   sunindextype finite, infinite; /* eigenvalues; -1: undecided */
-  sunindextype degree;      /* structural: maximum-weight perfect matching; -1: no perfect matching */
-  sunrealtype count;        /* finite eigenvalues by Jensen's formula; NaN: not computed */
-  int weyr_count;           /* Weyr characteristic at infinity; 0: not computed, or index 0 */
+  sunindextype
+    degree;          /* structural: maximum-weight perfect matching; -1: no perfect matching */
+  sunrealtype count; /* finite eigenvalues by Jensen's formula; NaN: not computed */
+  int weyr_count;    /* Weyr characteristic at infinity; 0: not computed, or index 0 */
   sunindextype *weyr;
-  sunrealtype gap;          /* ratio of the singular values or moments that decide the index */
-  sunrealtype rcond;        /* best reciprocal condition of equilibrated s E + F tried */
-  sunrealtype resolution;   /* finite eigenvalues beyond it would pass for infinite: where the pattern
+  sunrealtype gap;   /* ratio of the singular values or moments that decide the index */
+  sunrealtype rcond; /* best reciprocal condition of equilibrated s E + F tried */
+  sunrealtype
+    resolution;       /* finite eigenvalues beyond it would pass for infinite: where the pattern
                                alone does not rule them out, rounding of the entries given hides them
                                (dense), or the circle (sparse); INFINITY: there are none */
-  sunrealtype radius;       /* estimate of the largest finite |eigenvalue|, or the radius used */
-  int certified;            /* of a regular pencil: finite eigenvalues are those up to `resolution`, what
+  sunrealtype radius; /* estimate of the largest finite |eigenvalue|, or the radius used */
+  int certified; /* of a regular pencil: finite eigenvalues are those up to `resolution`, what
                                is below rounding of the entries given is taken for 0; of a singular
                                one: det(s E + F) = 0 exactly as given */
-  const char *method;       /* "staircase", "qz", "contour", "drazin" */
-  sunindextype equations_count, unknowns_count; /* offenders, 0-based, when singular or index > 1 */
+  const char *method; /* "staircase", "qz", "contour" */
+  sunindextype equations_count,
+    unknowns_count; /* offenders, 0-based, when singular or index > 1 */
   sunindextype *equations, *unknowns;
-  steif_pencil_stats cost;  /* of the sparse algorithms: complex shifts of circles */
-  struct stf_circle *circle; /* their factors, kept for steif_impulse_find of the same matrices */
+  steif_pencil_stats cost; /* of the sparse algorithms: complex shifts of circles */
+  struct stf_kept *kept;   /* factors for steif_impulse_find of the same matrices */
   char message[512];
 } steif_structure;
 
 /* E and F: dense or sparse (CSC), square, of one size; a dense one and a sparse one may be mixed.
  * Returns STEIF_OK when the analysis could be made, whatever it found: also for singular pencils. */
 STEIF_EXPORT int steif_structure_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
-                                      const steif_analysis *analysis, steif_structure *structure);
+                                      const steif_analysis *analysis,
+                                      steif_structure *structure);
 STEIF_EXPORT void steif_structure_clear(steif_context *ctx, steif_structure *structure);
 /* What circles leave open of a structure they found: rank_E, and the Weyr characteristic where it
  * agrees with their index and count. Ranks are those of the numbers exactly as given, by elimination
@@ -91,16 +92,17 @@ STEIF_EXPORT int steif_structure_ranks(steif_context *ctx, SUNMatrix E, SUNMatri
 
 typedef struct steif_impulse {
   sunindextype n;
-  int index, count;         /* count = max(index - 1, 0) impulse coefficients */
-  sunrealtype *x_plus;      /* n */
-  sunrealtype *c;           /* count x n, by rows: c_0, c_1, ... */
-  sunrealtype last, chain, first; /* residuals ||E c_{k-2}||, max ||F c_i + E c_{i-1}||, ||F c_0 +
+  int index, count;    /* count = max(index - 1, 0) impulse coefficients */
+  sunrealtype *x_plus; /* n */
+  sunrealtype *c;      /* count x n, by rows: c_0, c_1, ... */
+  sunrealtype last, chain,
+    first;                /* residuals ||E c_{k-2}||, max ||F c_i + E c_{i-1}||, ||F c_0 +
                                E (x+ - x-)||, each relative to the norms of its terms
                                (the first to max |E| ||c_{k-2}|| or, where larger, max |E|^2 /
                                max |F| times the norm of c_{k-3} or x- - x+) */
-  sunrealtype resolution;   /* of the structure: valid for time scales from 1 / resolution on */
-  sunrealtype estimate;     /* of the relative error of x_plus: two radii, or two algorithms */
-  sunrealtype radius;       /* of the circle that x_plus and c are from; 0: of none */
+  sunrealtype resolution; /* of the structure: valid for time scales from 1 / resolution on */
+  sunrealtype estimate;   /* of the relative error of x_plus: two radii, or two algorithms */
+  sunrealtype radius;     /* of the circle that x_plus and c are from; 0: of none */
   int certified;
   const char *method;
   steif_pencil_stats cost; /* of the sparse algorithms */
@@ -126,12 +128,10 @@ STEIF_EXPORT int steif_projector_apply(steif_context *ctx, SUNMatrix E, SUNMatri
 STEIF_EXPORT int steif_projector_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                                       const steif_analysis *analysis, sunrealtype *P);
 
-/* -- systems -------------------------------------------------------------------------------------- */
-
 /* E x' + F x = f(t). The matrices and what `user` points to outlive every use. */
 typedef struct steif_linear {
-  SUNMatrix E, F;        /* dense or both sparse (CSC) */
-  steif_forcing f;       /* NULL: 0 */
+  SUNMatrix E, F;  /* dense or both sparse (CSC) */
+  steif_forcing f; /* NULL: 0 */
   void *user;
 } steif_linear;
 
@@ -143,45 +143,6 @@ STEIF_EXPORT int steif_linear_of(steif_context *ctx, const steif_problem *proble
 STEIF_EXPORT int steif_linear_problem(steif_context *ctx, const steif_linear *linear,
                                       const sunrealtype *x0, sunrealtype t0, sunrealtype t1,
                                       steif_problem *problem);
-
-/* What a run tells as it goes; either may be NULL, nonzero stops the run. */
-typedef struct steif_linear_output {
-  int (*jump)(sunrealtype t, const sunrealtype *x_minus, const steif_impulse *impulse, void *user);
-  int (*step)(sunrealtype t, N_Vector x, void *user);
-  void *user;
-} steif_linear_output;
-
-/* From x(t0-) = x0 to options.t1: at t0 and at every declared break (ascending, inside) the jump and
- * the impulses, then `method` from x(t+) with the options' steps to the next break. Given steps are
- * made on the system as it is. Chosen ones of dense and small systems of index k > 1 are made on one
- * of index 1 with the same smooth solutions, for which f is asked for derivatives up to k - 1 at all
- * times (up to k by methods with |R(inf)| > 0, such as Gauss's): tolerances are met for every index.
- * In large sparse systems an unknown of index k is judged by h^(k-1), as in RADAU5, and the fast
- * part is found anew at every step that is told, x(t) = Phi_{-1} E x(t) + sum_j Phi_j f^(j)(t): it has
- * the accuracy of the slow part, which no error of the fast one enters. */
-STEIF_EXPORT int steif_linear_run(steif_context *ctx, const steif_linear *linear,
-                                  const sunrealtype *x0, sunrealtype t0, const char *method,
-                                  const steif_options *options, const steif_analysis *analysis,
-                                  size_t break_count, const sunrealtype *breaks,
-                                  const steif_linear_output *output);
-
-typedef struct steif_linear_truth {
-  sunrealtype accuracy; /* relative difference at the last time to half as many parts */
-  sunrealtype end, most; /* errors of the rows given, relative to max |x| over all times: at the
-                           last time, at any */
-} steif_linear_truth;
-
-/* The smooth parts of the solution that starts as there, at the times t_0 < t_1 < ... after t0 (rows
- * of n into x; at a break its left limit): radau:s=5 in small parts of the steps between them, on a
- * system of index 1 where there is one (dense and small ones), else with the fast part from the
- * Laurent coefficients. f is asked for derivatives up to k - 1. made: rows of a run to be compared;
- * NULL: none. */
-STEIF_EXPORT int steif_linear_exact(steif_context *ctx, const steif_linear *linear,
-                                    const sunrealtype *x0, sunrealtype t0,
-                                    const steif_analysis *analysis, size_t break_count,
-                                    const sunrealtype *breaks, size_t count, const sunrealtype *t,
-                                    const sunrealtype *made, sunrealtype *x,
-                                    steif_linear_truth *truth);
 
 #ifdef __cplusplus
 }

@@ -22,30 +22,27 @@ extern "C" {
 STEIF_EXPORT SUNMatrix steif_matrix_read(steif_context *ctx, const char *path);
 /* Variable `name` of a MATLAB v5 file, sparse or full. *found = 0 and NULL without a message when
  * the file has no such variable. STEIF_UNSUPPORTED when built without matio. */
-STEIF_EXPORT SUNMatrix steif_matrix_read_mat(steif_context *ctx, const char *path, const char *name,
-                                             int *found);
+STEIF_EXPORT SUNMatrix steif_matrix_read_mat(steif_context *ctx, const char *path,
+                                             const char *name, int *found);
 /* Coordinate (sparse) or array (dense) Matrix Market file with 17 digits. */
 STEIF_EXPORT int steif_matrix_write(steif_context *ctx, SUNMatrix M, const char *path);
 
-/* E and F of a system from files of users: path_E and path_F are Matrix Market files; path_F NULL:
- * path_E is a .mat file with E and F, or E and A (F = -A), or M, D, K and G of
- * M q'' + D q' + K q + G^T l = f, G q = g, taken to first order. The variables' names and sizes are
- * checked. */
+/* E and F of a system from files of users: path_E and path_F are Matrix Market files, of E and F, or
+ * with state_space = 1 of E and A (F = -A); path_F NULL: path_E is a .mat file with E and F, or E and
+ * A, or M, D, K and G of M q'' + D q' + K q + G^T l = f, G q = g, taken to first order. The
+ * variables' names and sizes are checked. */
 STEIF_EXPORT int steif_system_read(steif_context *ctx, const char *path_E, const char *path_F,
-                                   SUNMatrix *E, SUNMatrix *F);
-/* B of f = B u beside them in a .mat file, in the rows of E: of a mechanical system in those of
- * M q''. *B NULL where there is none. */
-STEIF_EXPORT int steif_input_read(steif_context *ctx, const char *path, SUNMatrix *B);
-
-/* C and D of y = C x + D u beside them in a .mat file, NULL where there is none: C with a column for
- * each of E (of a mechanical system, whose D is the damping, of q or of (q, v, l)), D with one for
- * each of B, or of f without B. */
-STEIF_EXPORT int steif_output_read(steif_context *ctx, const char *path, SUNMatrix *C,
-                                   SUNMatrix *D);
+                                   int state_space, SUNMatrix *E, SUNMatrix *F);
+/* B of f = B u, C and D of y = C x + D u beside them in a .mat file; *B, *C, *D NULL where there is
+ * none. B, or C and D may be NULL: not wanted. B has the rows of E (of a mechanical system those of
+ * M q''), C a column for each of E (of a mechanical system, whose D is the damping, of q or of
+ * (q, v, l)), D one for each of B, or of f without B. */
+STEIF_EXPORT int steif_input_output_read(steif_context *ctx, const char *path, SUNMatrix *B,
+                                         SUNMatrix *C, SUNMatrix *D);
 /* The same of matrices of one's own: C with n columns, D (NULL: none) with the rows of C and a column
  * for each input. */
-STEIF_EXPORT int steif_output_check(steif_context *ctx, SUNMatrix C, SUNMatrix D, sunindextype n,
-                                    sunindextype inputs);
+STEIF_EXPORT int steif_output_check(steif_context *ctx, SUNMatrix C, SUNMatrix D,
+                                    sunindextype n, sunindextype inputs);
 /* y = C x + D u, as many values as C has rows; D or u NULL: 0. For the impulses of y, x = c_i. */
 STEIF_EXPORT void steif_output_value(SUNMatrix C, SUNMatrix D, const sunrealtype *x,
                                      const sunrealtype *u, sunrealtype *y);
@@ -84,13 +81,14 @@ STEIF_EXPORT void steif_function_free(steif_function **f);
 /* Fits steif_problem.g and steif_impulse_find, with the function as user data; right limits at
  * breakpoints. A derivative that some components have there and others have not, as sqrt(t) at 0, is
  * NaN in these. */
-STEIF_EXPORT int steif_function_value(sunrealtype t, int derivative, N_Vector g, void *function);
+STEIF_EXPORT int steif_function_value(sunrealtype t, int derivative, N_Vector g,
+                                      void *function);
 /* u of f = B u, or f itself where there is no B: how many values, and these at t. */
 STEIF_EXPORT size_t steif_function_count(const steif_function *f);
 STEIF_EXPORT int steif_function_inputs(sunrealtype t, steif_function *f, sunrealtype *u);
 /* Declared breakpoints inside (t0, t1), ascending; returns how many there are. */
-STEIF_EXPORT size_t steif_function_breaks(const steif_function *f, sunrealtype t0, sunrealtype t1,
-                                          size_t room, sunrealtype *times);
+STEIF_EXPORT size_t steif_function_breaks(const steif_function *f, sunrealtype t0,
+                                          sunrealtype t1, size_t room, sunrealtype *times);
 
 #ifdef __cplusplus
 }

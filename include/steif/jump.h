@@ -1,4 +1,4 @@
-/* steif/jump.h: from y(t-) to y(t+) of a DAE F(t, y, y') = 0, behind an event, a switch, an
+/* steif/jump.h: from y(t-) to y(t+) of a DAE F(t, y, y') = 0, after an event, a switch, an
  * impact.
  *
  * Let the unknowns be y = y_smooth + sum_i c_i delta^(i), and E = dF/dy', B = dF/dy frozen. As
@@ -27,17 +27,17 @@
 #ifndef STEIF_JUMP_H
 #define STEIF_JUMP_H
 
-#include <steif/diagnose.h>
+#include <steif/consistent.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef struct steif_jump_request {
-  sunrealtype rtol;        /* of rtol (|y_j| + size_j), size as in steif_inquiry; 0: 1e-6 */
+  sunrealtype rtol;        /* of rtol (|y_j| + size_j), size as in steif_point; 0: 1e-6 */
   sunrealtype restitution; /* e in [0, 1]: what E acts on jumps 1 + e times as far, with 1 + e
                               times the impulses, G v(t+) = -e G v(t-). For e > 0 the equations
-                              behind an impact are others, in which the contact is open. */
+                              after an impact are others, in which the contact is open. */
   int stages;              /* 1: where the jump is not unique, y by stages */
 } steif_jump_request;
 
@@ -58,16 +58,17 @@ typedef struct steif_jump {
  * that of the equations (matrices that turn with time); STEIF_NO_CONVERGENCE: no consistent
  * state is found along the impulses; STEIF_BAD_INPUT. request NULL: {0}. */
 STEIF_EXPORT int steif_jump_find(steif_context *ctx, const steif_problem *problem,
-                                 const steif_inquiry *inquiry,
-                                 const steif_jump_request *request, steif_jump *jump);
+                                 const steif_point *inquiry, const steif_jump_request *request,
+                                 steif_jump *jump);
 STEIF_EXPORT void steif_jump_clear(steif_jump *jump);
 
-/* For options.settle: y becomes y(t+) and yp its slope. STEIF_NOT_CERTIFIED with the sentence
- * where the jump is not unique; steif_settle_stages takes the stages there. */
-STEIF_EXPORT int steif_settle(steif_context *ctx, const steif_problem *problem, sunrealtype t,
-                              sunrealtype rtol, N_Vector y, N_Vector yp);
-STEIF_EXPORT int steif_settle_stages(steif_context *ctx, const steif_problem *problem,
-                                     sunrealtype t, sunrealtype rtol, N_Vector y, N_Vector yp);
+/* For options.reinitialise: y becomes y(t+) and yp its slope. STEIF_NOT_CERTIFIED with the sentence
+ * where the jump is not unique; steif_reinitialise_stages takes the stages there. */
+STEIF_EXPORT int steif_reinitialise(steif_context *ctx, const steif_problem *problem,
+                                    sunrealtype t, sunrealtype rtol, N_Vector y, N_Vector yp);
+STEIF_EXPORT int steif_reinitialise_stages(steif_context *ctx, const steif_problem *problem,
+                                           sunrealtype t, sunrealtype rtol, N_Vector y,
+                                           N_Vector yp);
 
 #ifdef __cplusplus
 }

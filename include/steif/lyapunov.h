@@ -1,7 +1,7 @@
 /* steif/lyapunov.h: Lyapunov exponents of numerical solutions, and whether steps are short
  * enough.
  *
- * A Runge-Kutta, multistep or general linear method with equal steps turns W' = J(t, y(t)) W
+ * A Runge-Kutta, multistep or general linear method of constant step size turns W' = J(t, y(t)) W
  * along its own solution of y' = f(t, y) into a linear recurrence. Discrete QR after every
  * step,
  *   W_n = Q_n R_n,  W <- W R_n^{-1},  exponent_i = mean of ln (R_n)_ii / h,
@@ -78,15 +78,16 @@ STEIF_EXPORT int steif_lyapunov(steif_context *ctx, const steif_problem *problem
 
 /* What holds for exact exponents, and whether it does for those found. */
 enum steif_lyapunov_law {
-  STEIF_SUM_LAW,    /* the sum of all n is the mean of trace J: needs an ode and count = n */
-  STEIF_FLOW_LAW,   /* one is 0 along a solution of an autonomous problem that does not come to rest,
+  STEIF_SUM_LAW, /* the sum of all n is the mean of trace J: needs an ode and count = n */
+  STEIF_FLOW_LAW, /* one is 0 along a solution of an autonomous problem that does not come to rest,
                        |y'| staying above 1e-6 of what it was; the nearest to 0 is taken */
   STEIF_FLOQUET_LAW /* x' = A(t) x of a given period P = m h': each is ln |multiplier| / P of m steps of
-                       the method; multipliers below 1e-9 of the largest drown in rounding */
+                       the method; multipliers below 1e-9 of the largest are lost in rounding */
 };
 typedef struct steif_lyapunov_check {
   enum steif_lyapunov_law law;
-  int which; /* exponent, from 1; 0: all of them */
+  const char *name; /* "sum", "flow", "floquet" */
+  int which;        /* exponent, from 1; 0: all of them */
   /* tolerance: accuracy max |exponent| for the sum; else four standard errors, and for the flow
      |facts.flow| besides, since a run is finite: 1e-9 (1 + |expected|) at least. */
   sunrealtype value, expected, tolerance;
@@ -97,13 +98,12 @@ typedef struct steif_lyapunov_check {
  * 0.01. period: 0: none is known; STEIF_BAD_INPUT where no whole number of steps makes it. check: room
  * for n + 2. */
 STEIF_EXPORT int steif_lyapunov_verify(steif_context *ctx, const steif_problem *problem,
-                                       const char *method, const steif_lyapunov_options *options,
+                                       const char *method,
+                                       const steif_lyapunov_options *options,
                                        sunrealtype accuracy, sunrealtype period,
                                        const sunrealtype *exponent,
                                        const steif_lyapunov_facts *facts,
                                        steif_lyapunov_check *check, int *count);
-/* "sum", "flow", "floquet". */
-STEIF_EXPORT const char *steif_lyapunov_law_name(enum steif_lyapunov_law law);
 
 /* One solution x_n of the recurrence, from y0, of a linear problem x' = A(t) x (a forcing is
  * left out): how it grows and how far every step is from the exact flow. History of a BDF: from
@@ -135,7 +135,7 @@ STEIF_EXPORT int steif_growth_measure(steif_context *ctx, const steif_problem *p
                                       const char *method, const steif_lyapunov_options *options,
                                       steif_growth_facts *facts);
 
-/* The one-step map of a linear problem that the recurrence settles on: after burn_in steps of
+/* The one-step map of a linear problem that the recurrence converges to: after burn_in steps of
  * any n columns, W_n = ell X_n and Z_n, the solution itself at t_n, have maps
  *   Phi_w = W_{n+1} W_n^{-1},   Phi_f = Z_{n+1} Z_n^{-1}
  * that depend on the columns no more. Phi_f is off the exact X(t_{n+1}, t_n) by O(h^{p+1});

@@ -6,17 +6,17 @@
  * ida, arkode; and auto, which chooses by size, storage, index and tolerance (steif_method_used tells
  * what and why).
  *
- * Splitting methods, symplectic, with equal steps, for separable problems (.positions of problem.h):
+ * Splitting methods, symplectic at a constant step size, for separable problems (.positions of problem.h):
  * symeuler:first=p|q, verlet:first=kick|drift, yoshida4, suzuki4, yoshida6, kahanli6, suzuki6, suzuki8,
  * kahanli8 (compositions of verlet, with the same first=); pefrl, blanesmoan6; rkn6 and rkn11 have their
  * order only where T is quadratic in p, which is not checked. compensated=1 keeps what rounding takes
- * from the sums (theirs by default in runs of 10000 steps and more; also of gauss:s= with given steps):
+ * from the sums (theirs by default in runs of 10000 steps and more; also of gauss:s= with prescribed steps):
  * rounding then grows like the root of the number of steps.
  *
- * Exponential methods take y' = L y + N(t, y) and are exact for N = 0. With given steps and a constant
+ * Exponential methods take y' = L y + N(t, y) and are exact for N = 0. With prescribed steps and a constant
  * L, that of the problem (.L of problem.h) or df/dy at the start: exp-euler (ETD1), exp-midpoint,
  * exp-trapezoidal (ETD2RK), etd2 (two steps), etdrk4 (Cox and Matthews), krogstad, hochost4. With
- * chosen steps and L = df/dy at every step: exprb32, exprb43. For stiff L the order may fall to the
+ * adaptive steps and L = df/dy at every step: exprb32, exprb43. For stiff L the order may fall to the
  * stiff order, which 'steif list methods' names. phi functions of h L (phi.h) are matrices for dense
  * L and small n, else rational or polynomial Krylov spaces and Taylor series with an error below that
  * of the step: any vector serves.
@@ -33,18 +33,19 @@ extern "C" {
 
 /* What is claimed of one method; every claim is checked by the tests. */
 typedef struct steif_method_info {
-  char name[STEIF_SPEC_WORD];   /* "radau:s=3" */
+  char name[STEIF_SPEC_WORD]; /* "radau:s=3" */
   const char *family, *about;
-  int order, stages;            /* 0: not one number (baselines) */
-  unsigned claims;              /* enum steif_claim of table.h */
-  unsigned forms;               /* enum steif_form accepted */
-  int adaptive;                 /* has an error estimate to choose steps by */
+  int order, stages; /* 0: not one number (baselines) */
+  unsigned claims;   /* enum steif_claim of table.h */
+  unsigned forms;    /* enum steif_form accepted */
+  int adaptive;      /* has an error estimate to choose steps by */
 } steif_method_info;
 
 /* Line i of the list: the parameter values that people use; STEIF_BAD_INPUT past the end leaves the
  * message alone. */
 STEIF_EXPORT int steif_method_at(steif_context *ctx, size_t i, steif_method_info *info);
-STEIF_EXPORT int steif_method_find(steif_context *ctx, const char *spec, steif_method_info *info);
+STEIF_EXPORT int steif_method_find(steif_context *ctx, const char *spec,
+                                   steif_method_info *info);
 
 /* One step of the method on y' = lambda y as a matrix: with z = h lambda, history maps to history
  * by M(z), r x r, by rows, entries (re, im). r = 1 for Runge-Kutta (M = R), p for BDF, k for general

@@ -11,7 +11,7 @@
  *
  * Dense matrices use an in-line LU up to n = 16 and LAPACK above, band matrices LAPACK, sparse ones
  * KLU (64-bit indices, AMD ordering), and for real shifts of 200 unknowns and more a multifrontal LU
- * in dense blocks, behind which KLU stands where pivots are bad. Operators use a SUNLinearSolver; a
+ * in dense blocks, with KLU instead where pivots are bad. Operators use a SUNLinearSolver; a
  * complex shift on an operator works on [Re; Im] as a ManyVector (its spectrum is mirrored:
  * precondition with a real shift).
  *
@@ -42,21 +42,22 @@ typedef struct steif_shift {
 typedef struct steif_operator {
   int (*E)(N_Vector x, N_Vector out, void *user); /* NULL: identity */
   int (*A)(N_Vector x, N_Vector out, void *user);
-  int (*prepare)(sunrealtype re, void *user);     /* NULL: nothing to prepare */
-  int (*precondition)(sunrealtype re, N_Vector r, N_Vector z, sunrealtype tolerance, void *user);
+  int (*prepare)(sunrealtype re, void *user); /* NULL: nothing to prepare */
+  int (*precondition)(sunrealtype re, N_Vector r, N_Vector z, sunrealtype tolerance,
+                      void *user);
   void *user;
-  int dimension;          /* of the Krylov space; 0: 30 */
-  int restarts;           /* 0: 10 */
-  sunrealtype tolerance;  /* relative residual of a solve; 0: 1e-10 */
+  int dimension;         /* of the Krylov space; 0: 30 */
+  int restarts;          /* 0: 10 */
+  sunrealtype tolerance; /* relative residual of a solve; 0: 1e-10 */
 } steif_operator;
 
 /* Counters since the pencil was made. */
 typedef struct steif_pencil_stats {
   long analyses, factors, refactors, fallbacks; /* fallbacks are among the factors; operators: a
                              factor is a preconditioner prepared */
-  long solves;            /* right-hand sides */
-  long iterations;        /* Krylov */
-  long fill;              /* entries of L + U of the last sparse factor */
+  long solves;                                  /* right-hand sides */
+  long iterations;                              /* Krylov */
+  long fill;                                    /* entries of L + U of the last sparse factor */
 } steif_pencil_stats;
 
 /* E and A are borrowed: same size and storage, dense (column-major), band or sparse (CSC); E NULL
@@ -68,8 +69,8 @@ STEIF_EXPORT steif_pencil *steif_pencil_new(steif_context *ctx, SUNMatrix E, SUN
  * their own unknowns. */
 STEIF_EXPORT steif_pencil *steif_pencil_new_incomplete(steif_context *ctx, SUNMatrix E,
                                                        SUNMatrix A);
-STEIF_EXPORT steif_pencil *steif_pencil_new_operator(steif_context *ctx, const steif_operator *op,
-                                                     N_Vector like);
+STEIF_EXPORT steif_pencil *steif_pencil_new_operator(steif_context *ctx,
+                                                     const steif_operator *op, N_Vector like);
 STEIF_EXPORT void steif_pencil_free(steif_pencil **p);
 
 /* The values of E or A changed: factors become stale, factor before the next solve. A changed sparse pattern is found and
@@ -83,7 +84,8 @@ STEIF_EXPORT int steif_pencil_factor(steif_pencil *p, int count, const steif_shi
 
 /* Solve with slot k, in place, for nrhs right-hand sides: re[i] + i im[i]; im may be NULL for a
  * real shift. Vectors need a host array except for operators. */
-STEIF_EXPORT int steif_pencil_solve(steif_pencil *p, int k, int nrhs, N_Vector *re, N_Vector *im);
+STEIF_EXPORT int steif_pencil_solve(steif_pencil *p, int k, int nrhs, N_Vector *re,
+                                    N_Vector *im);
 
 /* out = E x or A x. */
 STEIF_EXPORT int steif_pencil_product(steif_pencil *p, char which, N_Vector x, N_Vector out);

@@ -37,7 +37,8 @@ typedef int (*steif_ida_jacobian)(sunrealtype t, sunrealtype c, N_Vector y, N_Ve
                                   N_Vector tmp2, N_Vector tmp3);
 /* Fill E = dF/dy' or A = -dF/dy at (t, y, yp). Dense and band matrices arrive zeroed; a sparse
  * (CSC) matrix is filled whole, pointers and indices included, with the same pattern each time. */
-typedef int (*steif_matrix_fill)(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user);
+typedef int (*steif_matrix_fill)(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E,
+                                 void *user);
 /* g or its derivative of the given order at t; orders above 0 are asked for by the exact solution
  * of descriptor systems only: return > 0 when that order is not known, or set to NaN those components
  * of which it is not; what the solution depends on is asked of the pattern of E and F. */
@@ -46,10 +47,10 @@ typedef int (*steif_forcing)(sunrealtype t, int derivative, N_Vector g, void *us
 typedef int (*steif_product)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out,
                              void *user);
 /* A preconditioner for it: z = out of P^{-1} b with P near dF/dy + c dF/dy' = c E - A, at the (t, y, yp)
- * and c of the last setup, which does what is dear and may be NULL. IDALsPrecSetupFn and
+ * and c of the last setup, which does the expensive part and may be NULL. IDALsPrecSetupFn and
  * IDALsPrecSolveFn fit; delta is 0. */
-typedef int (*steif_precsetup)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, sunrealtype c,
-                               void *user);
+typedef int (*steif_precsetup)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r,
+                               sunrealtype c, void *user);
 typedef int (*steif_precsolve)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b,
                                N_Vector z, sunrealtype c, sunrealtype delta, void *user);
 /* y(t) (or y and yp at the start; yp may be NULL). */
@@ -57,10 +58,10 @@ typedef int (*steif_state)(sunrealtype t, N_Vector y, N_Vector yp, void *user);
 /* Several numbers that depend on (t, y): invariants, or event functions; a CVRootFn fits. */
 typedef int (*steif_values)(sunrealtype t, N_Vector y, sunrealtype *value, void *user);
 /* What is to be done at an event at time t, fired[i] = 1 (g_i was rising), -1 (falling), 0 (not this
- * one). y may be changed, and anything that the callbacks read. Returns an enum steif_reaction, or
+ * one). y may be changed, and anything that the callbacks read. Returns an enum steif_event_action, or
  * < 0: the run fails. */
-typedef int (*steif_react)(sunrealtype t, N_Vector y, const int *fired, void *user);
-enum steif_reaction {
+typedef int (*steif_event_handler)(sunrealtype t, N_Vector y, const int *fired, void *user);
+enum steif_event_action {
   STEIF_CONTINUE, /* neither y nor f has changed */
   STEIF_RESTART,  /* go on from the y left here, without history */
   STEIF_FINISH    /* the run ends here */
@@ -90,7 +91,7 @@ typedef struct steif_reference {
   sunindextype count;            /* 0: all n components */
   const sunindextype *component; /* 0-based; NULL: 0 .. count-1 */
   const sunrealtype *value;
-  int digits;                    /* significant digits that are right; 0: not stated */
+  int digits; /* significant digits that are right; 0: not stated */
   const char *source;
 } steif_reference;
 
@@ -101,13 +102,13 @@ typedef struct steif_event {
 } steif_event;
 
 struct steif_problem {
-  const char *name, *about;  /* about: one sentence and a citation */
+  const char *name, *about; /* about: one sentence and a citation */
   sunindextype n;
-  const steif_names *names;  /* of its components and equations; NULL: none */
-  sunrealtype t0, t1;        /* default interval of integration, t1 > t0 */
-  const sunrealtype *y0;     /* n start values (host memory) ... */
-  const sunrealtype *yp0;    /* ... and slopes; NULL: computed where the form allows, else 0 */
-  steif_state start;         /* instead of y0, for vectors without a host array */
+  const steif_names *names; /* of its components and equations; NULL: none */
+  sunrealtype t0, t1;       /* default interval of integration, t1 > t0 */
+  const sunrealtype *y0;    /* n start values (host memory) ... */
+  const sunrealtype *yp0;   /* ... and slopes; NULL: computed where the form allows, else 0 */
+  steif_state start;        /* instead of y0, for vectors without a host array */
 
   steif_rhs f;
   steif_residual F;
@@ -124,7 +125,7 @@ struct steif_problem {
    * for Krylov storage. Both NULL: L = df/dy at the start. */
   steif_matrix_fill L;
   steif_product Lv;
-  void *user;                /* handed to every callback */
+  void *user; /* handed to every callback */
 
   enum steif_storage storage;
   sunindextype lower, upper; /* bandwidths for STEIF_BAND */
@@ -132,23 +133,23 @@ struct steif_problem {
   sunindextype nnz_E;
   const steif_pattern *pattern; /* of dF/dy (+ dF/dy'): differences by groups of columns */
 
-  const int *index;          /* n entries 1, 2, 3: index of each component as in RADAU5; norms
+  const int *index;      /* n entries 1, 2, 3: index of each component as in RADAU5; norms
                                 scale component i by h^(index-1); NULL: all 1 */
-  const int *constraint;     /* n entries as for CVodeSetConstraints: 1: y_i >= 0, 2: > 0, -1: <= 0,
+  const int *constraint; /* n entries as for CVodeSetConstraints: 1: y_i >= 0, 2: > 0, -1: <= 0,
                                 -2: < 0, 0: none; kept at the ends of steps; NULL: none */
-  int dae_index;             /* 0: ODE; differentiation index where known, -1: not stated */
-  int autonomous;            /* 1: f does not depend on t */
-  int linear;                /* 1: F is affine in (y, y') with constant coefficients */
+  int dae_index;         /* 0: ODE; differentiation index where known, -1: not stated */
+  int autonomous;        /* 1: f does not depend on t */
+  int linear;            /* 1: F is affine in (y, y') with constant coefficients */
 
-  steif_state exact;         /* closed solution, if there is one */
+  steif_state exact; /* closed solution, if there is one */
   const steif_reference *reference;
-  int invariants;            /* number of conserved quantities ... */
-  steif_values invariant;    /* ... all of them */
-  int events;                /* number of event functions g_i(t, y) ... */
-  steif_values event;        /* ... all of them; see solver.h */
-  const steif_event *event_list; /* of each; NULL: both directions, none ends the run */
-  steif_react react;         /* NULL: events are noted only */
-  const sunrealtype *event_times; /* of the first events where they are known, ascending */
+  int invariants;                   /* number of conserved quantities ... */
+  steif_values invariant;           /* ... all of them */
+  int events;                       /* number of event functions g_i(t, y) ... */
+  steif_values event;               /* ... all of them; see solver.h */
+  const steif_event *event_list;    /* of each; NULL: both directions, none ends the run */
+  steif_event_handler handle_event; /* NULL: events are noted only */
+  const sunrealtype *event_times;   /* of the first events where they are known, ascending */
   int event_time_count;
   const sunrealtype *breaks; /* declared discontinuities of f inside (t0, t1), ascending */
   int break_count;
@@ -158,9 +159,9 @@ struct steif_problem {
    * touches the others; NULL: through f. */
   sunindextype positions;
   steif_rhs kick, drift;
-  int unit_mass;             /* 1: q' = p, component by component; drift is not called for serial
+  int unit_mass;          /* 1: q' = p, component by component; drift is not called for serial
                                 vectors */
-  sunrealtype rtol_scale;    /* atol = rtol_scale * rtol by default; 0: 1 */
+  sunrealtype rtol_scale; /* atol = rtol_scale * rtol by default; 0: 1 */
 
   /* Problems with parameters: fill the rest of *self from the spec; `destroy` undoes it. Members
    * that build does not touch keep the values of the shelf entry. */

@@ -7,7 +7,7 @@
  * Every step is kept as the polynomial through degree + 1 Chebyshev points of the method's dense
  * output: exact where that is a polynomial of this degree, as for BDF, Rosenbrock and collocation
  * methods with fewer stages, and close to it in any case. A step takes (degree + 1) n numbers. At an event
- * that changes the state the value is the one behind it. The record allocates as the run goes on; the
+ * that changes the state the value is the one after it. The record allocates as the run goes on; the
  * solver does not.
  *
  * SPDX-License-Identifier: BSD-3-Clause */

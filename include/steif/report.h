@@ -35,7 +35,8 @@ STEIF_EXPORT void steif_report_row(steif_report *r, const char *sheet);
 STEIF_EXPORT void steif_report_real(steif_report *r, const char *name, sunrealtype value);
 STEIF_EXPORT void steif_report_whole(steif_report *r, const char *name, long value);
 STEIF_EXPORT void steif_report_truth(steif_report *r, const char *name, int value);
-STEIF_EXPORT void steif_report_text(steif_report *r, const char *name, const char *value); /* NULL: null */
+STEIF_EXPORT void steif_report_text(steif_report *r, const char *name,
+                                    const char *value); /* NULL: null */
 STEIF_EXPORT void steif_report_texts(steif_report *r, const char *name, size_t count,
                                      const char *const *value);
 STEIF_EXPORT void steif_report_list(steif_report *r, const char *name, size_t count,
@@ -48,13 +49,13 @@ STEIF_EXPORT void steif_report_matrix(steif_report *r, const char *name, size_t 
  * STEIF_CSV: the first sheet with a header line (or the fields as one row); STEIF_JSON: one object
  * on one line. STEIF_IO when the stream fails. */
 STEIF_EXPORT int steif_report_write(steif_report *r, enum steif_format format, FILE *stream);
-/* The same into a file; an unwritable path leaves nothing behind. */
+/* The same into a file; an unwritable path leaves no file. */
 STEIF_EXPORT int steif_report_save(steif_report *r, enum steif_format format, const char *path);
 
 /* An array of a file for numpy: rows numbers, or rows x columns by rows. */
 typedef struct steif_array {
   const char *name;
-  size_t rows, columns;       /* columns 0: one dimension */
+  size_t rows, columns; /* columns 0: one dimension */
   const sunrealtype *value;
 } steif_array;
 /* Up to 16 arrays as an .npz file: numpy.load(path)[name]. At most 4 GB (STEIF_UNSUPPORTED). */
@@ -66,19 +67,26 @@ typedef struct steif_curve {
   const char *label;
   size_t count;
   const sunrealtype *x, *y;
-  int marks;                  /* 1: draw points, 0: a line only, 2: points only */
+  int marks; /* 1: draw points, 0: a line only, 2: points only */
 } steif_curve;
 typedef struct steif_plot {
   const char *title, *x_label, *y_label;
   int log_x, log_y;
-  int equal;                  /* same scale on both axes (regions) */
+  int equal; /* same scale on both axes (regions) */
   size_t count;
   const steif_curve *curve;
 } steif_plot;
 
 /* SVG is drawn by the library, PNG by gnuplot (STEIF_UNSUPPORTED with the remedy when missing);
- * the ending of the path decides. An unwritable path leaves nothing behind. */
+ * the ending of the path decides. An unwritable path leaves no file. */
 STEIF_EXPORT int steif_plot_save(steif_context *ctx, const steif_plot *plot, const char *path);
+
+/* The first 8 components of a solution over t: rows y(t_0), y(t_1), ... of n numbers. Components whose
+ * largest values differ by more than a factor of 100 are drawn as parts of these; t beyond 1e4 has a
+ * logarithmic axis. */
+STEIF_EXPORT int steif_plot_components(steif_context *ctx, const char *title, size_t count,
+                                       size_t n, const sunrealtype *t, const sunrealtype *y,
+                                       const char *path);
 
 #ifdef __cplusplus
 }

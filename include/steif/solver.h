@@ -8,16 +8,16 @@
  *
  * Steps. One of three rules decides them, looked at in this order:
  *   mesh      the given times, in order;
- *   h > 0     equal steps; h is lowered, never raised, so that a whole number of them fills
+ *   h > 0     constant step size; h is lowered, never raised, so that a whole number of them fills
  *             [t0, t1] (t1 from the options or the problem);
  *   otherwise the error estimate of the method, kept below rtol |y| + atol. Methods without an
  *             estimate refuse this.
- * A stage that Newton's iteration cannot solve is never accepted: with given steps the run stops
- * with STEIF_NO_CONVERGENCE and its sentence; with chosen steps the step is made smaller.
+ * A stage that Newton's iteration cannot solve is never accepted: with prescribed steps the run stops
+ * with STEIF_NO_CONVERGENCE and its sentence; with adaptive steps the step is made smaller.
  *
  * Events are times at which a function g_i(t, y) of the problem changes its sign, or arrives at 0.
  * They are looked for on the dense output of every accepted step, of every method alike, and
- * located to 4 rounding errors of t; the time reported is the one behind the change.
+ * located to 4 rounding errors of t; the reported time is the first one after the sign change.
  * Within a step g is sampled at five Chebyshev points; where the polynomial through them comes
  * back after a change of sign, g itself is asked. Where g at two more points is not that of the
  * polynomial, the parts of the step are halved, at most six times. An odd number of changes between
@@ -26,8 +26,8 @@
  *   A function that is 0, at the start or for a while, is silent until it has left 0 and comes
  *   back; leaving is no event. Jumps and poles of g are changes of sign like any other.
  *   NaN stops the run with STEIF_NOT_FINITE and the name of the function.
- * problem.react may change y or f at an event: the step then ends there, dense output keeps the
- * side before, steif_solution shows the one behind it, and the run begins anew from it.
+ * problem.handle_event may change y or f at an event: the step then ends there, dense output keeps the
+ * side before, steif_solution shows the one after it, and the integration restarts from it.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_SOLVER_H
@@ -46,47 +46,49 @@ typedef struct steif_options {
   sunrealtype rtol;         /* relative tolerance, 1e-14 .. 1; 0: 1e-6 */
   sunrealtype atol;         /* absolute tolerance; 0: rtol times the problem's scale */
   const sunrealtype *atols; /* n absolute tolerances instead of atol, NULL: none */
-  int (*ewt)(N_Vector y, N_Vector ewt, void *user); /* instead of both, at every chosen step: a
+  int (*ewt)(N_Vector y, N_Vector ewt,
+             void *user);  /* instead of both, at every adaptive step: a
                                CVEwtFn that fills in 1 / (error allowed in y_i); rtol still says
                                how many digits are meant; user: the problem's */
-  sunrealtype h;            /* > 0: equal steps */
-  const sunrealtype *mesh;  /* mesh_size ascending times, the first is the start */
+  sunrealtype h;           /* > 0: constant step size */
+  const sunrealtype *mesh; /* mesh_size ascending times, the first is the start */
   size_t mesh_size;
-  sunrealtype h0, h_max;    /* first and largest chosen step; 0: automatic, none */
-  sunrealtype t1;           /* end; 0: the problem's */
-  long max_steps;           /* default 1 000 000 */
-  sunrealtype newton;       /* Newton stops when the estimated error of the stages is below newton *
+  sunrealtype h0, h_max; /* first and largest adaptive step; 0: automatic, none */
+  sunrealtype t1;        /* end; 0: the problem's */
+  long max_steps;        /* default 1 000 000 */
+  sunrealtype newton; /* Newton stops when the estimated error of the stages is below newton *
                                tolerance; default 1e-4 (collocation), 1e-3 (DIRK, BDF) of
-                               rtol |y| + atol with chosen steps, 1e-3 of
-                               1e-10 (|y| + atol/rtol) (given steps) */
-  int iterations;           /* most Newton iterations in a stage; default 10 (chosen), 30 (given) */
+                               rtol |y| + atol with adaptive steps, 1e-3 of
+                               1e-10 (|y| + atol/rtol) with prescribed steps */
+  int
+    iterations; /* most Newton iterations in a stage; default 10 (adaptive), 30 (prescribed) */
   enum steif_storage storage; /* with force_storage: instead of the problem's */
   int force_storage;
-  N_Vector like;            /* the kind of vector to clone; NULL: serial */
-  const char *start;        /* starting procedure of multistep methods: exact, ramp, constant, cq;
+  N_Vector like;          /* the kind of vector to clone; NULL: serial */
+  const char *start;      /* starting procedure of multistep methods: exact, ramp, constant, cq;
                                NULL: that of the spec, else ramp */
-  int suppress_algebraic;   /* IDA: leave algebraic components out of the error test */
-  int consistent;           /* IDA: 1 IDACalcIC(YA_YDP_INIT), 2 IDACalcIC(Y_INIT) first */
+  int suppress_algebraic; /* IDA: leave algebraic components out of the error test */
+  int consistent;         /* IDA: 1 IDACalcIC(YA_YDP_INIT), 2 IDACalcIC(Y_INIT) first */
   /* Called after every accepted step with the step just made; nonzero stops the run: with the code
    * and sentence of a function of the library that has failed in it, else STEIF_CALLBACK. Before
-   * an event is reacted to, t is the event and y the side before it; when the run begins anew
-   * there, once more with the side behind it. */
+   * an event is handled, t is the event and y the side before it; when the integration restarts
+   * there, once more with the side after it. */
   int (*observe)(steif_solver *s, sunrealtype t, N_Vector y, void *user);
-  /* Called at every event before problem.react, which explains `fired`; nonzero stops the run. */
-  int (*notice)(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, void *user);
+  /* Called at every event before problem.handle_event, which explains `fired`; nonzero stops the run. */
+  int (*on_event)(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, void *user);
   /* Called by "descriptor", which auto takes for linear systems of index above 1, where x jumps, at
    * the start too: x(t-), and x(t+) with the impulses; nonzero stops the run. */
   int (*jump)(sunrealtype t, const sunrealtype *before, const struct steif_impulse *impulse,
               void *user);
-  void *observer;                     /* user of these */
-  /* Called before the run begins anew behind problem.react, and behind a break of the problem where
-   * steps of our own methods are chosen, with rtol: make y(t+) of y and find its slope (yp holds 0
-   * and may stay so); returns a code. steif_settle (jump.h) fits. NULL: y stays; algebraic
+  void *observer; /* user of these */
+  /* Called before the integration restarts after problem.handle_event, and after a break of the problem
+   * where steps of our own methods are adaptive, with rtol: make y(t+) of y and find its slope (yp holds 0
+   * and may stay so); returns a code. steif_reinitialise (jump.h) fits. NULL: y stays; algebraic
    * components that are then wrong may stop the run. */
-  int (*settle)(steif_context *ctx, const steif_problem *problem, sunrealtype t, sunrealtype rtol,
-                N_Vector y, N_Vector yp);
-  sunrealtype max_seconds;            /* limit on the time of a call by the clock; 0: none */
-  const volatile int *stop;           /* set to nonzero, by a signal handler for example, it lets
+  int (*reinitialise)(steif_context *ctx, const steif_problem *problem, sunrealtype t,
+                      sunrealtype rtol, N_Vector y, N_Vector yp);
+  sunrealtype max_seconds;  /* limit on the wall-clock time of a call; 0: none */
+  const volatile int *stop; /* set to nonzero, by a signal handler for example, it lets
                                          the call return STEIF_STOPPED after the step at hand */
 } steif_options;
 
@@ -121,7 +123,7 @@ STEIF_EXPORT int steif_solve_step(steif_solver *s);
  * expects to save. */
 STEIF_EXPORT const char *steif_method_used(const steif_solver *s);
 
-STEIF_EXPORT N_Vector steif_solution(steif_solver *s);   /* at the time last asked for */
+STEIF_EXPORT N_Vector steif_solution(steif_solver *s); /* at the time last asked for */
 STEIF_EXPORT sunrealtype steif_time(const steif_solver *s);
 STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);
 

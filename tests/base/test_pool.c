@@ -12,14 +12,14 @@ static void blocks_start_on_a_cache_line_and_are_zero(void)
   steif_context *ctx = steif_context_new(NULL);
   stf_pool *pool = stf_pool_new(ctx);
   for (size_t count = 1; count < 300; count += 23) {
-    unsigned char *block = stf_claim(pool, count, 3);
+    unsigned char *block = stf_pool_array(pool, count, 3);
     CHECK(block && (uintptr_t)block % 64 == 0);
     int zeroed = 1;
     for (size_t i = 0; i < 3 * count; i++) zeroed &= block[i] == 0;
     CHECK(zeroed);
     memset(block, 0xa5, 3 * count);
   }
-  CHECK(stf_claim(pool, 0, sizeof(double)) != NULL);
+  CHECK(stf_pool_array(pool, 0, sizeof(double)) != NULL);
   stf_pool_free(&pool);
   CHECK(pool == NULL);
   stf_pool_free(&pool);
@@ -33,7 +33,7 @@ static void vectors_are_zeroed_clones(void)
   N_Vector like = N_VNew_Serial(29, steif_sundials(ctx));
   N_VConst(4.25, like);
   stf_pool *pool = stf_pool_new(ctx);
-  N_Vector *v = stf_claim_vectors(pool, 5, like);
+  N_Vector *v = stf_pool_vectors(pool, 5, like);
   CHECK(v != NULL);
   for (int i = 0; v && i < 5; i++) {
     CHECK(N_VGetLength(v[i]) == 29);
@@ -52,7 +52,7 @@ static void views_lie_on_their_array(void)
   N_Vector like = N_VNew_Serial(3, steif_sundials(ctx));
   stf_pool *pool = stf_pool_new(ctx);
   sunrealtype data[] = {1.25, -7.5, 3.75};
-  N_Vector view = stf_claim_view(pool, like, data), copy = stf_claim_vector(pool, view);
+  N_Vector view = stf_pool_view(pool, like, data), copy = stf_pool_vector(pool, view);
   N_VDestroy(like);
   CHECK(view && copy && N_VGetLength(view) == 3 && N_VGetArrayPointer(view) == data);
   N_VScale(2, view, copy);
@@ -73,7 +73,7 @@ static void blocks_do_not_overlap(void)
   unsigned char *block[COUNT];
   long touched = 0;
   for (size_t i = 0; i < COUNT; i++) {
-    block[i] = stf_claim(pool, i * 37 % 5003, 1);
+    block[i] = stf_pool_array(pool, i * 37 % 5003, 1);
     CHECK(block[i] && (uintptr_t)block[i] % 64 == 0);
     for (size_t k = 0; k < i * 37 % 5003; k++)
       touched += block[i][k] != 0, block[i][k] = (unsigned char)(1 + i % 251);
@@ -93,8 +93,8 @@ static void owned_objects_are_destroyed_once(void)
   steif_context *ctx = steif_context_new(NULL);
   stf_pool *pool = stf_pool_new(ctx);
   int left = 7;
-  CHECK(stf_claim_owner(pool, &left, count_down) == STEIF_OK);
-  CHECK(stf_claim_owner(pool, &left, count_down) == STEIF_OK);
+  CHECK(stf_pool_adopt(pool, &left, count_down) == STEIF_OK);
+  CHECK(stf_pool_adopt(pool, &left, count_down) == STEIF_OK);
   CHECK(left == 7);
   stf_pool_free(&pool);
   CHECK(left == 5);
@@ -106,9 +106,9 @@ static void impossible_sizes_are_refused(void)
   steif_context *ctx = steif_context_new(NULL);
   stf_pool *pool = stf_pool_new(ctx);
   const size_t half = SIZE_MAX / 2 + 3;
-  CHECK(stf_claim(pool, half, 2) == NULL);
-  CHECK(stf_claim(pool, 2, half) == NULL);
-  CHECK(stf_claim(pool, SIZE_MAX - 5, 1) == NULL);
+  CHECK(stf_pool_array(pool, half, 2) == NULL);
+  CHECK(stf_pool_array(pool, 2, half) == NULL);
+  CHECK(stf_pool_array(pool, SIZE_MAX - 5, 1) == NULL);
   CHECK(stf_allocate(ctx, SIZE_MAX - 5, 1) == NULL);
   CHECK(stf_allocate(ctx, half, 2) == NULL);
   CHECK(steif_status(ctx) == STEIF_NO_MEMORY);
@@ -122,13 +122,13 @@ static int live(steif_context *ctx, N_Vector like, int *owned)
 {
   stf_pool *pool = stf_pool_new(ctx);
   int whole = pool != NULL;
-  whole = whole && stf_claim(pool, 11, sizeof(double));
-  whole = whole && stf_claim_vectors(pool, 3, like);
+  whole = whole && stf_pool_array(pool, 11, sizeof(double));
+  whole = whole && stf_pool_vectors(pool, 3, like);
   if (whole) {
     ++*owned;
-    whole = stf_claim_owner(pool, owned, count_down) == STEIF_OK;
+    whole = stf_pool_adopt(pool, owned, count_down) == STEIF_OK;
   }
-  whole = whole && stf_claim(pool, 13, 1);
+  whole = whole && stf_pool_array(pool, 13, 1);
   stf_pool_free(&pool);
   return whole;
 }

@@ -20,8 +20,8 @@ static int start(ride *r, const steif_problem *p)
 {
   r->run.like = N_VNew_Serial(p->n, steif_sundials(r->ctx));
   r->run.pool = stf_pool_new(r->ctx);
-  r->run.y = stf_claim_vector(r->run.pool, r->run.like);
-  r->run.yp = stf_claim_vector(r->run.pool, r->run.like);
+  r->run.y = stf_pool_vector(r->run.pool, r->run.like);
+  r->run.yp = stf_pool_vector(r->run.pool, r->run.like);
   memcpy(NV_DATA_S(r->run.y), p->y0, (size_t)p->n * sizeof *p->y0);
   if (p->yp0) memcpy(NV_DATA_S(r->run.yp), p->yp0, (size_t)p->n * sizeof *p->yp0);
   r->run.t = p->t0;

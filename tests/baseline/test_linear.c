@@ -4,6 +4,9 @@
 #include "base/failing.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
 #include <steif/steif.h>
 #include <stdlib.h>
 #include <string.h>
@@ -162,7 +165,7 @@ static void breaks_and_events_jump(void)
                            .break_count = 1,
                            .events = 1,
                            .event = crossing,
-                           .react = push};
+                           .handle_event = push};
   steif_context *ctx = steif_context_new(NULL);
   seen w = {0};
   steif_options o = steif_defaults();

@@ -3,6 +3,9 @@
 #include "base/failing.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
 #include <steif/steif.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* test_growth.c: exponents of costs over sizes.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
-#include <steif/bench.h>
+#include "impulse_cost.h"
 #include <string.h>
 
 static steif_bench_impulse row_of(const char *problem, sunindextype n, double cpu, double floor)

@@ -1,7 +1,8 @@
 /* test_lyapunov.c: the benchmarks of Lyapunov exponents.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
-#include <steif/bench.h>
+#include "attractor.h"
+#include "kernels.h"
 
 /* (.9056, 0, -14.5723): J. C. Sprott, Chaos and Time-Series Analysis (2003), table A.5. */
 static void a_long_run_has_the_exponents_of_lorenz(void)

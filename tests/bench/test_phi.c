@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 #include <math.h>
-#include <steif/bench.h>
+#include "phi_cost.h"
 #include <steif/phi.h>
 #include <string.h>
 

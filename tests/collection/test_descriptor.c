@@ -7,7 +7,7 @@
  * by the trapezoidal rule on a circle beyond the finite eigenvalues.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "exact.h"
+#include "known_structure.h"
 #include "fixture.h"
 #include "lapack.h"
 #include <complex.h>

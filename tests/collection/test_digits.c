@@ -120,7 +120,7 @@ static void an_exact_solution_may_decline(void)
   steif_context_free(&ctx);
 }
 
-static void wrong_arguments_are_refused(void)
+static void wrong_arguments_are_rejected(void)
 {
   fixture s;
   double scd, mescd;
@@ -145,5 +145,5 @@ CU_TestInfo tests_of_digits[] = {
   {"chosen components are compared at their time",
    chosen_components_are_compared_at_their_time},
   {"an exact solution may decline or stop", an_exact_solution_may_decline},
-  {"wrong arguments are refused", wrong_arguments_are_refused},
+  {"wrong arguments are rejected", wrong_arguments_are_rejected},
   CU_TEST_INFO_NULL};

@@ -58,7 +58,7 @@ static void the_name_is_the_whole_spec_and_outlives_it(void)
   steif_context_free(&ctx);
 }
 
-static void refused(const char *spec, int code, const char *words)
+static void rejected(const char *spec, int code, const char *words)
 {
   steif_context *ctx = steif_context_new(NULL);
   steif_problem p;
@@ -73,34 +73,34 @@ static void refused(const char *spec, int code, const char *words)
   steif_context_free(&ctx);
 }
 
-static void wrong_specs_are_refused_with_a_sentence(void)
+static void wrong_specs_are_rejected_with_a_sentence(void)
 {
-  refused("hate:n=400", STEIF_UNKNOWN_NAME, "'heat'");
-  refused("stifpair", STEIF_UNKNOWN_NAME, "'stiffpair'");
-  refused("harmonic:w=2", STEIF_UNKNOWN_NAME, "'harmonic' has no parameter 'w'");
-  refused("heat:m=7", STEIF_UNKNOWN_NAME, "it takes n, storage");
-  refused("heat:n=0", STEIF_BAD_INPUT, "from 1 to");
-  refused("heat:storage=tape", STEIF_UNKNOWN_NAME, "dense, band or sparse");
-  refused("jordan:k=13", STEIF_BAD_INPUT, "from 1 to 12");
-  refused("jordan:case=N-con", STEIF_UNKNOWN_NAME, "N-cons");
-  refused("forced:c=0", STEIF_BAD_INPUT, "resonance");
-  refused("forced:k=0.01", STEIF_BAD_INPUT, "c^2/4");
-  refused("pendulum3:index=4", STEIF_BAD_INPUT, "1, 2, 3 or ggl");
-  refused("ut5:case=odd", STEIF_UNKNOWN_NAME, "inc or cons");
-  refused("kepler:e=1", STEIF_BAD_INPUT, "0.99");
-  refused("prothero:lambda=nan", STEIF_BAD_INPUT, "lambda=nan");
-  refused("", STEIF_BAD_INPUT, "cannot read");
-  refused(NULL, STEIF_BAD_INPUT, "NULL");
+  rejected("hate:n=400", STEIF_UNKNOWN_NAME, "'heat'");
+  rejected("stifpair", STEIF_UNKNOWN_NAME, "'stiffpair'");
+  rejected("harmonic:w=2", STEIF_UNKNOWN_NAME, "'harmonic' has no parameter 'w'");
+  rejected("heat:m=7", STEIF_UNKNOWN_NAME, "it takes n, storage");
+  rejected("heat:n=0", STEIF_BAD_INPUT, "from 1 to");
+  rejected("heat:storage=tape", STEIF_UNKNOWN_NAME, "dense, band or sparse");
+  rejected("jordan:k=13", STEIF_BAD_INPUT, "from 1 to 12");
+  rejected("jordan:case=N-con", STEIF_UNKNOWN_NAME, "N-cons");
+  rejected("forced:c=0", STEIF_BAD_INPUT, "resonance");
+  rejected("forced:k=0.01", STEIF_BAD_INPUT, "c^2/4");
+  rejected("pendulum3:index=4", STEIF_BAD_INPUT, "1, 2, 3 or ggl");
+  rejected("ut5:case=odd", STEIF_UNKNOWN_NAME, "inc or cons");
+  rejected("kepler:e=1", STEIF_BAD_INPUT, "0.99");
+  rejected("prothero:lambda=nan", STEIF_BAD_INPUT, "lambda=nan");
+  rejected("", STEIF_BAD_INPUT, "cannot read");
+  rejected(NULL, STEIF_BAD_INPUT, "NULL");
 }
 
-static void no_place_for_the_problem_is_refused(void)
+static void no_place_for_the_problem_is_rejected(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   CU_ASSERT_EQUAL(steif_problem_find(ctx, "heat", NULL), STEIF_BAD_INPUT);
   steif_context_free(&ctx);
 }
 
-/* Find `spec`, refused its block number budget + 1; true when it asks for less. */
+/* Find `spec`, rejected its block number budget + 1; true when it asks for less. */
 static bool starved(const char *spec, int budget)
 {
   failing memory = {0};
@@ -140,7 +140,7 @@ CU_TestInfo tests_of_find[] = {
   {"the shelf lists each name once", shelf_lists_names},
   {"every name is found with one form and a Jacobian", every_name_is_found_with_a_valid_form},
   {"the name is the whole spec and outlives it", the_name_is_the_whole_spec_and_outlives_it},
-  {"wrong specs are refused with a sentence", wrong_specs_are_refused_with_a_sentence},
-  {"no place for the problem is refused", no_place_for_the_problem_is_refused},
+  {"wrong specs are rejected with a sentence", wrong_specs_are_rejected_with_a_sentence},
+  {"no place for the problem is rejected", no_place_for_the_problem_is_rejected},
   {"short memory is reported and nothing leaks", short_memory_is_reported_and_nothing_leaks},
   CU_TEST_INFO_NULL};

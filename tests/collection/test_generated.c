@@ -2,9 +2,9 @@
  * only E x(0-) counts, physics is kept, the same seed gives the same system, short memory is told.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "base/failing.h"
-#include "exact.h"
+#include "known_structure.h"
 #include "fixture.h"
-#include "linear.h"
+#include "generated.h"
 
 /* The start of `spec` with x(0-) = y0 where that is not NULL. */
 static int find(fixture *s, const char *spec, const double *y0, stf_exact_start *x)
@@ -224,8 +224,8 @@ static void dense_and_sparse_storage_hold_the_same(void)
   }
 }
 
-/* A matrix without room, by rows or of another size is refused by a fatal code. */
-static void wrong_matrices_are_refused(void)
+/* A matrix without room, by rows or of another size is rejected by a fatal code. */
+static void wrong_matrices_are_rejected(void)
 {
   fixture s;
   if (fixture_open(&s, "springs:n=8")) return;
@@ -269,7 +269,7 @@ static void seeds_choose_the_numbers(void)
   CLOSE(fourth, 3, 0.07);
 }
 
-static void refused(const char *spec, int code, const char *words)
+static void rejected(const char *spec, int code, const char *words)
 {
   steif_context *ctx = steif_context_new(NULL);
   steif_problem p;
@@ -283,25 +283,25 @@ static void refused(const char *spec, int code, const char *words)
   steif_context_free(&ctx);
 }
 
-static void wrong_specs_are_refused(void)
+static void wrong_specs_are_rejected(void)
 {
-  refused("stokes:m=1", STEIF_BAD_INPUT, "from 2 to");
-  refused("springs:n=30,c=31", STEIF_BAD_INPUT, "from 1 to 30");
-  refused("ladder:storage=band", STEIF_UNSUPPORTED, "no band storage");
-  refused("ladder:n=5000,storage=dense", STEIF_UNSUPPORTED, "choose sparse");
-  refused("bus:case=odd", STEIF_UNKNOWN_NAME, "inc or cons");
-  refused("blocks:sizes=3.a", STEIF_BAD_INPUT, "3.2.1 or 2x50.3x20");
-  refused("blocks:sizes=3.", STEIF_BAD_INPUT, "3.2.1 or 2x50.3x20");
-  refused("blocks:sizes=13", STEIF_BAD_INPUT, "from 1 to 12");
-  refused("blocks:sizes=3x0", STEIF_BAD_INPUT, "from 1 to 12");
-  refused("blocks:sizes=10x100", STEIF_BAD_INPUT, "at most 1000");
-  refused("blocks:sizes=2,index=2", STEIF_BAD_INPUT, "not both");
-  refused("blocks:nf=7", STEIF_BAD_INPUT, "even");
-  refused("blocks:kind=round", STEIF_UNKNOWN_NAME, "osc or stiff");
-  refused("hidden:lambda=0", STEIF_BAD_INPUT, "lambda=0");
-  refused("switchrlc:m=3", STEIF_UNKNOWN_NAME, "v1, v2, case, storage");
-  refused("impact:seed=0", STEIF_UNKNOWN_NAME, "no parameter 'seed'");
-  refused("stokes:seed=0", STEIF_BAD_INPUT, "seed=0");
+  rejected("stokes:m=1", STEIF_BAD_INPUT, "from 2 to");
+  rejected("springs:n=30,c=31", STEIF_BAD_INPUT, "from 1 to 30");
+  rejected("ladder:storage=band", STEIF_UNSUPPORTED, "no band storage");
+  rejected("ladder:n=5000,storage=dense", STEIF_UNSUPPORTED, "choose sparse");
+  rejected("bus:case=odd", STEIF_UNKNOWN_NAME, "inc or cons");
+  rejected("blocks:sizes=3.a", STEIF_BAD_INPUT, "3.2.1 or 2x50.3x20");
+  rejected("blocks:sizes=3.", STEIF_BAD_INPUT, "3.2.1 or 2x50.3x20");
+  rejected("blocks:sizes=13", STEIF_BAD_INPUT, "from 1 to 12");
+  rejected("blocks:sizes=3x0", STEIF_BAD_INPUT, "from 1 to 12");
+  rejected("blocks:sizes=10x100", STEIF_BAD_INPUT, "at most 1000");
+  rejected("blocks:sizes=2,index=2", STEIF_BAD_INPUT, "not both");
+  rejected("blocks:nf=7", STEIF_BAD_INPUT, "even");
+  rejected("blocks:kind=round", STEIF_UNKNOWN_NAME, "osc or stiff");
+  rejected("hidden:lambda=0", STEIF_BAD_INPUT, "lambda=0");
+  rejected("switchrlc:m=3", STEIF_UNKNOWN_NAME, "v1, v2, case, storage");
+  rejected("impact:seed=0", STEIF_UNKNOWN_NAME, "no parameter 'seed'");
+  rejected("stokes:seed=0", STEIF_BAD_INPUT, "seed=0");
 }
 
 static void other_problems_do_not_know_their_start(void)
@@ -318,7 +318,7 @@ static void other_problems_do_not_know_their_start(void)
   fixture_close(&s);
 }
 
-/* Find the problem and its start with the k-th request refused; true when all were served. */
+/* Find the problem and its start with the k-th request rejected; true when all were served. */
 static int starved(const char *spec, long k)
 {
   failing f = {0};
@@ -365,9 +365,9 @@ CU_TestInfo tests_of_generated[] = {
    closed_solutions_begin_at_x_plus_and_satisfy_the_equations},
   {"derivatives of the forcing are derivatives", derivatives_of_forcing_are_derivatives},
   {"dense and sparse storage hold the same", dense_and_sparse_storage_hold_the_same},
-  {"wrong matrices are refused", wrong_matrices_are_refused},
+  {"wrong matrices are rejected", wrong_matrices_are_rejected},
   {"seeds choose the numbers", seeds_choose_the_numbers},
-  {"wrong specs are refused", wrong_specs_are_refused},
+  {"wrong specs are rejected", wrong_specs_are_rejected},
   {"other problems do not know their start", other_problems_do_not_know_their_start},
   {"short memory is told and nothing leaks", short_memory_is_told},
   CU_TEST_INFO_NULL};

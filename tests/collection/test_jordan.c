@@ -136,7 +136,7 @@ static void storages_hold_the_same_matrices(void)
     }
 }
 
-static void a_matrix_that_is_too_small_is_refused(void)
+static void a_matrix_that_is_too_small_is_rejected(void)
 {
   fixture s;
   open_case(&s, 6, "N-inc", "sparse");
@@ -158,5 +158,5 @@ CU_TestInfo tests_of_jordan[] = {
   {"starts are as named", starts_are_as_named},
   {"the index counts from the last component", index_counts_from_the_last_component},
   {"storages hold the same matrices", storages_hold_the_same_matrices},
-  {"a matrix that is too small is refused", a_matrix_that_is_too_small_is_refused},
+  {"a matrix that is too small is rejected", a_matrix_that_is_too_small_is_rejected},
   CU_TEST_INFO_NULL};

@@ -210,7 +210,7 @@ static void beam_bends_from_its_end(void)
 }
 
 /* Outside the domain a callback asks for a smaller step instead of returning NaN. */
-static void callbacks_refuse_points_outside_the_domain(void)
+static void callbacks_reject_points_outside_the_domain(void)
 {
   static const struct {
     const char *spec;
@@ -231,7 +231,7 @@ static void callbacks_refuse_points_outside_the_domain(void)
   }
 }
 
-static void collisions_are_refused(void)
+static void collisions_are_rejected(void)
 {
   fixture s;
   if (fixture_open(&s, "plei")) return;
@@ -244,7 +244,7 @@ static void collisions_are_refused(void)
   fixture_close(&s);
 }
 
-static void impossible_parameters_are_refused(void)
+static void impossible_parameters_are_rejected(void)
 {
   static const char *const specs[] = {"vdpol:mu=3,eps=0.2", "vdpol:eps=-1", "vdpol:n=7",
                                       "rober:form=matrix",  "medakzo:n=63", "medakzo:n=2",
@@ -289,8 +289,8 @@ CU_TestInfo tests_of_published[] = {
   {"tumour is fed until t = 5", tumour_is_fed_until_five},
   {"modulator at the peak of its carrier", modulator_at_the_peak_of_its_carrier},
   {"beam bends from its end", beam_bends_from_its_end},
-  {"callbacks refuse points outside the domain", callbacks_refuse_points_outside_the_domain},
-  {"collisions are refused", collisions_are_refused},
-  {"impossible parameters are refused", impossible_parameters_are_refused},
+  {"callbacks reject points outside the domain", callbacks_reject_points_outside_the_domain},
+  {"collisions are rejected", collisions_are_rejected},
+  {"impossible parameters are rejected", impossible_parameters_are_rejected},
   {"parameters change what they name", parameters_change_what_they_name},
   CU_TEST_INFO_NULL};

@@ -107,14 +107,14 @@ static void car_axis_fulfils_hidden_constraints(void)
 static void slopes_of_the_car_axis_keep_hidden_constraints(void)
 {
   const double h = 1e-6;
-  double y[10], ahead[6], behind[6];
+  double y[10], ahead[6], before[6];
   fixture s;
   if (fixture_open(&s, "caraxis")) return;
   for (int i = 0; i < 10; i++) y[i] = s.p.y0[i] + h * s.p.yp0[i];
   car_axis(&s, h, y, ahead);
   for (int i = 0; i < 10; i++) y[i] = s.p.y0[i] - h * s.p.yp0[i];
-  car_axis(&s, -h, y, behind);
-  for (int i = 0; i < 6; i++) CLOSE_FLOOR((ahead[i] - behind[i]) / (2 * h), 0, 1e-6, 1);
+  car_axis(&s, -h, y, before);
+  for (int i = 0; i < 6; i++) CLOSE_FLOOR((ahead[i] - before[i]) / (2 * h), 0, 1e-6, 1);
   fixture_close(&s);
 }
 

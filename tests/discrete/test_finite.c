@@ -1,6 +1,9 @@
 /* test_finite.c: the state space behind E x' = A x + B u, and its discretisation. Answers by hand.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
 #include <steif/steif.h>
 #include <string.h>
 

@@ -4,6 +4,9 @@
 #include "suite.h"
 #include <complex.h>
 #include <nvector/nvector_serial.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
 #include <steif/steif.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -340,7 +343,7 @@ static steif_drift drift(const char *method, double h, long steps)
   steif_energy e = {.period = 2 * pi, .drift = &d};
   steif_options o = steif_defaults();
   o.h = h, o.t1 = h * (double)steps;
-  CHECK(!steif_energy_watch(ctx, &p, method, &o, &e));
+  CHECK(!steif_energy_measure(ctx, &p, method, &o, &e));
   steif_problem_clear(ctx, &p);
   return d;
 }

@@ -1,7 +1,11 @@
 /* test_shelf.c: every experiment of the shelf finds its references, and has its picture.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "findings.h"
 #include "suite.h"
 #include <stdlib.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
 #include <steif/steif.h>
 #include <string.h>
 
@@ -55,7 +59,7 @@ static void orders_come_from_halved_steps(void)
   steif_context_free(&ctx);
 }
 
-static void unknown_names_are_refused(void)
+static void unknown_names_are_rejected(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   steif_findings f;
@@ -96,6 +100,6 @@ static void memory_may_end_anywhere(void)
 CU_TestInfo tests_of_shelf[] = {
   {"all experiments find their references", all_find_their_references},
   {"orders come from halved steps", orders_come_from_halved_steps},
-  {"unknown names are refused", unknown_names_are_refused},
+  {"unknown names are rejected", unknown_names_are_rejected},
   {"memory may end anywhere", memory_may_end_anywhere},
   CU_TEST_INFO_NULL};

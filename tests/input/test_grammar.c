@@ -1,4 +1,4 @@
-/* test_grammar.c: how expressions are read, and how those that cannot be are refused.
+/* test_grammar.c: how expressions are read, and how those that cannot be are rejected.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
 
@@ -41,7 +41,7 @@ static void precedence_is_that_of_mathematics(void)
   steif_context_free(&ctx);
 }
 
-static void what_cannot_be_read_is_refused_with_its_place(void)
+static void what_cannot_be_read_is_rejected_with_its_place(void)
 {
   static const struct {
     const char *text;
@@ -56,7 +56,7 @@ static void what_cannot_be_read_is_refused_with_its_place(void)
      "an operator or the end of the expression, found ')'"},
     {"2 t", STEIF_BAD_INPUT, "position 3",
      "an operator or the end of the expression, found 't'"},
-    {"sin t", STEIF_BAD_INPUT, "position 5", "expected '(' behind 'sin', found 't'"},
+    {"sin t", STEIF_BAD_INPUT, "position 5", "expected '(' after 'sin', found 't'"},
     {"sin(t, 2)", STEIF_BAD_INPUT, "position 6", "expected ')' or an operator, found ', 2)'"},
     {"sine(t)", STEIF_UNKNOWN_NAME, "position 1", "unknown name 'sine'; did you mean 'sin'?"},
     {"3*T", STEIF_UNKNOWN_NAME, "position 3", "unknown name 'T'; did you mean 't'?"},
@@ -116,7 +116,7 @@ static void nesting_is_bounded(void)
 
 CU_TestInfo tests_of_grammar[] = {
   {"precedence is that of mathematics", precedence_is_that_of_mathematics},
-  {"what cannot be read is refused with its place",
-   what_cannot_be_read_is_refused_with_its_place},
+  {"what cannot be read is rejected with its place",
+   what_cannot_be_read_is_rejected_with_its_place},
   {"nesting is bounded, length is not", nesting_is_bounded},
   CU_TEST_INFO_NULL};

@@ -1,4 +1,4 @@
-/* test_malformed.c: files that are no Matrix Market files: each is refused with the file, the line
+/* test_malformed.c: files that are no Matrix Market files: each is rejected with the file, the line
  * and what was expected.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
@@ -73,7 +73,7 @@ static const struct {
   {REAL "2 2 2\n1 2 9e307\n1 2 9.5e307\n", STEIF_NOT_FINITE, "entry (1, 2)", "finite"},
 };
 
-static void malformed_files_are_refused_with_the_line(void)
+static void malformed_files_are_rejected_with_the_line(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -91,7 +91,7 @@ static void malformed_files_are_refused_with_the_line(void)
 }
 
 /* A good file cut off anywhere: before its last digit it must not be read. */
-static void truncated_files_are_refused(void)
+static void truncated_files_are_rejected(void)
 {
   static const char whole[] = REAL "3 3 3\n1 1 2.5\n2 2 3.25\n3 1 7.75\n";
   steif_context *ctx = steif_context_new(NULL);
@@ -103,7 +103,7 @@ static void truncated_files_are_refused(void)
   steif_context_free(&ctx);
 }
 
-static void zero_bytes_and_long_lines_are_refused(void)
+static void zero_bytes_and_long_lines_are_rejected(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   static const char zero[] = REAL "1 1 1\n1 1 4\0.5\n";
@@ -118,7 +118,7 @@ static void zero_bytes_and_long_lines_are_refused(void)
   steif_context_free(&ctx);
 }
 
-static void what_is_no_file_is_refused(void)
+static void what_is_no_file_is_rejected(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   CHECK(!steif_matrix_read(ctx, in_folder("missing.mtx")) && steif_status(ctx) == STEIF_IO);
@@ -135,9 +135,9 @@ static void what_is_no_file_is_refused(void)
 }
 
 CU_TestInfo tests_of_malformed[] = {
-  {"malformed files are refused with file, line and expectation",
-   malformed_files_are_refused_with_the_line},
-  {"truncated files are refused", truncated_files_are_refused},
-  {"zero bytes and long lines are refused", zero_bytes_and_long_lines_are_refused},
-  {"missing files, folders and devices are refused", what_is_no_file_is_refused},
+  {"malformed files are rejected with file, line and expectation",
+   malformed_files_are_rejected_with_the_line},
+  {"truncated files are rejected", truncated_files_are_rejected},
+  {"zero bytes and long lines are rejected", zero_bytes_and_long_lines_are_rejected},
+  {"missing files, folders and devices are rejected", what_is_no_file_is_rejected},
   CU_TEST_INFO_NULL};

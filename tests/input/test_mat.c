@@ -9,24 +9,29 @@ static void two_matrix_market_files_are_a_system(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   SUNMatrix E, F;
-  CHECK(!steif_system_read(ctx, put("E.mtx", E_text), put("F.mtx", F_text), &E, &F));
+  CHECK(!steif_system_read(ctx, put("E.mtx", E_text), put("F.mtx", F_text), 0, &E, &F));
   CU_ASSERT_FATAL(E && F);
   CHECK(at(E, 0, 1) == 3.5 && at(E, 0, 0) == 0 && at(F, 0, 1) == -2.5 && at(F, 1, 1) == 4);
   SUNMatDestroy(E), SUNMatDestroy(F);
+  CHECK(!steif_system_read(ctx, in_folder("E.mtx"), in_folder("F.mtx"), 1, &E, &F));
+  CHECK(E && F && at(E, 0, 1) == 3.5 && at(F, 0, 1) == 2.5 && at(F, 1, 1) == -4); /* F = -A */
+  SUNMatDestroy(E), SUNMatDestroy(F);
+  CHECK(steif_system_read(ctx, in_folder("E.mat"), NULL, 1, &E, &F) == STEIF_BAD_INPUT);
+  SAYS(ctx, "by their names");
 
   put("F3.mtx", "%%MatrixMarket matrix coordinate real general\n3 2 0\n");
-  CHECK(steif_system_read(ctx, in_folder("E.mtx"), in_folder("F3.mtx"), &E, &F) ==
+  CHECK(steif_system_read(ctx, in_folder("E.mtx"), in_folder("F3.mtx"), 0, &E, &F) ==
         STEIF_BAD_INPUT);
   SAYS(ctx, "F is 3 x 2 and should be 2 x 2, the size of E");
   CHECK(!E && !F);
-  CHECK(steif_system_read(ctx, in_folder("F3.mtx"), in_folder("E.mtx"), &E, &F) ==
+  CHECK(steif_system_read(ctx, in_folder("F3.mtx"), in_folder("E.mtx"), 0, &E, &F) ==
         STEIF_BAD_INPUT);
   SAYS(ctx, "E is 3 x 2 and should be 3 x 3, that is, square");
-  CHECK(steif_system_read(ctx, in_folder("E.mtx"), in_folder("F4.mtx"), &E, &F) == STEIF_IO);
+  CHECK(steif_system_read(ctx, in_folder("E.mtx"), in_folder("F4.mtx"), 0, &E, &F) == STEIF_IO);
   SAYS(ctx, "F4.mtx");
   CHECK(!E && !F);
-  CHECK(steif_system_read(ctx, NULL, in_folder("E.mtx"), &E, &F) == STEIF_BAD_INPUT);
-  CHECK(steif_system_read(ctx, in_folder("E.mtx"), in_folder("F.mtx"), NULL, &F) ==
+  CHECK(steif_system_read(ctx, NULL, in_folder("E.mtx"), 0, &E, &F) == STEIF_BAD_INPUT);
+  CHECK(steif_system_read(ctx, in_folder("E.mtx"), in_folder("F.mtx"), 0, NULL, &F) ==
         STEIF_BAD_INPUT);
   steif_context_free(&ctx);
 }
@@ -126,7 +131,7 @@ static void variables_of_every_type_are_read(void)
   steif_context_free(&ctx);
 }
 
-static void what_is_no_real_matrix_is_refused(void)
+static void what_is_no_real_matrix_is_rejected(void)
 {
   static const variable list[] = {{"z", 'c', 2, 2, {1.5, 2, 3, 4}},
                                   {"word", 't', 1, 3, {0}},
@@ -154,7 +159,7 @@ static void what_is_no_real_matrix_is_refused(void)
   steif_context_free(&ctx);
 }
 
-/* A file cut off anywhere is refused, or its variable is not found: it is never read in part. */
+/* A file cut off anywhere is rejected, or its variable is not found: it is never read in part. */
 static void cut_files_give_no_matrix(void)
 {
   static const variable list[] = {{"E", 's', 2, 2, {0, 2.5, -7, 1e10}}};
@@ -175,11 +180,11 @@ static void E_with_F_or_A_is_a_system(void)
                  A = {"A", 's', 2, 2, {0, -2, 0, 4.5}}, small = {"F", 'd', 1, 1, {1}};
   steif_context *ctx = steif_context_new(NULL);
   SUNMatrix e, f;
-  CHECK(!steif_system_read(ctx, mat_file(2, (const variable[]){E, F}), NULL, &e, &f));
+  CHECK(!steif_system_read(ctx, mat_file(2, (const variable[]){E, F}), NULL, 0, &e, &f));
   CU_ASSERT_FATAL(e && f);
   CHECK(at(e, 1, 1) == 2.5 && at(f, 1, 0) == 2 && at(f, 0, 1) == 3);
   SUNMatDestroy(e), SUNMatDestroy(f);
-  CHECK(!steif_system_read(ctx, mat_file(2, (const variable[]){E, A}), NULL, &e, &f));
+  CHECK(!steif_system_read(ctx, mat_file(2, (const variable[]){E, A}), NULL, 0, &e, &f));
   CU_ASSERT_FATAL(e && f);
   CHECK(at(f, 1, 0) == 2 && at(f, 1, 1) == -4.5 && at(f, 0, 1) == 0);
   SUNMatDestroy(e), SUNMatDestroy(f);
@@ -192,7 +197,7 @@ static void E_with_F_or_A_is_a_system(void)
              {{F, A}, 2, "has neither E nor M"},
              {{E, small}, 2, "F is 1 x 1 and should be 2 x 2"}};
   for (int i = 0; i < 4; i++) {
-    CHECK(steif_system_read(ctx, mat_file(bad[i].count, bad[i].list), NULL, &e, &f) ==
+    CHECK(steif_system_read(ctx, mat_file(bad[i].count, bad[i].list), NULL, 0, &e, &f) ==
           STEIF_BAD_INPUT);
     SAYS(ctx, bad[i].words);
     CHECK(!e && !f);
@@ -212,7 +217,7 @@ static void second_order_systems_become_first_order(void)
                                       0, 2.25, -6, 9, 0, .75, -8, 2.25, -8, 0, 0, 0};
   steif_context *ctx = steif_context_new(NULL);
   SUNMatrix e, f;
-  CHECK(!steif_system_read(ctx, mat_file(4, (const variable[]){M, D, K, G}), NULL, &e, &f));
+  CHECK(!steif_system_read(ctx, mat_file(4, (const variable[]){M, D, K, G}), NULL, 0, &e, &f));
   CU_ASSERT_FATAL(e && f);
   CHECK(SM_ROWS_S(e) == 5 && SM_COLUMNS_S(f) == 5 && SM_INDEXPTRS_S(e)[5] == 5);
   for (int i = 0; i < 5; i++)
@@ -225,13 +230,13 @@ static void second_order_systems_become_first_order(void)
       if (k >= SM_INDEXPTRS_S(f)[j] && k + 1 < SM_INDEXPTRS_S(f)[j + 1])
         CHECK(SM_INDEXVALS_S(f)[k] < SM_INDEXVALS_S(f)[k + 1]);
   SUNMatDestroy(e), SUNMatDestroy(f);
-  CHECK(!steif_system_read(ctx, mat_file(2, (const variable[]){M, K}), NULL, &e, &f));
+  CHECK(!steif_system_read(ctx, mat_file(2, (const variable[]){M, K}), NULL, 0, &e, &f));
   CU_ASSERT_FATAL(e && f);
   CHECK(SM_ROWS_S(e) == 4 && at(f, 2, 2) == 0 && at(f, 2, 1) == -5);
   SUNMatDestroy(e), SUNMatDestroy(f);
-  CHECK(steif_system_read(ctx, mat_file(2, (const variable[]){M, D}), NULL, &e, &f));
+  CHECK(steif_system_read(ctx, mat_file(2, (const variable[]){M, D}), NULL, 0, &e, &f));
   SAYS(ctx, "has M and no K");
-  CHECK(steif_system_read(ctx, mat_file(3, (const variable[]){M, K, wide}), NULL, &e, &f));
+  CHECK(steif_system_read(ctx, mat_file(3, (const variable[]){M, K, wide}), NULL, 0, &e, &f));
   SAYS(ctx, "G is 1 x 3 and should be 1 x 2");
   steif_context_free(&ctx);
 }
@@ -244,19 +249,23 @@ static void inputs_are_found_beside_systems(void)
                  tall = {"B", 's', 3, 1, {1, 0, 2}};
   steif_context *ctx = steif_context_new(NULL);
   SUNMatrix b;
-  CHECK(!steif_input_read(ctx, mat_file(3, (const variable[]){E, B, M}), &b));
+  CHECK(
+    !steif_input_output_read(ctx, mat_file(3, (const variable[]){E, B, M}), &b, NULL, NULL));
   CU_ASSERT_FATAL(b != NULL);
   CHECK(SM_ROWS_D(b) == 2 && at(b, 0, 0) == -1.5 && at(b, 1, 0) == 6.25);
   SUNMatDestroy(b);
-  CHECK(!steif_input_read(ctx, mat_file(3, (const variable[]){M, G, B}), &b));
+  CHECK(
+    !steif_input_output_read(ctx, mat_file(3, (const variable[]){M, G, B}), &b, NULL, NULL));
   CU_ASSERT_FATAL(b != NULL);
   CHECK(SM_ROWS_S(b) == 5 && SM_COLUMNS_S(b) == 1);
   for (int i = 0; i < 5; i++) CHECK(at(b, i, 0) == (i == 2 ? -1.5 : i == 3 ? 6.25 : 0));
   SUNMatDestroy(b);
-  CHECK(!steif_input_read(ctx, mat_file(2, (const variable[]){M, G}), &b) && !b);
-  CHECK(steif_input_read(ctx, mat_file(2, (const variable[]){M, tall}), &b) == STEIF_BAD_INPUT);
+  CHECK(!steif_input_output_read(ctx, mat_file(2, (const variable[]){M, G}), &b, NULL, NULL) &&
+        !b);
+  CHECK(steif_input_output_read(ctx, mat_file(2, (const variable[]){M, tall}), &b, NULL,
+                                NULL) == STEIF_BAD_INPUT);
   SAYS(ctx, "B is 3 x 1 and should be 2 x 1, the rows of M");
-  CHECK(!b && steif_input_read(ctx, in_folder("no.mat"), &b));
+  CHECK(!b && steif_input_output_read(ctx, in_folder("no.mat"), &b, NULL, NULL));
   steif_context_free(&ctx);
 }
 
@@ -271,21 +280,25 @@ static void outputs_are_found_beside_systems(void)
   double y[1];
   steif_context *ctx = steif_context_new(NULL);
   SUNMatrix c, d;
-  CHECK(!steif_output_read(ctx, mat_file(4, (const variable[]){E, B, C, D}), &c, &d));
+  CHECK(
+    !steif_input_output_read(ctx, mat_file(4, (const variable[]){E, B, C, D}), NULL, &c, &d));
   CU_ASSERT_FATAL(c && d);
   steif_output_value(c, d, x, u, y);
   CHECK(y[0] == 2.5 * 4 - 3 * 5 + 0.75 * 8);
   steif_output_value(c, NULL, x, NULL, y);
   CHECK(y[0] == -5);
   SUNMatDestroy(c), SUNMatDestroy(d);
-  CHECK(!steif_output_read(ctx, mat_file(2, (const variable[]){M, C}), &c, &d) && c && !d);
+  CHECK(!steif_input_output_read(ctx, mat_file(2, (const variable[]){M, C}), NULL, &c, &d) &&
+        c && !d);
   SUNMatDestroy(c);
-  CHECK(!steif_output_read(ctx, mat_file(2, (const variable[]){E, B}), &c, &d) && !c && !d);
-  CHECK(steif_output_read(ctx, mat_file(2, (const variable[]){E, wide}), &c, &d));
+  CHECK(!steif_input_output_read(ctx, mat_file(2, (const variable[]){E, B}), NULL, &c, &d) &&
+        !c && !d);
+  CHECK(steif_input_output_read(ctx, mat_file(2, (const variable[]){E, wide}), NULL, &c, &d));
   SAYS(ctx, "C is 1 x 3 and should be 1 x 2, a column for each of E");
-  CHECK(steif_output_read(ctx, mat_file(2, (const variable[]){M, wide}), &c, &d));
+  CHECK(steif_input_output_read(ctx, mat_file(2, (const variable[]){M, wide}), NULL, &c, &d));
   SAYS(ctx, "should be 1 x 4, a column for each of q, or of q, v and the multipliers");
-  CHECK(steif_output_read(ctx, mat_file(4, (const variable[]){E, B, C, square}), &c, &d));
+  CHECK(steif_input_output_read(ctx, mat_file(4, (const variable[]){E, B, C, square}), NULL, &c,
+                                &d));
   SAYS(ctx, "D is 1 x 2 and should be 1 x 1, the rows of C and the columns of B");
   CHECK(!c && !d);
   steif_context_free(&ctx);
@@ -296,7 +309,7 @@ CU_TestInfo tests_of_mat[] = {
   {"B of an input is found beside its system", inputs_are_found_beside_systems},
   {"outputs are found beside systems", outputs_are_found_beside_systems},
   {"variables of every type are read", variables_of_every_type_are_read},
-  {"what is no real matrix is refused", what_is_no_real_matrix_is_refused},
+  {"what is no real matrix is rejected", what_is_no_real_matrix_is_rejected},
   {"files that are cut off give no matrix", cut_files_give_no_matrix},
   {"E with F, or with A = -F, is a system", E_with_F_or_A_is_a_system},
   {"second order systems become first order", second_order_systems_become_first_order},
@@ -312,7 +325,7 @@ static void without_matio_it_is_said(void)
   CHECK(!steif_matrix_read_mat(ctx, "s.mat", "E", &found) && found == 0);
   CHECK(steif_status(ctx) == STEIF_UNSUPPORTED);
   SAYS(ctx, "libmatio-dev");
-  CHECK(steif_system_read(ctx, "s.mat", NULL, &E, &F) == STEIF_UNSUPPORTED);
+  CHECK(steif_system_read(ctx, "s.mat", NULL, 0, &E, &F) == STEIF_UNSUPPORTED);
   CHECK(!E && !F);
   steif_context_free(&ctx);
 }

@@ -79,7 +79,7 @@ static int everything(steif_context *ctx)
 {
   SUNMatrix E = NULL, F = NULL;
   double accuracy, time;
-  int code = steif_system_read(ctx, sparse_path, dense_path, &E, &F);
+  int code = steif_system_read(ctx, sparse_path, dense_path, 0, &E, &F);
   steif_function *f = NULL, *g = NULL, *h = NULL;
   if (!code && !(at(E, 0, 1) == 4 && at(E, 2, 2) == 3 && at(F, 1, 2) == 8)) code = -98;
   if (!code) code = steif_matrix_write(ctx, E, out_path);

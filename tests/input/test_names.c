@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
 
-static void refused(steif_context *ctx, const char *text, sunindextype n, const char *words)
+static void rejected(steif_context *ctx, const char *text, sunindextype n, const char *words)
 {
   steif_names *names;
   CHECK(steif_names_read(ctx, put("names.txt", text), n, &names) == STEIF_BAD_INPUT && !names);
@@ -23,12 +23,12 @@ static void lines_name_unknowns_and_equations(void)
   CHECK(!steif_names_read(ctx, put("names.txt", "p\nq\nr\n"), 3, &names));
   CHECK(names && !names->equation && !strcmp(names->unknown[2], "r"));
   steif_names_free(&names);
-  refused(ctx, "p\nq\n", 3, "names.txt ends at line 2 after 2 of 3 names");
-  refused(ctx, "p\nq\nr\n", 2, "names.txt, line 3: more than 2 names");
-  refused(ctx, "p\n, q\n", 2, "names.txt, line 2: expected UNKNOWN or UNKNOWN, EQUATION");
-  refused(ctx, "p, a\nq\n", 2,
-          "names.txt, line 2: no equation where the lines before have one");
-  refused(ctx, "p\nq\np\n", 3, "calls two unknowns 'p'");
+  rejected(ctx, "p\nq\n", 3, "names.txt ends at line 2 after 2 of 3 names");
+  rejected(ctx, "p\nq\nr\n", 2, "names.txt, line 3: more than 2 names");
+  rejected(ctx, "p\n, q\n", 2, "names.txt, line 2: expected UNKNOWN or UNKNOWN, EQUATION");
+  rejected(ctx, "p, a\nq\n", 2,
+           "names.txt, line 2: no equation where the lines before have one");
+  rejected(ctx, "p\nq\np\n", 3, "calls two unknowns 'p'");
   CHECK(steif_names_read(ctx, in_folder("absent.txt"), 2, &names) == STEIF_IO && !names);
   steif_context_free(&ctx);
 }

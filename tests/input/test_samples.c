@@ -142,7 +142,8 @@ static void the_default_is_eight_points(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   double accuracy, eight;
-  steif_function *f = steif_function_samples(ctx, sampled(0.4, 0.01, 30), 2, NULL, 0, &accuracy),
+  steif_function *f =
+                   steif_function_samples(ctx, sampled(0.4, 0.01, 30), 2, NULL, 0, &accuracy),
                  *g = steif_function_samples(ctx, in_folder("samples.csv"), 2, NULL, 8, &eight);
   CHECK(f && g && accuracy == eight && accuracy > 0 && accuracy < 1e-9);
   CHECK(ask(ctx, f, 2, 0, 0.4, 2) == ask(ctx, g, 2, 0, 0.4, 2));
@@ -171,7 +172,7 @@ static void at_a_sample_the_formula_looks_forward(void)
   steif_context_free(&ctx);
 }
 
-static void bad_files_are_refused_with_the_line(void)
+static void bad_files_are_rejected_with_the_line(void)
 {
   static const struct {
     const char *text;
@@ -203,8 +204,8 @@ static void bad_files_are_refused_with_the_line(void)
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     steif_forget(ctx);
     double accuracy;
-    steif_function *f = steif_function_samples(ctx, put("bad.csv", cases[i].text), cases[i].n, NULL,
-                                               cases[i].points, &accuracy);
+    steif_function *f = steif_function_samples(ctx, put("bad.csv", cases[i].text), cases[i].n,
+                                               NULL, cases[i].points, &accuracy);
     CHECK(!f && steif_status(ctx) == cases[i].code);
     SAYS(ctx, cases[i].words);
     steif_function_free(&f);
@@ -221,5 +222,5 @@ CU_TestInfo tests_of_samples[] = {
   {"f = B u from samples of u, with its accuracy", inputs_are_sampled},
   {"the default is eight points", the_default_is_eight_points},
   {"at a sample the formula looks forward", at_a_sample_the_formula_looks_forward},
-  {"bad files are refused with the line", bad_files_are_refused_with_the_line},
+  {"bad files are rejected with the line", bad_files_are_rejected_with_the_line},
   CU_TEST_INFO_NULL};

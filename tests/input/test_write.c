@@ -70,7 +70,7 @@ static void files_are_replaced_whole(void)
   steif_context_free(&ctx);
 }
 
-static void what_cannot_be_written_is_refused(void)
+static void what_cannot_be_written_is_rejected(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   SUNMatrix M = sparse(ctx), R = SUNSparseMatrix(2, 2, 2, CSR_MAT, steif_sundials(ctx));
@@ -115,6 +115,6 @@ CU_TestInfo tests_of_write[] = {
   {"dense matrices return to the last bit", dense_matrices_return_to_the_bit},
   {"sparse matrices return to the last bit", sparse_matrices_return_to_the_bit},
   {"a file is replaced whole or stays", files_are_replaced_whole},
-  {"what cannot be written is refused", what_cannot_be_written_is_refused},
+  {"what cannot be written is rejected", what_cannot_be_written_is_rejected},
   {"numbers have a point in every locale", numbers_have_a_point_in_every_locale},
   CU_TEST_INFO_NULL};

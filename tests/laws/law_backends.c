@@ -82,8 +82,8 @@ static steif_problem chain(void)
                          .nnz = 3 * N};
 }
 
-static const char *const methods[] = {"be",        "bdf:p=3",   "dirk:alexander2",
-                                      "gauss:s=2", "radau:s=3", "radau:s=2",
+static const char *const methods[] = {"be",        "bdf:p=3",     "dirk:alexander2",
+                                      "gauss:s=2", "radau:s=3",   "radau:s=2",
                                       "exprb43",   "glm:irks,p=3"};
 enum { METHODS = sizeof methods / sizeof *methods };
 

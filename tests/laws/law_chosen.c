@@ -2,7 +2,7 @@
  * in the same place, a mirrored run comes home, and the number of threads does not matter.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "laws.h"
-#include "march.h"
+#include "integrator.h"
 #include <stdlib.h>
 
 static const char *const chosen[] = {"auto",      "radau:s=3",     "radau:s=5",   "radau:s=7",
@@ -38,7 +38,7 @@ static void a_second_attempt_is_a_first_one(void)
       CLOSE_FLOOR(NV_Ith_S(a->next, i), NV_Ith_S(b->next, i), 2e-8, 1);
       CHECK(NV_Ith_S(a->y, i) == before[i]);
     }
-    CLOSE(a->error_tolerance, b->error_tolerance, 1e-2);
+    CLOSE(a->control.tolerance, b->control.tolerance, 1e-2);
     steif_solver_free(&twice), steif_solver_free(&once);
   }
   steif_context_free(&ctx);

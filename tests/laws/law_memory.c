@@ -83,8 +83,7 @@ static void events_allocate_nothing(void)
       for (int k = 0; s && k < 8 && !code; k++) code = steif_solve_step(s);
       const long before = asked;
       if (s && !code) code = steif_solve_to(s, p.t1);
-      if (asked != before)
-        printf("\n  %s %s: %ld", watched[i], methods[m], asked - before);
+      if (asked != before) printf("\n  %s %s: %ld", watched[i], methods[m], asked - before);
       CHECK(s && !code && asked == before);
       steif_solver_free(&s);
       steif_problem_clear(ctx, &p);

@@ -1,7 +1,7 @@
 /* law_retry.c: an attempt is pure, and reopening at an accepted point continues the same run.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "laws.h"
-#include "march.h"
+#include "integrator.h"
 
 /* The same attempt twice, with a different one between, gives the same trial bit for bit, and
  * the accepted solution stays as it was. */
@@ -18,7 +18,7 @@ static void attempt_is_pure(steif_context *ctx, const char *method)
   step->h_equal = 0; /* any h may be tried */
   stf_weights(&step->system.space, 1e-10, 1e-10, NULL, step->y, step->weights);
   const double before[] = {NV_Ith_S(step->y, 0), NV_Ith_S(step->y, 1)};
-  step->newton.wanted = false, step->newton.fresh = true;
+  step->newton.jacobian_wanted = false, step->newton.jacobian_new = true;
   CHECK(!step->method->attempt(step, 0.025));
   const double first[] = {NV_Ith_S(step->next, 0), NV_Ith_S(step->next, 1)};
   CHECK(!step->method->attempt(step, 0.05));
@@ -46,9 +46,8 @@ static void attempts_are_pure(void)
 static void one_step_methods_restart(void)
 {
   static const char *const methods[] = {
-    "be",        "dirk:alexander3", "dirk:hw43",     "gauss:s=3",
-    "radau:s=3", "radau1a:s=2",     "lobatto3c:s=3", "rk4",
-    "exprb43"};
+    "be",          "dirk:alexander3", "dirk:hw43", "gauss:s=3", "radau:s=3",
+    "radau1a:s=2", "lobatto3c:s=3",   "rk4",       "exprb43"};
   steif_context *ctx = steif_context_new(NULL);
   for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
     steif_options o = steif_defaults();

@@ -65,7 +65,7 @@ static void symplectic_methods_keep_a_band(void)
       if (!(info.claims & STEIF_SYMPLECTIC)) continue;
       CU_ASSERT_FATAL(steif_problem_find(ctx, problems[k], &p) == STEIF_OK);
       o.h = 0.1, o.t1 = 200, o.newton = 1e-6;
-      CHECK(steif_energy_watch(ctx, &p, info.name, &o, &e) == STEIF_OK);
+      CHECK(steif_energy_measure(ctx, &p, info.name, &o, &e) == STEIF_OK);
       const double band = drift[0].max - drift[0].min, gone = fabs(drift[0].slope) * o.t1;
       if (!(gone < 0.15 * band + 1e-12))
         printf("\n  %s on %s: %.2e of %.2e", info.name, problems[k], gone, band);

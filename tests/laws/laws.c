@@ -1,16 +1,44 @@
-/* laws.c: what the laws share.
+/* exponent_laws.c: what the laws share.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "laws.h"
 #include <sunmatrix/sunmatrix_dense.h>
 
 const char *const law_methods[] = {
-  "be",        "bdf:p=2",     "bdf:p=4",         "dirk:alexander2",    "dirk:alexander3",
-  "dirk:hw43", "dirk:trbdf2", "dirk:crouzeix23", "dirk:cranknicolson", "dirk:esdirk43",
-  "gauss:s=1", "gauss:s=2",   "gauss:s=3",       "radau:s=2",          "radau:s=3",
-  "radau:s=5", "radau1a:s=2", "lobatto3c:s=3",   "gauss:s=12",         "exp-euler",
-  "etd2",      "krogstad",    "hochost4",        "exprb32",            "exprb43",
-  "glm:am,p=3", "glm:bdf,p=3", "glm:dimsim2",    "glm:nord22",         "glm:nordsieck,of=bdf,p=3", "glm:irks,p=4",
-  "glm:dimsim1", "glm:ab,p=3", "euler",          "rk4",
+  "be",
+  "bdf:p=2",
+  "bdf:p=4",
+  "dirk:alexander2",
+  "dirk:alexander3",
+  "dirk:hw43",
+  "dirk:trbdf2",
+  "dirk:crouzeix23",
+  "dirk:cranknicolson",
+  "dirk:esdirk43",
+  "gauss:s=1",
+  "gauss:s=2",
+  "gauss:s=3",
+  "radau:s=2",
+  "radau:s=3",
+  "radau:s=5",
+  "radau1a:s=2",
+  "lobatto3c:s=3",
+  "gauss:s=12",
+  "exp-euler",
+  "etd2",
+  "krogstad",
+  "hochost4",
+  "exprb32",
+  "exprb43",
+  "glm:am,p=3",
+  "glm:bdf,p=3",
+  "glm:dimsim2",
+  "glm:nord22",
+  "glm:nordsieck,of=bdf,p=3",
+  "glm:irks,p=4",
+  "glm:dimsim1",
+  "glm:ab,p=3",
+  "euler",
+  "rk4",
 };
 const int law_method_count = sizeof law_methods / sizeof *law_methods;
 const int law_implicit_count = sizeof law_methods / sizeof *law_methods - 4;

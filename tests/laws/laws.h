@@ -5,6 +5,9 @@
 
 #include "suite.h"
 #include <nvector/nvector_serial.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
 #include <steif/steif.h>
 #include <string.h>
 

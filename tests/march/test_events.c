@@ -46,7 +46,7 @@ static void known_times_are_met(void)
     record r = {0};
     CU_ASSERT_FATAL(!steif_problem_find(ctx, rows[i].problem, &p));
     steif_options o = steif_defaults();
-    o.rtol = o.atol = 1e-8, o.notice = note, o.observer = &r;
+    o.rtol = o.atol = 1e-8, o.on_event = note, o.observer = &r;
     o.t1 = strchr(rows[i].problem, ':') ? 1.3 : p.t1; /* before all bounces are over */
     steif_solver *s = smooth_open(ctx, &p, rows[i].method, &o);
     CHECK(!steif_solve_to(s, o.t1));

@@ -25,7 +25,7 @@ static void a_state_is_changed_and_shown_from_both_sides(void)
   static const char *const methods[] = {"radau:s=3", "bdf",    "dirk:hw43", "rodas4",
                                         "cvode",     "arkode", "ida",       "radau:s=2"};
   steif_problem p = watched_problem(1, quarter);
-  p.react = refill, p.t1 = 3;
+  p.handle_event = refill, p.t1 = 3;
   steif_context *ctx = steif_context_new(NULL);
   for (int m = 0; m < 8; m++) {
     watched w;
@@ -63,7 +63,7 @@ static void a_reaction_may_end_the_run(void)
 {
   steif_problem p = watched_problem(1, halves);
   int calls = 0;
-  p.react = finish, p.user = &calls;
+  p.handle_event = finish, p.user = &calls;
   steif_context *ctx = steif_context_new(NULL);
   steif_solver *s = smooth_open(ctx, &p, "radau:s=3", NULL);
   CHECK(steif_solve_to(s, 2) == STEIF_EVENT && calls == 2);
@@ -104,7 +104,7 @@ static void sliding_is_said(void)
     int side = 1;
     watched w;
     steif_problem p = watched_problem(1, surface);
-    p.f = slide_f, p.jac = NULL, p.react = turn, p.user = &side, p.event_list = list;
+    p.f = slide_f, p.jac = NULL, p.handle_event = turn, p.user = &side, p.event_list = list;
     CHECK(watched_run(ctx, &p, methods[m], 0, &w) == STEIF_STEP_SIZE);
     CHECK(strstr(steif_message(ctx),
                  "('relay') of problem 'watched' crowd together at t = 0.6123"));
@@ -143,7 +143,7 @@ static void wrong_reactions_are_refused(void)
   int any;
   watched w;
   steif_context *ctx = steif_context_new(NULL);
-  p.react = wild;
+  p.handle_event = wild;
   CHECK(watched_run(ctx, &p, "radau:s=3", 0, &w) == STEIF_NOT_FINITE);
   CHECK(strstr(steif_message(ctx), "left a component that is not finite"));
   p.user = &any;
@@ -159,7 +159,7 @@ static void multistep_methods_begin_anew_on_their_grid(void)
   static const char *const methods[] = {"be", "bdf:p=2", "bdf:p=4", "glm:ab,p=2"};
   static const double ratio[] = {2, 4, 4, 4};
   steif_problem p = watched_problem(1, quarter);
-  p.react = refill, p.t1 = 3;
+  p.handle_event = refill, p.t1 = 3;
   steif_context *ctx = steif_context_new(NULL);
   for (int m = 0; m < 4; m++) {
     double error[2];
@@ -227,11 +227,11 @@ static void algebraic_components_are_settled(void)
                            .E = mass,
                            .events = 1,
                            .event = low,
-                           .react = charge};
+                           .handle_event = charge};
   steif_context *ctx = steif_context_new(NULL);
   for (int m = 0; m < 5; m++) {
     steif_options o = steif_defaults();
-    o.rtol = o.atol = 1e-9, o.settle = m ? steif_settle : settle;
+    o.rtol = o.atol = 1e-9, o.reinitialise = m ? steif_reinitialise : settle;
     steif_solver *s = smooth_open(ctx, &p, methods[m], &o);
     CHECK(!steif_solve_to(s, 7)); /* charged at 4 ln 2 and 8 ln 2 */
     CLOSE(NV_Ith_S(steif_solution(s), 0), exp(-(7 - 8 * log(2)) / 4), 1e-6);
@@ -264,10 +264,10 @@ static void linear_problems_jump(void)
   steif_context *ctx = steif_context_new(NULL);
   steif_problem p;
   CU_ASSERT_FATAL(!steif_problem_find(ctx, "switchrlc:v1=2,v2=2", &p));
-  p.events = 1, p.event = midway, p.react = open_and_close;
+  p.events = 1, p.event = midway, p.handle_event = open_and_close;
   for (int m = 0; m < 2; m++) {
     steif_options o = steif_defaults();
-    o.settle = steif_settle, o.rtol = o.atol = 1e-8;
+    o.reinitialise = steif_reinitialise, o.rtol = o.atol = 1e-8;
     steif_solver *s = smooth_open(ctx, &p, methods[m], &o);
     int code = steif_solve_step(s);
     while (!code && steif_time(s) < 5e-4) code = steif_solve_step(s);

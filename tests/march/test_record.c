@@ -110,7 +110,8 @@ static void wrong_records_are_refused(void)
   steif_solver_free(&s);
   o.observer = three;
   s = smooth_open(ctx, &smooth, "radau:s=3", &o);
-  CHECK(steif_solve_to(s, 1) == STEIF_BAD_INPUT); /* what the record says, not that it stopped */
+  CHECK(steif_solve_to(s, 1) ==
+        STEIF_BAD_INPUT); /* what the record says, not that it stopped */
   CHECK(strstr(steif_message(ctx), "a record of 3 components") != NULL);
   steif_solver_free(&s);
   steif_record_free(&r), steif_record_free(&three), steif_record_free(NULL);

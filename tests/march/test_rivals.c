@@ -4,6 +4,9 @@
 #include "base/failing.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
 #include <steif/steif.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -59,7 +62,8 @@ static steif_problem problem(relaxation *r)
 }
 
 /* To the end with so many pauses; what the method at each of them begins with goes into `used`. */
-static void run(steif_context *ctx, const steif_problem *p, int pauses, char used[][16], double *y)
+static void run(steif_context *ctx, const steif_problem *p, int pauses, char used[][16],
+                double *y)
 {
   const steif_options o = {.rtol = 1e-6};
   steif_solver *s = steif_solver_new(ctx, p, "auto", &o);
@@ -106,7 +110,8 @@ static int note(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, vo
   int *count = user;
   (void)s, (void)y, (void)fired;
   CLOSE(t, (2 * *count + 1) * acos(-1), 1e-5);
-  return ++*count, 0;
+  ++*count;
+  return 0;
 }
 
 /* Steps of more than a period, which collocation makes, are known less well inside. */
@@ -116,7 +121,7 @@ static void events_are_found_on_both_sides(void)
   relaxation *of[] = {&hardening, &softening};
   for (int k = 0; k < 2; k++) {
     int count = 0;
-    const steif_options o = {.rtol = 1e-6, .h_max = 2, .notice = note, .observer = &count};
+    const steif_options o = {.rtol = 1e-6, .h_max = 2, .on_event = note, .observer = &count};
     steif_problem p = problem(of[k]);
     p.events = 1, p.event = zero;
     steif_solver *s = steif_solver_new(ctx, &p, "auto", &o);

@@ -59,7 +59,7 @@ int watched_run(steif_context *ctx, const steif_problem *p, const char *method, 
   steif_options o = steif_defaults();
   *w = (watched){.functions = p->events < FUNCTIONS ? p->events : FUNCTIONS};
   o.rtol = o.atol = 1e-9, o.h = h;
-  o.notice = notice, o.observe = observe, o.observer = w;
+  o.on_event = notice, o.observe = observe, o.observer = w;
   steif_solver *s = smooth_open(ctx, p, method, &o);
   const int code = steif_solve_to(s, p->t1);
   steif_solver_free(&s);

@@ -3,7 +3,7 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_sympl[], tests_of_separable[], tests_of_stiffpair[],
-  tests_of_nonlinear[], tests_of_start[], tests_of_expo[], tests_of_lanes[],
+  tests_of_nonlinear[], tests_of_start[], tests_of_expo[], tests_of_interleaved[],
   tests_of_rodas[];
 
 extern CU_TestInfo tests_of_glm[];
@@ -15,5 +15,5 @@ SUITE_MAIN({.pName = "glm", .pTests = tests_of_glm},
            {.pName = "nonlinear", .pTests = tests_of_nonlinear},
            {.pName = "starts", .pTests = tests_of_start},
            {.pName = "exponential", .pTests = tests_of_expo},
-           {.pName = "lanes", .pTests = tests_of_lanes},
+           {.pName = "interleaved", .pTests = tests_of_interleaved},
            {.pName = "rodas", .pTests = tests_of_rodas})

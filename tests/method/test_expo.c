@@ -1,11 +1,14 @@
 /* test_expo.c: exponential methods: order conditions, errors on a parabolic problem, error
  * estimates, matrix functions against their actions.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "exponential.h"
-#include "march.h"
+#include "exponential_data.h"
+#include "integrator.h"
 #include "suite.h"
 #include <complex.h>
 #include <nvector/nvector_serial.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
 #include <steif/steif.h>
 #include <string.h>
 

@@ -5,6 +5,9 @@
 #include "suite.h"
 #include <nvector/nvector_serial.h>
 #include <steif/collection.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
 #include <steif/steif.h>
 #include <string.h>
 
@@ -132,10 +135,10 @@ static void chosen_steps_meet_tolerances(void)
  * among them. */
 static void other_methods_choose_steps(void)
 {
-  static const char *const methods[] = {"glm:ab,p=3", "glm:ab,p=6", "glm:dimsim1", "glm:dimsim1,p=3",
-                                        "glm:dimsim1,p=4", "glm:am,p=2",
-                                        "glm:am,p=3", "glm:am,p=4", "glm:am,p=6",  "glm:bdf,p=3",
-                                        "glm:bdf,p=6"};
+  static const char *const methods[] = {"glm:ab,p=3",      "glm:ab,p=6",      "glm:dimsim1",
+                                        "glm:dimsim1,p=3", "glm:dimsim1,p=4", "glm:am,p=2",
+                                        "glm:am,p=3",      "glm:am,p=4",      "glm:am,p=6",
+                                        "glm:bdf,p=3",     "glm:bdf,p=6"};
   steif_context *ctx = steif_context_new(NULL);
   for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
     steif_options o = steif_defaults();

@@ -1,11 +1,11 @@
 /* The stages of Rosenbrock methods for few unknowns, put into their equations.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "rodas_small.h"
+#include "lu.h"
 #include "suite.h"
 #include <math.h>
 #include <string.h>
 
-enum { N = STF_RODAS_SMALL, STAGES = 3 };
+enum { N = STF_ROSENBROCK, STAGES = 3 };
 
 static double uniform(unsigned *seed)
 {
@@ -20,7 +20,7 @@ static void fill(int count, unsigned seed, double *x)
 
 /* Row i of (shift M - J) u - f - slope f_t - M g / h, M = I where it is NULL. */
 static double residual(int n, int i, const double *M, const double *J, double shift,
-                       const double *u, const stf_rodas_stage *g, const double *sum)
+                       const double *u, const stf_rosenbrock_stage *g, const double *sum)
 {
   double r = -g->f[i] - g->slope * g->ft[i];
   for (int j = 0; j < n; j++) {
@@ -35,8 +35,8 @@ static void one_stage(int n, const double *M, const double *J, double h, int las
   static const double a[] = {1.75, -0.625, 0.375}, c[] = {-4.5, 2.25};
   double data[STAGES][N], f[N], ft[N], y[N], Y[N], before[N], sum[N] = {0};
   const double shift = 4 / h;
-  stf_rodas_small R;
-  stf_rodas_stage g = {
+  stf_rosenbrock R;
+  stf_rosenbrock_stage g = {
     .i = STAGES - 1, .a = last ? NULL : a, .c = c, .h = h, .slope = 0.3 * h, .f = f, .ft = ft};
   fill(STAGES * N, 5 + (unsigned)n, data[0]), fill(N, 17, f), fill(N, 29, ft), fill(N, 31, y);
   fill(N, 37, Y);
@@ -45,9 +45,9 @@ static void one_stage(int n, const double *M, const double *J, double h, int las
   for (int j = 0; j < STAGES; j++) g.u[j] = data[j];
   for (int j = 0; j < STAGES - 1; j++)
     for (int k = 0; k < n; k++) sum[k] += c[j] * data[j][k];
-  stf_rodas_small_open(&R, n, M);
-  CHECK(!stf_rodas_small_factor(&R, J, shift));
-  stf_rodas_small_stage(&R, &g);
+  stf_rosenbrock_open(&R, n, M);
+  CHECK(!stf_rosenbrock_factor(&R, J, shift));
+  stf_rosenbrock_solve(&R, &g);
   for (int i = 0; i < n; i++) {
     double next = last ? before[i] + data[STAGES - 1][i] : y[i];
     for (int j = 0; !last && j < STAGES; j++) next += a[j] * data[j][i];
@@ -84,11 +84,11 @@ static void a_vanishing_pivot_is_named(void)
   static const double M[9] = {0},
                       J[9] = {4, 2, 1, 2, 9, 8.5, 6, 11, 9.5}; /* column 2 = 0 + 1 */
   double bad[9];
-  stf_rodas_small R;
-  stf_rodas_small_open(&R, 3, M);
-  CHECK(stf_rodas_small_factor(&R, J, 1) == 3);
+  stf_rosenbrock R;
+  stf_rosenbrock_open(&R, 3, M);
+  CHECK(stf_rosenbrock_factor(&R, J, 1) == 3);
   memcpy(bad, J, sizeof bad), bad[4] = NAN;
-  CHECK(stf_rodas_small_factor(&R, bad, 1) > 0);
+  CHECK(stf_rosenbrock_factor(&R, bad, 1) > 0);
 }
 
 CU_TestInfo tests_of_rodas[] = {

@@ -3,6 +3,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 #include <nvector/nvector_serial.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
 #include <steif/steif.h>
 #include <string.h>
 

@@ -87,11 +87,12 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
   return 0;
 }
 
-static int open_split(stage_room *s, const char *spec, stf_split *split)
+static int open_transform(stage_room *s, const char *spec, stf_transform *transform)
 {
-  if (!spec) return stf_split_single(s->pool, 1, split);
+  if (!spec) return stf_transform_single(s->pool, 1, transform);
   s->table = steif_table_new(s->ctx, spec);
-  return s->table ? stf_split_build(s->pool, s->ctx, s->table, split) : steif_status(s->ctx);
+  return s->table ? stf_transform_build(s->pool, s->ctx, s->table, transform)
+                  : steif_status(s->ctx);
 }
 
 void room_open(stage_room *s, const ring *r, const char *spec, int linear, double h)
@@ -109,18 +110,18 @@ void room_open(stage_room *s, const ring *r, const char *spec, int linear, doubl
                                .linear = linear,
                                .user = &s->r};
   s->y = N_VNew_Serial(2, steif_sundials(s->ctx));
-  s->yp = stf_claim_vector(s->pool, s->y), s->weights = stf_claim_vector(s->pool, s->y);
+  s->yp = stf_pool_vector(s->pool, s->y), s->weights = stf_pool_vector(s->pool, s->y);
   for (int i = 0; i < 2; i++) NV_Ith_S(s->y, i) = start[i];
   N_VConst(1, s->weights);
-  stf_split split;
+  stf_transform transform;
   CU_ASSERT_FATAL(!stf_system_open(s->pool, s->ctx, &s->problem, STEIF_ODE, STEIF_DENSE, 1,
                                    s->y, s->yp, &s->system));
-  CU_ASSERT_FATAL(!open_split(s, spec, &split));
-  CU_ASSERT_FATAL(!stf_newton_open(s->pool, &s->system, &split, s->weights, &s->newton));
+  CU_ASSERT_FATAL(!open_transform(s, spec, &transform));
+  CU_ASSERT_FATAL(!stf_newton_open(s->pool, &s->system, &transform, s->weights, &s->newton));
   s->newton.tolerance = 1e-12, s->newton.iterations = 60;
-  s->Z = stf_claim_vectors(s->pool, split.s, s->y);
-  s->base = stf_claim(s->pool, (size_t)split.s, sizeof *s->base);
-  for (int j = 0; j < split.s; j++) s->base[j] = s->y;
+  s->Z = stf_pool_vectors(s->pool, transform.s, s->y);
+  s->base = stf_pool_array(s->pool, (size_t)transform.s, sizeof *s->base);
+  for (int j = 0; j < transform.s; j++) s->base[j] = s->y;
   s->stages = (stf_stages){
     .t = 0.2, .h = h, .c = s->table ? s->table->c : one, .base = s->base, .Z = s->Z};
   CU_ASSERT_FATAL(!stf_newton_prepare(&s->newton, 0.2, h, s->y, s->yp, false));
@@ -163,8 +164,8 @@ static void eliminate(int n, long double M[MOST][MOST], long double *x)
 static void linearise(const stage_room *s, const long double *Z, long double M[MOST][MOST],
                       long double *G)
 {
-  const stf_split *split = &s->newton.split;
-  const int count = split->s;
+  const stf_transform *transform = &s->newton.transform;
+  const int count = transform->s;
   for (int j = 0; j < count; j++) {
     const long double y[] = {start[0] + Z[2 * j], start[1] + Z[2 * j + 1]};
     const long double t = 0.2 + (long double)s->stages.c[j] * s->h;
@@ -174,7 +175,7 @@ static void linearise(const stage_room *s, const long double *Z, long double M[M
       const int k = 2 * j + i;
       G[k] = -v[i];
       for (int m = 0; m < count; m++) {
-        const long double b = (long double)split->B[j * count + m] / s->h;
+        const long double b = (long double)transform->B[j * count + m] / s->h;
         G[k] += b * Z[2 * m + i];
         for (int l = 0; l < 2; l++) M[k][2 * m + l] = (l == i ? b : 0) - (m == j ? J[i][l] : 0);
       }
@@ -185,7 +186,7 @@ static void linearise(const stage_room *s, const long double *Z, long double M[M
 void room_reference(const stage_room *s, long double *Z)
 {
   static long double M[MOST][MOST], G[MOST];
-  const int n = 2 * s->newton.split.s;
+  const int n = 2 * s->newton.transform.s;
   for (int k = 0; k < n; k++) Z[k] = 0;
   for (int m = 0; m < 60; m++) {
     linearise(s, Z, M, G);
@@ -198,7 +199,7 @@ double room_error(const stage_room *s)
 {
   long double Z[MOST], worst = 0;
   room_reference(s, Z);
-  for (int j = 0; j < s->newton.split.s; j++)
+  for (int j = 0; j < s->newton.transform.s; j++)
     for (int i = 0; i < 2; i++)
       worst = fmaxl(worst, fabsl(NV_Ith_S(s->Z[j], i) - Z[2 * j + i]));
   return (double)worst;

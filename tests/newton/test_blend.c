@@ -51,7 +51,7 @@ static void factors_serve_other_steps(void)
   room_open(&s, &ring_nonlinear, "radau:s=3", 0, 0.073);
   blend_in(&s, 0.131);
   const long before = steif_pencil_statistics(s.system.pencil)->factors;
-  s.newton.window = 2;
+  s.newton.shift_ratio_most = 2;
   CHECK(!stf_newton_prepare(&s.newton, 0.2, 0.073, s.y, s.yp, false));
   s.stages.h = s.h = 0.073;
   CHECK(steif_pencil_statistics(s.system.pencil)->factors == before);

@@ -21,7 +21,7 @@ static void factors_live_as_long_as_the_step(void)
   CHECK(!prepare(&s, 0.05, false) && factors(&s) == 2);
   CHECK(!prepare(&s, 0.06, false) && factors(&s) == 4 && s.system.nje == 1);
   CHECK(!prepare(&s, 0.06, true) && factors(&s) == 6 && s.system.nje == 2);
-  CHECK(s.newton.fresh && !s.newton.wanted);
+  CHECK(s.newton.jacobian_new && !s.newton.jacobian_wanted);
   room_close(&s);
 }
 
@@ -41,18 +41,18 @@ static void a_window_keeps_factors(void)
 {
   stage_room s;
   room_open(&s, &ring_nonlinear, NULL, 0, 0.05);
-  s.newton.window = 1.67;
+  s.newton.shift_ratio_most = 1.67;
   CHECK(!prepare(&s, 0.04, false) && factors(&s) == 1);
   CLOSE(s.newton.relax, 2 / 2.25, 1e-15);
   s.stages.h = s.h = 0.04;
   CHECK(!stf_newton_solve(&s.newton, &s.stages));
   CLOSE_FLOOR(room_error(&s), 0, 4e-12, 1);
-  s.newton.wanted = false;
+  s.newton.jacobian_wanted = false;
   CHECK(!prepare(&s, 0.05, false) && factors(&s) == 1);
   CHECK(s.newton.relax == 1);
   CHECK(!prepare(&s, 0.02, false) && factors(&s) == 2 && s.newton.relax == 1);
   CHECK(!prepare(&s, 0.02 * 1.6, false) && factors(&s) == 2);
-  s.newton.wanted = true; /* a slow iteration: the window is shut */
+  s.newton.jacobian_wanted = true; /* a slow iteration: the window is shut */
   CHECK(!prepare(&s, 0.02 * 1.5, false) && factors(&s) == 3);
   room_close(&s);
 }
@@ -75,11 +75,11 @@ static void a_rate_above_the_bound_asks_for_a_jacobian(void)
 {
   stage_room s;
   room_open(&s, &ring_slow, NULL, 0, 1);
-  s.newton.stale = 0.69, s.newton.tolerance = 1e-4;
+  s.newton.stale_rate = 0.69, s.newton.tolerance = 1e-4;
   CHECK(!stf_newton_solve(&s.newton, &s.stages) && stf_newton_stale(&s.newton));
   room_close(&s);
   room_open(&s, &ring_slow, NULL, 0, 1);
-  s.newton.stale = 0.71, s.newton.tolerance = 1e-4;
+  s.newton.stale_rate = 0.71, s.newton.tolerance = 1e-4;
   CHECK(!stf_newton_solve(&s.newton, &s.stages) && !stf_newton_stale(&s.newton));
   room_close(&s);
 }
@@ -90,9 +90,9 @@ static void singular_matrices_are_named(void)
   stage_room s;
   r.factor = 0;
   room_open(&s, &r, NULL, 0, 0.05);
-  s.newton.split.re[0] = 0; /* 0 I - 0 */
+  s.newton.transform.re[0] = 0; /* 0 I - 0 */
   CHECK(prepare(&s, 0.05, false) == STEIF_SINGULAR && !s.newton.factored);
-  s.newton.split.re[0] = 1;
+  s.newton.transform.re[0] = 1;
   CHECK(!prepare(&s, 0.05, false) && s.newton.factored);
   room_close(&s);
 }

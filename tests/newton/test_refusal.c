@@ -90,10 +90,10 @@ static void later_stages_are_looked_at(void)
   r.f = poisoned;
   stage_room s;
   room_open(&s, &r, "radau:s=2", 0, 0.05);
-  stf_split split = {
-    .s = 2, .lanes = 2, .re = {2, 5}, .row = {0, 1}, .B = B, .T = one, .Tinv = one};
+  stf_transform transform = {
+    .s = 2, .shifts = 2, .re = {2, 5}, .row = {0, 1}, .B = B, .T = one, .Tinv = one};
   s.newton = (stf_newton){0};
-  CU_ASSERT_FATAL(!stf_newton_open(s.pool, &s.system, &split, s.weights, &s.newton));
+  CU_ASSERT_FATAL(!stf_newton_open(s.pool, &s.system, &transform, s.weights, &s.newton));
   s.newton.iterations = 9, s.stages.c = c;
   CHECK(!stf_newton_prepare(&s.newton, 0.2, s.h, s.y, s.yp, false));
   CHECK(stf_newton_solve(&s.newton, &s.stages) == STEIF_RETRY);

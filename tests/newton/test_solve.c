@@ -9,7 +9,7 @@ static void stages_are_solved(void)
   for (int k = 0; k < 8; k++) {
     stage_room s;
     room_open(&s, &ring_nonlinear, specs[k], 0, 0.073);
-    CHECK(!s.newton.split.coupling);
+    CHECK(!s.newton.transform.coupling);
     CHECK(!stf_newton_solve(&s.newton, &s.stages));
     CLOSE_FLOOR(room_error(&s), 0, 5e-12, 1);
     CHECK(s.newton.count > 2 && s.newton.count < 25);
@@ -19,15 +19,15 @@ static void stages_are_solved(void)
   }
 }
 
-/* Above 11 stages the split is a real Schur form whose lanes are coupled. */
-static void coupled_lanes_solve_the_same(void)
+/* Above 11 stages the transformation is a real Schur form whose shifts are coupled. */
+static void coupled_shifts_solve_the_same(void)
 {
   static const char *const specs[] = {"gauss:s=12", "radau:s=12", "radau:s=13",
                                       "lobatto3c:s=15"};
   for (int k = 0; k < 4; k++) {
     stage_room s;
     room_open(&s, &ring_nonlinear, specs[k], 0, 0.21);
-    CHECK(s.newton.split.coupling != NULL);
+    CHECK(s.newton.transform.coupling != NULL);
     s.newton.tolerance = 1e-11;
     CHECK(!stf_newton_solve(&s.newton, &s.stages));
     CLOSE_FLOOR(room_error(&s), 0, 2e-11, 1);
@@ -40,7 +40,7 @@ static void coupled_lanes_solve_the_same(void)
   }
 }
 
-/* For a triangular B (2 and 5 with 3 above) the split is known: T = 1, two real lanes and the
+/* For a triangular B (2 and 5 with 3 above) the transformation is known: T = 1, two real shifts and the
  * coupling 3, which makes the sweep a substitution from the last stage up. */
 static void triangular_coupling_is_substitution(void)
 {
@@ -48,16 +48,16 @@ static void triangular_coupling_is_substitution(void)
                       c[] = {0.4, 1};
   stage_room s;
   room_open(&s, &ring_nonlinear, "radau:s=2", 0, 0.05);
-  stf_split split = {.s = 2,
-                     .lanes = 2,
-                     .re = {2, 5},
-                     .row = {0, 1},
-                     .B = B,
-                     .T = one,
-                     .Tinv = one,
-                     .coupling = S};
+  stf_transform transform = {.s = 2,
+                             .shifts = 2,
+                             .re = {2, 5},
+                             .row = {0, 1},
+                             .B = B,
+                             .T = one,
+                             .Tinv = one,
+                             .coupling = S};
   s.newton = (stf_newton){0};
-  CU_ASSERT_FATAL(!stf_newton_open(s.pool, &s.system, &split, s.weights, &s.newton));
+  CU_ASSERT_FATAL(!stf_newton_open(s.pool, &s.system, &transform, s.weights, &s.newton));
   s.newton.tolerance = 1e-13, s.newton.iterations = 60, s.stages.c = c;
   CHECK(!stf_newton_prepare(&s.newton, 0.2, s.h, s.y, s.yp, false));
   CHECK(!stf_newton_solve(&s.newton, &s.stages));
@@ -72,17 +72,17 @@ static void linear_systems_take_one_sweep(void)
   for (int k = 0; k < 3; k++) {
     stage_room s;
     room_open(&s, &ring_linear, specs[k], 1, 0.19);
-    for (int j = 0; j < s.newton.split.s; j++) N_VConst(7.7e5, s.Z[j]); /* needs no start */
+    for (int j = 0; j < s.newton.transform.s; j++) N_VConst(7.7e5, s.Z[j]); /* needs no start */
     for (int m = 1; m <= 3; m++) {
       CHECK(!stf_newton_prepare(&s.newton, 0.2, s.h, s.y, s.yp, true));
       s.r.calls = 0;
       CHECK(!stf_newton_solve(&s.newton, &s.stages));
       CHECK(s.newton.sweeps == m && s.newton.count == 1);
-      CHECK(s.r.calls == s.newton.split.s);
+      CHECK(s.r.calls == s.newton.transform.s);
     }
     CLOSE_FLOOR(room_error(&s), 0, 2e-14, 1);
     const steif_pencil_stats *n = steif_pencil_statistics(s.system.pencil);
-    CHECK(s.system.nje == 1 && n->factors + n->refactors == s.newton.split.lanes);
+    CHECK(s.system.nje == 1 && n->factors + n->refactors == s.newton.transform.shifts);
     room_close(&s);
   }
 }
@@ -95,10 +95,10 @@ static void stages_may_be_absolute(void)
     room_open(&s, linear ? &ring_linear : &ring_nonlinear, "radau:s=3", linear, 0.073);
     long double Z[6];
     room_reference(&s, Z);
-    N_Vector *offset = stf_claim_vectors(s.pool, 3, s.y);
+    N_Vector *offset = stf_pool_vectors(s.pool, 3, s.y);
     for (int j = 0; j < 3; j++) {
       double row = 0;
-      for (int m = 0; m < 3; m++) row += s.newton.split.B[3 * j + m];
+      for (int m = 0; m < 3; m++) row += s.newton.transform.B[3 * j + m];
       N_VScale(-row / s.h, s.y, offset[j]);
       N_VScale(1, s.y, s.Z[j]);
     }
@@ -142,8 +142,8 @@ static void the_tolerance_is_weighted(void)
 }
 
 CU_TestInfo tests_of_solve[] = {
-  {"stages are solved through their lanes", stages_are_solved},
-  {"coupled lanes solve the same equations", coupled_lanes_solve_the_same},
+  {"stages are solved through their shifts", stages_are_solved},
+  {"coupled shifts solve the same equations", coupled_shifts_solve_the_same},
   {"a triangular coupling is substitution", triangular_coupling_is_substitution},
   {"linear systems take one sweep", linear_systems_take_one_sweep},
   {"stages may be absolute", stages_may_be_absolute},

@@ -201,7 +201,7 @@ static void solves_side_by_side(void)
       re[k] = gear_vector(LONG, 5u + (unsigned)k, sun);
       im[k] = s[k].im != 0 ? gear_vector(LONG, 17u + (unsigned)k, sun) : NULL;
     }
-    CHECK(stf_crew_solve(p, LANES, re, im) == STEIF_OK);
+    CHECK(stf_parallel_solve(p, LANES, re, im) == STEIF_OK);
     CHECK(steif_pencil_statistics(p)->solves == LANES);
     for (int k = 0; k < LANES; k++) {
       alone[0] = gear_vector(LONG, 5u + (unsigned)k, sun);

@@ -314,7 +314,7 @@ static void trusted_pivots(void)
     E = SUNMatClone(A);
     SUNMatZero(E);
     p = steif_pencil_new(ctx, E, A);
-    p->trusted = trusted;
+    p->keeps_pivots = trusted;
     CHECK(steif_pencil_factor(p, 1, &(steif_shift){1, 0}) == STEIF_OK);
     memcpy(SM_DATA_S(A), value[1], sizeof value[1]);
     CHECK(steif_pencil_update(p) == STEIF_OK);

@@ -84,7 +84,7 @@ static void arrays_come_back(void)
   steif_context_free(&ctx);
 }
 
-static void too_much_is_refused(void)
+static void too_much_is_rejected(void)
 {
   static const sunrealtype value = 1;
   steif_array many[17];
@@ -104,5 +104,5 @@ static void too_much_is_refused(void)
 }
 
 CU_TestInfo tests_of_arrays[] = {{"arrays come back", arrays_come_back},
-                                 {"too much is refused", too_much_is_refused},
+                                 {"too much is rejected", too_much_is_rejected},
                                  CU_TEST_INFO_NULL};

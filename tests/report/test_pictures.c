@@ -141,7 +141,7 @@ static void many_points_stay_small(void)
   free(x), free(y);
 }
 
-static void bad_pictures_are_refused(void)
+static void bad_pictures_are_rejected(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   const steif_curve curve = {.count = 3};
@@ -189,13 +189,36 @@ static void missing_gnuplot_is_told(void)
   steif_context_free(&ctx);
 }
 
+/* Nine components of sizes 1 and 1e-3 over (0, 2e4): eight curves, parts of their largest values, a
+ * logarithmic axis. */
+static void components_are_drawn_as_parts(void)
+{
+  enum { ROWS = 20, N = 9 };
+  double t[ROWS], y[ROWS * N];
+  for (int i = 0; i < ROWS; i++) {
+    t[i] = pow(10, i * 4.3 / ROWS);
+    for (int k = 0; k < N; k++) y[i * N + k] = sin(0.1 * (i + k + 1)) * (k % 2 ? 1e-3 : 1);
+  }
+  y[7] = NAN;
+  steif_context *ctx = steif_context_new(NULL);
+  const char *to = temporary(".svg");
+  CHECK(steif_plot_components(ctx, "nine", ROWS, N, t, y, to) == STEIF_OK);
+  contents(path, text);
+  unlink(path);
+  CHECK(balanced(text) && count_of("y8 / 0.001") == 1 && count_of("y1 / 1") == 1);
+  CHECK(!strstr(text, "y9") && strstr(text, "the first components of y"));
+  CHECK(steif_plot_components(ctx, "two", ROWS, 2, t, y, "two.txt") == STEIF_BAD_INPUT);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_pictures[] = {
   {"points that cannot be drawn break the line", gaps_break_the_line},
   {"any data gives a finite, balanced picture", hostile_data_is_drawn},
   {"words are escaped", words_are_escaped},
   {"the legend names every curve", legend_names_every_curve},
   {"many points give a small file", many_points_stay_small},
-  {"bad pictures are refused and leave nothing", bad_pictures_are_refused},
+  {"bad pictures are rejected and leave nothing", bad_pictures_are_rejected},
   {"PNG comes from gnuplot, whatever the path", png_comes_from_gnuplot},
   {"missing gnuplot is told with its remedy", missing_gnuplot_is_told},
+  {"components are drawn as parts of their size", components_are_drawn_as_parts},
   CU_TEST_INFO_NULL};

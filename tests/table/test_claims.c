@@ -154,7 +154,7 @@ static void check_kind(const steif_table *t)
 
 static void kinds_hold(void) { each(16, check_kind); }
 
-/* No pole in the closed left half plane: eigenvalues of A on its diagonal, or from the split.
+/* No pole in the closed left half plane: eigenvalues of A on its diagonal, or from the transform.
  * */
 static bool poles_are_right(const steif_table *t)
 {
@@ -164,9 +164,9 @@ static bool poles_are_right(const steif_table *t)
     return right;
   }
   stf_pool *pool = stf_pool_new(ctx);
-  stf_split split;
-  CHECK(stf_split_build(pool, ctx, t, &split) == STEIF_OK);
-  for (int k = 0; k < split.lanes; k++) right = right && split.re[k] > 0;
+  stf_transform transform;
+  CHECK(stf_transform_build(pool, ctx, t, &transform) == STEIF_OK);
+  for (int k = 0; k < transform.shifts; k++) right = right && transform.re[k] > 0;
   stf_pool_free(&pool);
   return right;
 }

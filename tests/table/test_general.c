@@ -324,7 +324,8 @@ static void dimsims_have_one_eigenvalue(void)
         for (int a = 0; a < k * k; a++) {
           Q[a] = 0;
           for (int b = 0; b < k; b++)
-            Q[a] += P[a / k * k + b] * (M[2 * (b * k + a % k)] + M[2 * (b * k + a % k) + 1] * I);
+            Q[a] +=
+              P[a / k * k + b] * (M[2 * (b * k + a % k)] + M[2 * (b * k + a % k) + 1] * I);
         }
         memcpy(P, Q, sizeof P);
       }

@@ -198,8 +198,8 @@ static void short_memory_is_reported(void)
     memory.refuse_at = memory.served + k + 1;
     steif_table *t = steif_table_new(ctx, "radau:s=13");
     stf_pool *pool = t ? stf_pool_new(ctx) : NULL;
-    stf_split split;
-    const int code = pool ? stf_split_build(pool, ctx, t, &split) : STEIF_NO_MEMORY;
+    stf_transform transform;
+    const int code = pool ? stf_transform_build(pool, ctx, t, &transform) : STEIF_NO_MEMORY;
     CHECK(code == STEIF_OK ||
           (code == STEIF_NO_MEMORY && steif_status(ctx) == STEIF_NO_MEMORY));
     successes += code == STEIF_OK;

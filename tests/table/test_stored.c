@@ -22,26 +22,26 @@ static void kept_is_computed(void)
     double A[2 * 49], b[7], c[7];
     steif_table t = {.name = k->family, .kind = STEIF_COLLOCATION, .s = s};
     stf_pool *pool = stf_pool_new(ctx);
-    stf_split split;
+    stf_transform transform;
     CHECK(!stf_family_compute(ctx, radau ? STF_RADAU_RIGHT : STF_GAUSS, NULL, &t, A, b, c));
-    CHECK(!stf_split_compute(pool, ctx, &t, &split));
+    CHECK(!stf_transform_compute(pool, ctx, &t, &transform));
     same("c", s, s, k->c, c);
     same("b", s, s, k->b, b);
     same("A", s, s * s, k->A, A);
     same("A_low", s, s * s, k->A_low, A + s * s);
-    same("B", s, s * s, k->B, split.B);
-    same("T", s, s * s, k->T, split.T);
-    same("Tinv", s, s * s, k->Tinv, split.Tinv);
-    stf_split kept;
-    stf_stored_split(k, &kept);
-    CHECK(kept.lanes == split.lanes && !split.coupling);
-    for (int m = 0; m < kept.lanes; m++) CHECK(kept.row[m] == split.row[m]);
-    same("re", s, kept.lanes, kept.re, split.re);
-    same("im", s, kept.lanes, kept.im, split.im);
+    same("B", s, s * s, k->B, transform.B);
+    same("T", s, s * s, k->T, transform.T);
+    same("Tinv", s, s * s, k->Tinv, transform.Tinv);
+    stf_transform kept;
+    stf_stored_transform(k, &kept);
+    CHECK(kept.shifts == transform.shifts && !transform.coupling);
+    for (int m = 0; m < kept.shifts; m++) CHECK(kept.row[m] == transform.row[m]);
+    same("re", s, kept.shifts, kept.re, transform.re);
+    same("im", s, kept.shifts, kept.im, transform.im);
     stf_pool_free(&pool);
   }
   steif_context_free(&ctx);
 }
 
-CU_TestInfo tests_of_stored[] = {{"kept tables are what the computation gives", kept_is_computed},
-                                 CU_TEST_INFO_NULL};
+CU_TestInfo tests_of_stored[] = {
+  {"kept tables are what the computation gives", kept_is_computed}, CU_TEST_INFO_NULL};

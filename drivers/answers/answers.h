@@ -1,0 +1,88 @@
+/* answers.h: results of analyses as reports, rows and pictures: what a verb has found goes in, an exit
+ * code comes out.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ANSWERS_H
+#define ANSWERS_H
+
+#include "program.h"
+
+struct structure_answer {
+  const steif_names *names; /* NULL: none */
+  steif_structure found;
+};
+int structure_present(const struct call *call, const struct structure_answer *a);
+
+struct region_answer {
+  steif_region region;
+  size_t count;
+  double *point, *re, *im; /* the boundary as pairs, and by parts */
+};
+int region_present(const struct call *call, const struct region_answer *a);
+
+/* |x| after every step: of the method, and exact. */
+struct counterexample_answer {
+  double h, rate;
+  steif_counterexample facts;
+  long count;
+  double *t, *x, *exact;
+};
+int counterexample_present(const struct call *call, const struct counterexample_answer *a);
+
+struct energy_answer {
+  const steif_problem *problem;
+  size_t which, columns; /* the invariant shown, from 1; of a row: t and every invariant */
+  steif_energy energy;
+};
+int energy_present(struct call *call, const struct energy_answer *a);
+
+struct lyapunov_answer {
+  size_t count;
+  double *exponent, *interval, *error;
+  steif_lyapunov_facts facts;
+  steif_growth_facts growth;
+  bool measured; /* growth */
+  steif_lyapunov_check *check;
+  int checks;
+};
+int lyapunov_present(const struct call *call, const struct lyapunov_answer *a);
+
+/* The windows of one run, and ln |w| at their ends: count + 1 points. */
+struct supervise_run {
+  size_t count, room;
+  steif_supervised_window *window;
+  double *t, *log;
+  steif_supervised facts;
+  int code;
+};
+/* Room for so many windows: false where memory is short; close it in any case. */
+bool supervise_open(struct supervise_run *run, size_t room);
+void supervise_close(struct supervise_run *run);
+/* Fits steif_supervision.tell, with a supervise_run as user data. */
+int supervise_keep(const steif_supervised_window *window, void *run);
+struct supervise_answer {
+  size_t n;
+  double *y;
+  struct supervise_run alone, kept; /* by error control alone, and supervised */
+};
+int supervise_present(const struct call *call, const struct supervise_answer *a);
+
+struct discrete_answer {
+  steif_discrete discrete;
+  steif_finite_part part; /* of E x' = A x + B u; memory NULL: there is no E */
+};
+int discrete_present(const struct call *call, const struct discrete_answer *a);
+
+struct hamiltonian_answer {
+  int n;
+  steif_hamiltonian found;
+};
+int hamiltonian_present(const struct call *call, const struct hamiltonian_answer *a);
+
+struct diagnosis_answer {
+  const steif_problem *problem;
+  steif_diagnosis diagnosis;
+  steif_start start; /* y NULL: there is none */
+};
+int diagnosis_present(const struct call *call, const struct diagnosis_answer *a);
+
+#endif

@@ -1,0 +1,27 @@
+/* benchmarks.h: the benchmarks by name, and what their reports share.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef BENCHMARKS_H
+#define BENCHMARKS_H
+
+#include "members.h"
+#include "program.h"
+#include <stdio.h>
+
+/* Each returns an exit code. */
+int bench_step(struct call *call);
+int bench_cost_accounting(struct call *call);
+int bench_lyapunov(struct call *call);
+int bench_workprec(struct call *call);
+int bench_impulse(struct call *call);
+int bench_phi(struct call *call);
+int bench_lorenz(struct call *call);
+
+/* The report of a benchmark that has come to the end of its plan, or why it stopped; frees it. */
+int bench_present(struct call *call, steif_report **r);
+
+/* The answer of the first Python that has SciPy to a script with one argument, for pclose;
+ * scipy_missing says what to do where there is none. */
+FILE *scipy_ask(const char *script, const char *argument);
+void scipy_missing(struct call *call, const char *column);
+
+#endif

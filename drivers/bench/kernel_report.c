@@ -1,0 +1,50 @@
+/* kernel_report.c: steps against their kernels, row by row.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "benchmarks.h"
+#include "kernels.h"
+
+static void add(steif_report *r, const steif_bench_row *row)
+{
+  steif_report_row(r, "rows");
+  steif_report_text(r, "rows.kind", row->kind);
+  steif_report_text(r, "rows.problem", row->problem);
+  steif_report_whole(r, "rows.n", (long)row->n);
+  steif_report_text(r, "rows.method", row->method);
+  steif_report_real(r, "rows.step_us", 1e6 * row->step_s);
+  steif_report_real(r, "rows.floor_us", 1e6 * row->floor_s);
+  steif_report_real(r, "rows.ratio", row->ratio);
+  steif_report_real(r, "rows.limit", row->limit);
+}
+
+int bench_present(struct call *call, steif_report **r)
+{
+  progress(call, NULL);
+  const int code = *r && !steif_status(call->ctx) ? present(call, *r) : fail(call);
+  steif_report_free(r);
+  return code;
+}
+
+static int against_kernels(struct call *call, const char *name,
+                           int (*measure)(steif_context *ctx, size_t i, steif_bench_row *row))
+{
+  steif_report *r = steif_report_new(call->ctx);
+  steif_bench_row row;
+  steif_report_text(r, "benchmark", name);
+  for (size_t i = 0; r && !measure(call->ctx, i, &row); i++) {
+    progress(call, "%s %s %s", row.kind, row.problem, row.method);
+    add(r, &row);
+  }
+  return bench_present(call, &r);
+}
+
+int bench_step(struct call *call) { return against_kernels(call, "step", steif_bench_step); }
+
+int bench_cost_accounting(struct call *call)
+{
+  return against_kernels(call, "books", steif_bench_cost_accounting);
+}
+
+int bench_lyapunov(struct call *call)
+{
+  return against_kernels(call, "lyapunov", steif_bench_lyapunov);
+}

@@ -1,0 +1,55 @@
+/* integration.h: one integration and what came of it, for the verbs that integrate.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef INTEGRATION_H
+#define INTEGRATION_H
+
+#include "program.h"
+
+typedef struct outcome {
+  int code;
+  char message[1200]; /* "ok" or the sentence */
+  char why[2400];     /* where a run stopped, on what components and for what cause; or "" */
+  double t;
+  bool known; /* there is a reference at t: scd and mescd are set */
+  double scd, mescd;
+  steif_stats stats;
+} outcome;
+
+/* Rows of an option table that options_of reads, besides --rtol, --atol and --h. */
+/* clang-format off */
+#define RUN_OPTIONS                                                                            \
+  {"--t1", POSITIVE, "T", "end of the integration (default: the problem's)", NULL},            \
+  {"--h0", POSITIVE, "H", "first step of an adaptive step size (default: automatic)", NULL},   \
+  {"--h-max", POSITIVE, "H", "largest step of an adaptive step size (default: none)", NULL},   \
+  {"--start", WORD, "S",                                                                       \
+   "starting procedure of multistep methods: exact, ramp, constant, cq", NULL},                \
+  {"--max-steps", COUNT, "N",                                                                  \
+   "give up after N steps (default: 1000000; with --h: 1000000000)", NULL},                     \
+  {"--max-seconds", POSITIVE, "S", "give up after S seconds of wall-clock time", NULL},        \
+  {"--storage", CHOICE, "dense|band|sparse|krylov",                                            \
+   "storage of the matrices; krylov: GMRES, no factors", NULL}
+/* clang-format on */
+
+/* The options of a solver from those of a call, where given. */
+steif_options options_of(const struct call *call);
+
+/* Integrate to options->t1 (the problem's when 0), the start shown to options->observe first. The
+ * solver is kept in *solver unless that is NULL; it may be NULL afterwards when it could not be made.
+ * The context's message is forgotten. SIGINT ends the run after a step. */
+outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
+                  const steif_options *options, steif_solver **solver);
+/* Was a run stopped by SIGINT? */
+bool interrupted(void);
+
+/* atol/rtol of a run: how much of the size of a component counts as nothing. */
+double tolerance_ratio(const steif_problem *problem, const steif_options *options);
+
+/* Under `prefix` ("rows." or ""): scd, mescd; status, message; the counts. */
+void report_digits(steif_report *r, const char *prefix, const outcome *o);
+void report_status(steif_report *r, const char *prefix, const outcome *o);
+void report_stats(steif_report *r, const char *prefix, const outcome *o);
+/* A row of the sheet "rows": method, rtol, atol, h, digits, status, counts. */
+void report_run(steif_report *r, const char *method, const steif_problem *problem,
+                const steif_options *options, const outcome *o);
+
+#endif

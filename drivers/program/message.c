@@ -1,0 +1,138 @@
+/* message.c: exit codes, sentences on stderr, the progress line.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "message.h"
+#include <stdarg.h>
+#include <string.h>
+#include <steif/report.h>
+#include <unistd.h>
+
+int exit_of(int code)
+{
+  switch (code) {
+  case STEIF_OK:
+  case STEIF_EVENT: return EXIT_OK;
+  case STEIF_BAD_INPUT:
+  case STEIF_UNKNOWN_NAME: return EXIT_USAGE;
+  case STEIF_IO: return EXIT_FILE;
+  case STEIF_SINGULAR: return EXIT_SINGULAR;
+  case STEIF_NOT_CERTIFIED: return EXIT_UNCERTIFIED;
+  case STEIF_STOPPED: return EXIT_INTERRUPTED;
+  default: return EXIT_FAILED;
+  }
+}
+
+/* ---- words ---- */
+
+/* code: its name, NULL where the sentence is no failure or names it itself. */
+static void sentence(const struct call *call, const char *code, const char *format,
+                     va_list arguments)
+{
+  progress(call, NULL);
+  fflush(stdout);
+  fprintf(stderr, call->verb ? "steif %s: " : "steif: ", call->verb ? call->verb->name : "");
+  vfprintf(stderr, format, arguments);
+  if (code) fprintf(stderr, " [%s]", code);
+  putc('\n', stderr);
+}
+
+void say(const struct call *call, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  sentence(call, NULL, format, arguments);
+  va_end(arguments);
+}
+
+int bad_usage(const struct call *call, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  sentence(call, "STEIF_BAD_INPUT", format, arguments);
+  va_end(arguments);
+  return EXIT_USAGE;
+}
+
+int unknown_name(const struct call *call, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  sentence(call, "STEIF_UNKNOWN_NAME", format, arguments);
+  va_end(arguments);
+  return EXIT_USAGE;
+}
+
+int no_memory(const struct call *call, const char *what, const char *remedy)
+{
+  say(call, "no memory for %s; %s [STEIF_NO_MEMORY]", what, remedy);
+  return EXIT_FAILED;
+}
+
+int fail(const struct call *call)
+{
+  const int code = steif_status(call->ctx);
+  say(call, "%s", steif_message(call->ctx));
+  steif_report *r = call->json ? steif_report_new(call->ctx) : NULL;
+  if (r) {
+    steif_report_text(r, "status", steif_code_name(code));
+    steif_report_text(r, "message", steif_message(call->ctx));
+    steif_report_write(r, STEIF_JSON, stdout);
+    steif_report_free(&r);
+  }
+  return code == STEIF_OK ? EXIT_FAILED : exit_of(code);
+}
+
+int fail_file(const struct call *call)
+{
+  const int code = fail(call);
+  return code == EXIT_USAGE || code == EXIT_FAILED ? EXIT_FILE : code;
+}
+
+void progress(const struct call *call, const char *format, ...)
+{
+  static bool shown = false;
+  if (call->quiet || !isatty(STDERR_FILENO) || (!format && !shown)) return;
+  fputs("\r\033[K", stderr);
+  shown = format != NULL;
+  if (format) {
+    va_list arguments;
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+  }
+  fflush(stderr);
+}
+
+/* Edit distance of words up to 63 letters. */
+static int distance(const char *a, const char *b)
+{
+  enum { MOST = 64 };
+  int row[MOST + 1], m = (int)strlen(b);
+  if (m > MOST) return MOST * 2;
+  for (int j = 0; j <= m; j++) row[j] = j;
+  for (int i = 1; a[i - 1]; i++) {
+    int corner = row[0];
+    row[0] = i;
+    for (int j = 1; j <= m; j++) {
+      const int change = corner + (a[i - 1] != b[j - 1]);
+      const int shift = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
+      corner = row[j];
+      row[j] = change < shift ? change : shift;
+    }
+  }
+  return row[m];
+}
+
+const char *nearest(const char *wrong, const char *(*name_at)(const void *list, size_t i),
+                    const void *list)
+{
+  const char *best = NULL, *name;
+  int least = 0;
+  for (size_t i = 0; (name = name_at(list, i)); i++) {
+    const int d = distance(wrong, name);
+    if (!best || d < least) {
+      best = name;
+      least = d;
+    }
+  }
+  return best;
+}

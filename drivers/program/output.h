@@ -1,0 +1,26 @@
+/* output.h: reports, pictures and files as the user asked for them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef OUTPUT_H
+#define OUTPUT_H
+
+#include "command_line.h"
+#include <steif/report.h>
+
+/* Before a long run: can the files asked for be written? EXIT_OK, or an exit code after a sentence;
+ * so do the next ones. */
+int check_outputs(const struct call *call);
+/* The report on stdout in the form asked for. */
+int show(const struct call *call, steif_report *report);
+/* As --csv. */
+int save_csv(const struct call *call, steif_report *report);
+/* Both. */
+int present(const struct call *call, steif_report *report);
+/* A report of one result, made and freed here: presented, shown alone, or saved alone as --csv. */
+typedef void report_filler(steif_report *r, const struct call *call, const void *result);
+int present_result(const struct call *call, report_filler *fill, const void *result);
+int show_result(const struct call *call, report_filler *fill, const void *result);
+int save_rows(const struct call *call, report_filler *fill, const void *result);
+/* Nothing to do when the path is NULL. */
+int save_plot(const struct call *call, const steif_plot *plot, const char *path);
+
+#endif

@@ -1,0 +1,22 @@
+/* problem.h: a problem of the collection by a word of a call, and a point of its solution.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef PROGRAM_PROBLEM_H
+#define PROGRAM_PROBLEM_H
+
+#include "program.h"
+
+/* What `work` returns for the problem of the first word, or an exit code after a sentence. */
+int with_problem(struct call *call, int (*work)(struct call *call, const steif_problem *p));
+
+/* A point of a solution: the exact one where it is known, else that of a run. */
+struct point {
+  steif_point at;
+  N_Vector y, yp;
+  steif_solver *solver; /* of the run; NULL: none */
+};
+
+/* The solution of p at t: EXIT_OK or an exit code after a sentence; close it in any case. */
+int point_open(struct call *call, const steif_problem *p, double t, struct point *point);
+void point_close(struct point *point);
+
+#endif

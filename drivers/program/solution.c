@@ -1,0 +1,53 @@
+/* solution.c: what one integration shows: the solution, digits, costs, events.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "solution.h"
+#include <string.h>
+
+/* What the invariants of the problem have lost or gained. */
+static void fill_drift(steif_report *r, steif_solver *s)
+{
+  enum { SHOWN = 16 };
+  sunrealtype drift[SHOWN];
+  int count = SHOWN;
+  if (s && steif_drift_now(s, &count, drift) == STEIF_OK && count > 0)
+    steif_report_list(r, "drift", (size_t)count, drift);
+}
+
+static void fill(steif_report *r, const char *const *word, const outcome *o, steif_solver *s,
+                 const trajectory *tr)
+{
+  steif_report_text(r, "problem", word[0]);
+  steif_report_text(r, "method", word[1]);
+  if (s && strcmp(word[1], steif_method_used(s)))
+    steif_report_text(r, "used", steif_method_used(s));
+  report_status(r, "", o);
+  if (o->why[0]) steif_report_text(r, "failure", o->why);
+  steif_report_real(r, "t", o->t);
+  steif_report_list(r, "y", s ? tr->n : 0, s ? N_VGetArrayPointer(steif_solution(s)) : NULL);
+  report_digits(r, "", o);
+  report_stats(r, "stats.", o);
+  if (o->stats.rounding > 0) steif_report_real(r, "stats.rounding", o->stats.rounding);
+  fill_drift(r, s);
+  trajectory_fill(r, tr);
+}
+
+int solution_present(struct call *call, const outcome *o, steif_solver *s, const trajectory *tr)
+{
+  char title[128];
+  snprintf(title, sizeof title, "%s by %s", call->word[0], call->word[1]);
+  const bool rounded = o->code == STEIF_OK && o->stats.rounding > 1;
+  const int code = rounded               ? EXIT_UNCERTIFIED
+                   : o->code == STEIF_OK ? EXIT_OK
+                                         : exit_of(o->code);
+  fill(tr->report, call->word, o, s, tr);
+  int output = call->json || s ? show(call, tr->report) : EXIT_OK;
+  if (tr->short_of_memory)
+    no_memory(call, "the trajectory",
+              "leave out --csv, --npz and --plot, or ask for fewer --points");
+  else if (o->code != STEIF_OK || rounded)
+    say(call, "%s", o->message);
+  if (o->why[0]) say(call, "%s", o->why);
+  if (s && output == EXIT_OK) output = trajectory_save(call, tr);
+  if (s && output == EXIT_OK) output = trajectory_plot(call, tr, title);
+  return code ? code : output;
+}

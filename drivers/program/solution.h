@@ -1,0 +1,14 @@
+/* solution.h: what one integration shows: the solution, digits, costs, events.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SOLUTION_H
+#define SOLUTION_H
+
+#include "integration.h"
+#include "trajectory.h"
+
+/* On stdout and in the files asked for; a failed run is shown up to where it came. The exit code of
+ * the run, or of what could not be written. s may be NULL. */
+int solution_present(struct call *call, const outcome *o, steif_solver *s,
+                     const trajectory *tr);
+
+#endif

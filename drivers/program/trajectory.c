@@ -1,0 +1,156 @@
+/* trajectory.c: the accepted steps of a run, or its solution at times asked for, and its events.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "trajectory.h"
+#include <nvector/nvector_serial.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+/* ---- times asked for ---- */
+
+static int ask(struct call *call, trajectory *tr)
+{
+  double at[REALS_MOST];
+  const size_t given_times = reals_of(call, "--at", at);
+  tr->asked = given_times ? given_times : (size_t)whole_of(call, "--points");
+  if (tr->asked == 0) return EXIT_OK;
+  tr->at = malloc(tr->asked * sizeof *tr->at);
+  tr->between = tr->at ? N_VNew_Serial(tr->problem->n, steif_sundials(call->ctx)) : NULL;
+  if (!tr->between) return no_memory(call, "the times asked for", "ask for fewer");
+  const double width = tr->asked > 1 ? (tr->t1 - tr->t0) / (double)(tr->asked - 1) : 0;
+  for (size_t i = 0; i < tr->asked; i++) {
+    tr->at[i] = given_times ? at[i] : i + 1 < tr->asked ? tr->t0 + width * (double)i : tr->t1;
+    if (tr->at[i] < tr->t0 || tr->at[i] > tr->t1 || (i && tr->at[i] <= tr->at[i - 1]))
+      return bad_usage(
+        call, "--at must be times that ascend within [%g, %g]; %g is out of order or outside",
+        tr->t0, tr->t1, tr->at[i]);
+  }
+  return EXIT_OK;
+}
+
+/* ---- steps and events as they come ---- */
+
+static bool grow(trajectory *tr)
+{
+  const size_t room = tr->room ? 2 * tr->room : 256;
+  double *t = realloc(tr->t, room * sizeof *t);
+  if (t) tr->t = t;
+  double *y = t ? realloc(tr->y, room * tr->n * sizeof *y) : NULL;
+  if (!y) return false;
+  tr->y = y;
+  tr->room = room;
+  return true;
+}
+
+int trajectory_keep(trajectory *tr, double t, N_Vector y)
+{
+  if (tr->count == tr->room && !grow(tr)) {
+    tr->short_of_memory = true;
+    return -1;
+  }
+  tr->t[tr->count] = t;
+  memcpy(tr->y + tr->count * tr->n, N_VGetArrayPointer(y), tr->n * sizeof *tr->y);
+  tr->count++;
+  return 0;
+}
+
+/* A line on a terminal, four times a second. */
+static void tell(trajectory *tr, double t)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const double seconds = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+  if (seconds < tr->shown + 0.25) return;
+  tr->shown = seconds;
+  progress(tr->call, "t = %.4g of %.4g, %.0f %%", t, tr->t1,
+           100 * (t - tr->t0) / (tr->t1 - tr->t0));
+}
+
+static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
+{
+  trajectory *tr = user;
+  if (tr->live) tell(tr, t);
+  if (tr->asked == 0)
+    return tr->call->csv || tr->call->plot || tr->call->npz ? trajectory_keep(tr, t, y) : 0;
+  for (; tr->next < tr->asked && tr->at[tr->next] <= t; tr->next++) {
+    const bool here = tr->at[tr->next] >= t;
+    if (!here && steif_dense(s, tr->at[tr->next], tr->between) != STEIF_OK) return -1;
+    if (trajectory_keep(tr, tr->at[tr->next], here ? y : tr->between)) return -1;
+  }
+  return 0;
+}
+
+static bool more_events(trajectory *tr)
+{
+  const size_t room = tr->event_room ? 2 * tr->event_room : 64;
+  double **const column[] = {&tr->event_t, &tr->event_which, &tr->event_direction};
+  for (int i = 0; i < 3; i++) {
+    double *longer = realloc(*column[i], room * sizeof *longer);
+    if (!longer) return false;
+    *column[i] = longer;
+  }
+  size_t *number = realloc(tr->event_number, room * sizeof *number);
+  if (!number) return false;
+  tr->event_number = number;
+  tr->event_room = room;
+  return true;
+}
+
+static int keep_event(steif_solver *s, sunrealtype t, N_Vector y, const int *fired, void *user)
+{
+  trajectory *tr = user;
+  (void)s, (void)y;
+  for (int i = 0; i < tr->problem->events; i++) {
+    if (!fired[i]) continue;
+    if (tr->events == tr->event_room && !more_events(tr)) {
+      tr->short_of_memory = true;
+      return -1;
+    }
+    const size_t k = tr->events++;
+    tr->event_t[k] = t;
+    tr->event_which[k] = i;
+    tr->event_direction[k] = fired[i];
+    tr->event_number[k] = tr->happened;
+  }
+  tr->happened++;
+  return 0;
+}
+
+static int keep_jump(sunrealtype t, const sunrealtype *before, const steif_impulse *i,
+                     void *user)
+{
+  const trajectory *tr = user;
+  if (tr->report) report_jump(tr->report, "jumps", NULL, t, before, i);
+  return 0;
+}
+
+int trajectory_open(struct call *call, const steif_problem *problem, steif_options *options,
+                    trajectory *tr)
+{
+  *tr = (trajectory){.call = call,
+                     .problem = problem,
+                     .n = (size_t)problem->n,
+                     .t0 = problem->t0,
+                     .t1 = options->t1 > 0 ? options->t1 : problem->t1,
+                     .live = !call->quiet && isatty(STDERR_FILENO)};
+  options->observe = observe;
+  options->on_event = keep_event;
+  options->jump = keep_jump;
+  options->observer = tr;
+  if (given(call, "--events") && problem->events == 0)
+    return bad_usage(call, "%s has no events; bounce, rectifier and swing have", call->word[0]);
+  return ask(call, tr);
+}
+
+void trajectory_free(trajectory *tr)
+{
+  if (tr->between) N_VDestroy(tr->between);
+  free(tr->t);
+  free(tr->y);
+  free(tr->at);
+  free(tr->event_t);
+  free(tr->event_which);
+  free(tr->event_direction);
+  free(tr->event_number);
+}

@@ -1,0 +1,46 @@
+/* trajectory.h: what a run was: its steps or the solution at times asked for, events and jumps; as
+ * rows, files and a picture.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef TRAJECTORY_H
+#define TRAJECTORY_H
+
+#include "program.h"
+
+typedef struct trajectory {
+  const struct call *call;
+  const steif_problem *problem;
+  size_t n, count, room;
+  double t0, t1, *t, *y; /* y by rows, n values each */
+  size_t asked, next;    /* times asked for, those kept already; 0: every step is kept */
+  double *at;
+  N_Vector between; /* the solution at one of them */
+  size_t events, event_room;
+  double *event_t, *event_which,
+    *event_direction;   /* one row per function that changed its sign */
+  size_t *event_number; /* from 0: functions that change it together have one number */
+  size_t happened;
+  bool short_of_memory, live;
+  double shown;         /* when the progress line was written */
+  steif_report *report; /* takes jumps as they come; NULL: they are not kept */
+} trajectory;
+
+/* EXIT_OK, or an exit code after a sentence about --at. Observers are set in *options. */
+int trajectory_open(struct call *call, const steif_problem *problem, steif_options *options,
+                    trajectory *tr);
+/* One more row; nonzero when memory is short. */
+int trajectory_keep(trajectory *tr, double t, N_Vector y);
+void trajectory_free(trajectory *tr);
+/* Sheets "output" (times asked for) and "events" (--events); jumps are there already. */
+void trajectory_fill(steif_report *r, const trajectory *tr);
+/* --csv and --npz; --plot. */
+int trajectory_save(const struct call *call, const trajectory *tr);
+int trajectory_plot(const struct call *call, const trajectory *tr, const char *title);
+
+/* One row of a sheet with columns t, kind and x, or instead of x one for each name. */
+void report_vector(steif_report *r, const char *sheet, const char *const *name,
+                   const char *kind, double t, size_t n, const double *x);
+/* The rows of such a sheet: x-, c0, c1, ..., x+ of one jump. */
+void report_jump(steif_report *r, const char *sheet, const char *const *name, double t,
+                 const double *before, const steif_impulse *i);
+
+#endif

@@ -1,0 +1,79 @@
+/* trajectory_output.c: a run as rows of a report, as files and as a picture.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "members.h"
+#include "trajectory.h"
+
+/* Columns have the names of the unknowns, if there are any; names NULL: one list y. */
+static void rows(steif_report *r, const char *sheet, const trajectory *tr,
+                 const char *const *names)
+{
+  char time[32], name[96];
+  snprintf(time, sizeof time, "%s.t", sheet);
+  for (size_t i = 0; i < tr->count; i++) {
+    steif_report_row(r, sheet);
+    steif_report_real(r, time, tr->t[i]);
+    snprintf(name, sizeof name, "%s.y", sheet);
+    if (!names) steif_report_list(r, name, tr->n, tr->y + i * tr->n);
+    for (size_t j = 0; names && j < tr->n; j++) {
+      snprintf(name, sizeof name, "%s.%s", sheet, names[j]);
+      steif_report_real(r, name, tr->y[i * tr->n + j]);
+    }
+  }
+}
+
+static void event_row(steif_report *r, const trajectory *tr, size_t i)
+{
+  const steif_problem *p = tr->problem;
+  const size_t which = (size_t)tr->event_which[i], number = tr->event_number[i];
+  const bool known = number < (size_t)p->event_time_count;
+  char own[32];
+  snprintf(own, sizeof own, "g%zu", which + 1);
+  const char *name = p->event_list ? p->event_list[which].name : NULL;
+  steif_report_row(r, "events");
+  steif_report_real(r, "events.t", tr->event_t[i]);
+  steif_report_text(r, "events.event", name ? name : own);
+  steif_report_text(r, "events.direction", tr->event_direction[i] > 0 ? "rising" : "falling");
+  report_maybe(r, "events.", "reference", known, known ? p->event_times[number] : 0);
+  report_maybe(r, "events.", "error", known,
+               known ? tr->event_t[i] - p->event_times[number] : 0);
+}
+
+void trajectory_fill(steif_report *r, const trajectory *tr)
+{
+  if (tr->asked) rows(r, "output", tr, NULL);
+  for (size_t i = 0; given(tr->call, "--events") && i < tr->events; i++) event_row(r, tr, i);
+}
+
+static int save_arrays(const struct call *call, const trajectory *tr)
+{
+  const steif_array array[] = {{"t", tr->count, 0, tr->t},
+                               {"y", tr->count, tr->n, tr->y},
+                               {"event_t", tr->events, 0, tr->event_t},
+                               {"event_which", tr->events, 0, tr->event_which},
+                               {"event_direction", tr->events, 0, tr->event_direction}};
+  const size_t count = tr->problem->events ? 5 : 2;
+  if (!call->npz || steif_npz_save(call->ctx, call->npz, count, array) == STEIF_OK)
+    return EXIT_OK;
+  say(call, "%s", steif_message(call->ctx));
+  return EXIT_FAILED;
+}
+
+int trajectory_save(const struct call *call, const trajectory *tr)
+{
+  const int arrays = save_arrays(call, tr);
+  if (!call->csv) return arrays;
+  steif_report *r = steif_report_new(call->ctx);
+  rows(r, "steps", tr, tr->problem->names ? tr->problem->names->unknown : NULL);
+  const int code = r ? save_csv(call, r) : fail(call);
+  steif_report_free(&r);
+  return code ? code : arrays;
+}
+
+int trajectory_plot(const struct call *call, const trajectory *tr, const char *title)
+{
+  if (!call->plot || steif_plot_components(call->ctx, title, tr->count, tr->n, tr->t, tr->y,
+                                           call->plot) == STEIF_OK)
+    return EXIT_OK;
+  say(call, "%s", steif_message(call->ctx));
+  return EXIT_FAILED;
+}

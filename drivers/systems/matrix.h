@@ -1,0 +1,22 @@
+/* matrix.h: dense matrices from files.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef MATRIX_H
+#define MATRIX_H
+
+#include "program.h"
+
+/* By columns; x is NULL when there is no such matrix; free it. */
+struct matrix {
+  long rows, columns;
+  double *x;
+};
+
+/* rows, columns: what they should be, 0: anything. EXIT_OK, or the exit code after a sentence. */
+int matrix_read(struct call *call, const char *path, long rows, long columns, struct matrix *M);
+/* The same for the file of an option; nothing where it is not given. */
+int matrix_option(struct call *call, const char *option, long rows, long columns,
+                  struct matrix *M);
+/* The same for a square matrix, `what` it is in its sentence. */
+int matrix_square(struct call *call, const char *path, const char *what, struct matrix *M);
+
+#endif

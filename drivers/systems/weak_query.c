@@ -1,0 +1,52 @@
+/* weak_query.c: weak convergence from the words of a call to the measure and its picture.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "weak.h"
+#include <string.h>
+
+static const char *const name[] = {"P", "R", "C", "stage"}; /* enum steif_convention */
+
+const char *convention_name(enum steif_convention convention) { return name[convention]; }
+
+struct weak weak_asked(const struct call *call)
+{
+  struct weak w = {.k = whole_of(call, "--index"),
+                   .kind = word_of(call, "--case"),
+                   .convention = word_of(call, "--convention"),
+                   .query = {.method = call->word[0],
+                             .start = word_of(call, "--start"),
+                             .h = real_or(call, "--h", 1.0 / 64),
+                             .component = (int)whole_of(call, "--component")}};
+  w.query.rows = (size_t)whole_or(call, "--halvings", given(call, "--h") ? 0 : 4) + 1;
+  return w;
+}
+
+/* Stages for Runge-Kutta methods with more than one, the comb for convolution quadrature. */
+static enum steif_convention usual(const char *method, const char *start,
+                                   const steif_method_info *m)
+{
+  if (strstr(method, "start=cq") || (start && !strcmp(start, "cq"))) return STEIF_C;
+  return m->stages > 1 && strcmp(m->family, "bdf") ? STEIF_STAGE : STEIF_R;
+}
+
+int weak_measure(steif_context *ctx, struct weak *w)
+{
+  steif_method_info m;
+  const int code = steif_method_find(ctx, w->query.method, &m);
+  if (code != STEIF_OK) return code;
+  if (w->k) {
+    snprintf(w->problem, sizeof w->problem, "jordan:k=%ld,case=%s", w->k, w->kind);
+    w->query.problem = w->problem;
+  }
+  w->query.convention = usual(w->query.method, w->query.start, &m);
+  for (int i = 0; w->convention && i < 4; i++)
+    if (!strcmp(w->convention, name[i])) w->query.convention = (enum steif_convention)i;
+  return steif_weak_measure(ctx, &w->query, w->row, &w->result);
+}
+
+int weak_plot(const struct call *call, size_t rows, const steif_weak_row *row)
+{
+  error_curves errors = {.title = call->word[0], .y_label = "weak error"};
+  errors_open(&errors, call->word[0]);
+  for (size_t i = 0; i < rows; i++) errors_add(&errors, row[i].h, row[i].error);
+  return errors_plot(call, &errors, call->plot);
+}

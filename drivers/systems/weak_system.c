@@ -1,0 +1,78 @@
+/* weak_system.c: weak convergence on a descriptor system, of one component or of all.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "weak.h"
+#include <stdlib.h>
+
+enum { SHOWN = 12 }; /* components whose values are shown */
+
+struct answer {
+  const struct weak *weak;
+  size_t n;
+};
+
+static void fill(steif_report *r, const struct call *call, const void *result)
+{
+  const struct answer *a = result;
+  const struct weak *w = a->weak;
+  const steif_weak_query *q = &w->query;
+  const bool lists = q->component == STEIF_ALL && a->n <= SHOWN;
+  steif_report_text(r, "method", q->method);
+  steif_report_text(r, "system", call->word[1]);
+  steif_report_whole(r, "index", w->result.index);
+  if (q->component >= 0) steif_report_whole(r, "component", q->component);
+  steif_report_text(r, "convention", convention_name(q->convention));
+  if (lists)
+    steif_report_list(r, "exact", a->n, q->exacts);
+  else
+    steif_report_real(r, "exact", w->result.exact);
+  for (size_t i = 0; i < q->rows; i++) {
+    steif_report_row(r, "rows");
+    steif_report_real(r, "rows.h", w->row[i].h);
+    if (lists)
+      steif_report_list(r, "rows.value", a->n, q->values + i * a->n);
+    else
+      steif_report_real(r, "rows.value", w->row[i].value);
+    steif_report_real(r, "rows.error", w->row[i].error);
+    steif_report_real(r, "rows.order", w->row[i].order);
+  }
+  steif_report_text(r, "verdict", w->result.verdict);
+  steif_report_text(r, "message", w->result.source);
+}
+
+static int answer(struct call *call, struct weak *w, size_t n)
+{
+  progress(call, "%s on %s", call->word[0], call->word[1]);
+  if (weak_measure(call->ctx, w)) return descriptor_fail(call);
+  const int code = present_result(call, fill, &(struct answer){w, n});
+  return code ? code : weak_plot(call, w->query.rows, w->row);
+}
+
+static int ask(struct call *call, const struct descriptor *l)
+{
+  const size_t n = (size_t)l->n;
+  struct weak w = weak_asked(call);
+  if (l->t0 != 0) return bad_usage(call, "the test function begins at t = 0; leave --t0 out");
+  if (!given(call, "--component")) w.query.component = STEIF_ALL;
+  if (descriptor_as_published(call, l)) {
+    w.query.problem = call->word[1];
+  } else {
+    w.query.linear = &l->system;
+    w.query.x0 = l->x0;
+  }
+  w.query.exacts = malloc(n * (w.query.rows + 1) * sizeof *w.query.exacts);
+  if (!w.query.exacts) return no_memory(call, "all components", "name one with --component");
+  w.query.values = w.query.exacts + n;
+  const int code = answer(call, &w, n);
+  free(w.query.exacts);
+  return code;
+}
+
+int weak_system(struct call *call)
+{
+  struct descriptor l;
+  int code = descriptor_open(call, &l, 1, true);
+  if (!code) code = descriptor_started(call, &l);
+  if (!code) code = ask(call, &l);
+  descriptor_close(call, &l);
+  return code;
+}

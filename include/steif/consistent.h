@@ -1,0 +1,53 @@
+/* steif/consistent.h: start values of a DAE that fulfil all its equations, the hidden ones too.
+ *
+ * Dense, n <= STEIF_DIAGNOSE_LARGEST.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_CONSISTENT_H
+#define STEIF_CONSISTENT_H
+
+#include <steif/index.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Consistent start values: y keeps the fixed components, moves the guessed ones as little
+ * as possible in sum (w_j (y_j - guess_j))^2 and computes the free ones; y' and nothing
+ * else follows from y. Movement is minimal stage by stage: positions first, velocities for
+ * these positions, multipliers from both. A multiplier is computed whatever its guess is
+ * worth. */
+enum steif_attribute { STEIF_GUESS, STEIF_FIXED, STEIF_FREE };
+
+typedef struct steif_request {
+  const enum steif_attribute *attribute; /* n; NULL: all STEIF_GUESS */
+  const sunrealtype *weight;             /* n weights w_j > 0; NULL: all 1 */
+  int iterations;                        /* of each stage; 0: 60 */
+} steif_request;
+
+typedef struct steif_start {
+  sunrealtype *y, *yp; /* n */
+  sunrealtype *moved;  /* n: y - guess */
+  int *enforced;       /* n: equation i and its first enforced[i] derivatives are fulfilled */
+  int levels;          /* largest of them */
+  int stages;          /* sizes of the problem solved: 1 for the whole array at once */
+  int iterations;
+  sunrealtype violation; /* by the guess, the largest of equations without derivatives ... */
+  sunindextype worst;    /* ... this one; -1: none is violated */
+  sunrealtype residual;  /* largest residual left, relative to the terms of its equation */
+  char message[STEIF_SENTENCE];
+  void *memory;
+} steif_start;
+
+/* STEIF_BAD_INPUT when fixed values contradict the equations, STEIF_NO_CONVERGENCE when no
+ * consistent point is found, STEIF_SINGULAR when there is none or more than one near the
+ * guess. */
+STEIF_EXPORT int steif_consistent(steif_context *ctx, const steif_problem *problem,
+                                  const steif_point *inquiry, const steif_request *request,
+                                  steif_start *start);
+STEIF_EXPORT void steif_start_clear(steif_start *start);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

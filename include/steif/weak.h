@@ -1,0 +1,109 @@
+/* steif/weak.h: weak convergence of methods on E x' + F x = f, Campbell's systems.
+ *
+ * For N x' + x = f with N the k x k nilpotent Jordan block (ones above the diagonal) and any x(0-),
+ *   x(t) = sum_{i<k} (-1)^i N^i f^(i)(t)  +  sum_{i<k-1} c_i delta^(i)(t),
+ *   c_i = (-1)^i N^{i+1} (x(0-) - x_s(0+)),   x_s the smooth part.
+ * A discretisation x_h converges weakly when <x_h, g> tends to <x, g> for smooth g, the impulses
+ * included: <delta^(i), g> = (-1)^i g^(i)(0). A sequence x_i is read as a function in one of four
+ * conventions, which differ by O(h):
+ *   P      x_i on [ih, (i+1)h), i >= 0            (Campbell's)
+ *   R      x_i on ((i-1)h, ih], i >= 1            (the step that produced x_i)
+ *   C      h sum_i x_i delta(t - ih)              (comb)
+ *   stage  h sum_n sum_j b_j X_{n,j} delta(t - t_n - c_j h)   (Runge-Kutta stages)
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_WEAK_H
+#define STEIF_WEAK_H
+
+#include <steif/impulse.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The test function g(t) = (1 - t)_+^8; derivative of order q. */
+STEIF_EXPORT sunrealtype steif_test_function(sunrealtype t, int q);
+
+/* Smooth part and impulse coefficients of one Jordan block. forcing NULL: 0. x0: k values x(0-).
+ * x (k) receives the smooth part at t; c ((k-1) * k, by rows) the c_i; either may be NULL. */
+STEIF_EXPORT int steif_jordan_exact(steif_context *ctx, int k, steif_forcing forcing,
+                                    void *user, const sunrealtype *x0, sunrealtype t,
+                                    sunrealtype *x, sunrealtype *c);
+
+enum steif_convention { STEIF_P, STEIF_R, STEIF_C, STEIF_STAGE };
+
+/* A sequence from a run with equal or unequal steps, ready for pairing. */
+typedef struct steif_weak_row {
+  sunrealtype h, value, error,
+    order; /* order: log2 of successive errors, NaN in the first row */
+} steif_weak_row;
+
+typedef struct steif_weak_result {
+  sunrealtype exact;    /* <x, g> of the distributional solution */
+  sunrealtype first;    /* closed first-order constant of backward Euler (P, R), else NaN */
+  char verdict[160];    /* "converges weakly, order 1.00", "does not converge weakly: ..." */
+  int converges;        /* 1, 0, or -1: undecided */
+  sunrealtype accuracy; /* of exact, as far as seen; 0: closed formulas */
+  char source[160];     /* how exact was found */
+  int index;            /* of the system */
+} steif_weak_result;
+
+enum { STEIF_ALL = -1 }; /* components */
+
+/* Pair component `component` (0-based) of runs with steps h, h/2, ... on [0, 1]: of a Jordan block,
+ * where everything is known in closed form, of another descriptor problem of the collection, or of
+ * a system of one's own. For these the impulses come from the pencil and the smooth part from its
+ * closed solution, where there is one, or from radau:s=5 on the slow part and the derivatives of f
+ * on the rest. Dense and small systems of index k > 1 are run in coordinates in which N is strictly
+ * triangular: the same sequence, with rounding of eps h^-(k-1) where that of E and F as they are
+ * given would be eps h^(-2 (k-1)). */
+typedef struct steif_weak_query {
+  const char *method;  /* "be", "bdf:p=3", "radau:s=2", ... */
+  const char *problem; /* "jordan:k=3,case=H-inc", "ut5" */
+  enum steif_convention convention;
+  const char *start; /* starting procedure, NULL: the method's */
+  sunrealtype h;     /* first step, 1/h a whole number */
+  size_t rows;
+  int component;       /* STEIF_ALL: values and errors are 2-norms over the components */
+  sunrealtype *values; /* rows x n and n: of all of them by themselves; NULL: not wanted */
+  sunrealtype *exacts;
+  const steif_linear *linear; /* instead of problem, */
+  const sunrealtype *x0;      /* from x(0-) = x0 */
+} steif_weak_query;
+STEIF_EXPORT int steif_weak_measure(steif_context *ctx, const steif_weak_query *query,
+                                    steif_weak_row *row, steif_weak_result *result);
+
+/* <x_h, g> of one component of a sequence x_0 .. x_m at times t_0 < ... < t_m (x by values of that
+ * component) in convention P, R or C; box averages by Gauss quadrature of degree 15. */
+STEIF_EXPORT sunrealtype steif_pair(enum steif_convention convention, size_t m,
+                                    const sunrealtype *t, const sunrealtype *x);
+
+/* The layer of a run on a Jordan block or another descriptor problem, step by step: steps + 1 rows
+ * of t, of the n values x and the smooth part, and of the largest error. */
+typedef struct steif_layer_result {
+  int layer_steps; /* last step whose error against the smooth part exceeds `threshold` */
+  sunrealtype threshold;
+  int index; /* of the system */
+} steif_layer_result;
+STEIF_EXPORT int steif_layer_measure(steif_context *ctx, const char *method,
+                                     const char *problem, const char *start, sunrealtype h,
+                                     size_t steps, sunrealtype *t, sunrealtype *x,
+                                     sunrealtype *exact, sunrealtype *error,
+                                     steif_layer_result *result);
+
+/* The same for a system of one's own from x(0-) = x0 at t = 0. */
+STEIF_EXPORT int steif_layer_linear(steif_context *ctx, const char *method,
+                                    const steif_linear *linear, const sunrealtype *x0,
+                                    const char *start, sunrealtype h, size_t steps,
+                                    sunrealtype *t, sunrealtype *x, sunrealtype *exact,
+                                    sunrealtype *error, steif_layer_result *result);
+
+/* Impulse coefficients from a homogeneous backward Euler run x_1 .. x_{k-1} with step h, exact for
+ * every h: c_q = (-1)^q h^{q+1} sum_i C(i-1, q) x_i. x by rows (k-1) x k, c likewise. */
+STEIF_EXPORT int steif_binomial_moments(steif_context *ctx, int k, sunrealtype h,
+                                        const sunrealtype *x, sunrealtype *c);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

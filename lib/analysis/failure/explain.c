@@ -1,0 +1,239 @@
+/* explain.c: why did a run fail. Each test assumes that those before it found nothing: a
+ * jump looks like a wrong Jacobian, and noise looks like either.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "causes.h"
+#include <math.h>
+#include <string.h>
+
+int stf_cause_diagnose(stf_search *c)
+{
+  if (c->gathered) return STEIF_OK;
+  STEIF_TRY(stf_diagnose(c->point, &c->evidence, &c->diagnosis));
+  c->gathered = true;
+  return STEIF_OK;
+}
+
+/* -- Jacobian ---------------------------------------------------------------------------- */
+
+static const sunrealtype wrong = 1e-3; /* relative defect of an entry */
+
+typedef struct suspect {
+  char which;
+  size_t i, j;
+  sunrealtype given, measured, worth; /* worth: defect relative to its row */
+} suspect;
+
+/* Column j of E or F_y against differences with two increments. */
+static int compare(stf_search *c, char which, size_t j, const sunrealtype *given,
+                   const sunrealtype *top, sunrealtype *work, suspect *s)
+{
+  stf_point *point = c->point;
+  const size_t n = point->n;
+  const sunrealtype *base = which == 'E' ? point->yp0 : point->y0;
+  sunrealtype *x = work, *r[4] = {work + n, work + 2 * n, work + 3 * n, work + 4 * n};
+  sunrealtype h = 1e-4 * fmax(fabs(base[j]), point->floor[j] * (which == 'E' ? 1 : 1e-2));
+  memcpy(x, base, n * sizeof *x);
+  for (int tries = 0, code = 1; code; tries++, h /= 16) {
+    for (int k = 0; k < 4; k++) {
+      x[j] = base[j] + (k % 2 ? -1 : 1) * (k < 2 ? h : h / 4);
+      code = which == 'E' ? stf_point_residual(point, point->t, point->y0, x, r[k])
+                          : stf_point_residual(point, point->t, x, point->yp0, r[k]);
+      if (code) break;
+    }
+    if (code < 0 || (code && tries > 4)) return code;
+    if (!code) break;
+  }
+  for (size_t i = 0; i < n; i++) {
+    const sunrealtype coarse = (r[0][i] - r[1][i]) / (2 * h);
+    const sunrealtype fine = (r[2][i] - r[3][i]) / (h / 2), defect = fabs(given[i] - fine);
+    const sunrealtype noise = fmax(c->noise[i], STF_EPS * c->scale[i]);
+    const sunrealtype doubt = 10 * (fabs(coarse - fine) + 20 * noise / (h / 4));
+    const sunrealtype worth = top[i] > 0 ? defect * point->size[j] / top[i] : 1;
+    if (defect > wrong * fmax(fabs(given[i]), fabs(fine)) && defect > doubt && worth > s->worth)
+      *s = (suspect){which, i, j, given[i], fine, worth};
+  }
+  return STEIF_OK;
+}
+
+static void accuse(stf_search *c, const suspect *s)
+{
+  char e[STEIF_SPEC_WORD], y[STEIF_SPEC_WORD];
+  steif_cause *cause = c->cause;
+  cause->kind = STEIF_CAUSE_JACOBIAN;
+  cause->equation = (sunindextype)s->i, cause->unknown = (sunindextype)s->j;
+  cause->value[0] = s->given, cause->value[1] = s->measured;
+  stf_point_say(cause->message,
+                "The Jacobian you supplied is wrong: d%s/d%s%s given %.6g, measured %.6g%s.",
+                stf_point_equation(c->point, s->i, e), stf_point_unknown(c->point, s->j, y),
+                s->which == 'E' ? "'" : "", s->given, s->measured,
+                s->given == 0 ? " (the entry is missing)"
+                : fabs(s->given + s->measured) < 1e-3 * fabs(s->measured) ? " (wrong sign)"
+                                                                          : "");
+}
+
+/* Largest entries of the rows, given ones and unknowns weighted by size. */
+static void tops(const stf_point *s, const sunrealtype *M, sunrealtype *top)
+{
+  memset(top, 0, s->n * sizeof *top);
+  for (size_t k = 0; k < s->n * s->n; k++)
+    top[k % s->n] = fmax(top[k % s->n], fabs(M[k]) * s->size[k / s->n]);
+}
+
+int stf_cause_jacobian(stf_search *c)
+{
+  stf_point *s = c->point;
+  const size_t n = s->n;
+  suspect worst = {.worth = 1e-6};
+  if (!s->analytic) return STEIF_OK;
+  sunrealtype *M = stf_allocate(s->ctx, 2 * n * n + 6 * n, sizeof *M);
+  if (!M) return STEIF_NO_MEMORY;
+  sunrealtype *work = M + 2 * n * n, *top = work + 5 * n;
+  int code = stf_point_matrices(s, s->t, s->y0, s->yp0, M, M + n * n);
+  for (int which = 0; which < 2 && !code; which++) {
+    tops(s, M + (size_t)which * n * n, top);
+    for (size_t j = 0; j < n && !code; j++)
+      code =
+        compare(c, which ? 'A' : 'E', j, M + ((size_t)which * n + j) * n, top, work, &worst);
+  }
+  if (!code && worst.worth > 1e-6) accuse(c, &worst);
+  stf_release(s->ctx, M);
+  return code < 0 ? code : STEIF_OK;
+}
+
+/* -- singular, start, index -------------------------------------------------------------- */
+
+int stf_cause_singular(stf_search *c)
+{
+  STEIF_TRY(stf_cause_diagnose(c));
+  const steif_diagnosis *d = &c->diagnosis;
+  const stf_resolvent_growth *g = &c->evidence.at[0].growth;
+  const bool none = d->verdict == STEIF_NO_SOLUTION || d->verdict == STEIF_NOT_UNIQUE;
+  if (!none && !g->singular) return STEIF_OK;
+  c->cause->kind = STEIF_CAUSE_SINGULAR;
+  c->cause->value[0] = g->row ? g->rcond : 0;
+  if (none) {
+    stf_point_say(c->cause->message, "Singular pencil: %s. No step size can help.", d->message);
+    return STEIF_OK;
+  }
+  stf_point_say(c->cause->message,
+                "s E - A is singular for every s, so that no step can be solved, though the "
+                "solution is determined: index %d (%s) of matrices that turn with time; "
+                "differentiated on the way: ",
+                d->index, steif_confidence_name(d->confidence));
+  stf_point_list(c->point, c->cause->message, true, d->derivatives, 1, true);
+  stf_point_say(c->cause->message, ". Put derivatives of these in their place");
+  return STEIF_OK;
+}
+
+/* allowed: of the error of y at the start. */
+static int from_start(stf_search *c, sunrealtype *allowed, steif_start *start)
+{
+  const steif_history *s = c->scene;
+  const size_t n = c->point->n;
+  const bool linear = c->point->problem.linear, kept = s->count > 0;
+  const sunrealtype *y = kept ? s->y : c->point->y0, *yp = kept ? s->yp : c->point->yp0;
+  const steif_point q = {.y = linear ? NULL : y, /* NULL: the start of the problem */
+                         .yp = linear ? NULL : yp,
+                         .t = linear ? s->t0
+                              : kept ? s->t[0]
+                                     : c->point->t,
+                         .size = c->point->floor,
+                         .equation = c->point->equation,
+                         .unknown = c->point->unknown};
+  sunrealtype *weight = stf_allocate(c->point->ctx, n, sizeof *weight);
+  if (!weight) return STEIF_NO_MEMORY;
+  for (size_t j = 0; j < n; j++) {
+    allowed[j] =
+      s->rtol * (linear ? c->point->size[j] : fabs(y[j])) + (s->atols ? s->atols[j] : s->atol);
+    weight[j] = 1 / allowed[j];
+  }
+  const steif_request request = {.weight = weight};
+  const int code = steif_consistent(c->point->ctx, &c->point->problem, &q, &request, start);
+  stf_release(c->point->ctx, weight);
+  return code;
+}
+
+int stf_cause_start(stf_search *c)
+{
+  steif_start start = {0};
+  char y[STEIF_SPEC_WORD], e[STEIF_SPEC_WORD];
+  const bool linear =
+    c->point->problem.linear; /* impulses of the start outlive many short steps */
+  if (c->scene->steps > 1 && !linear) return STEIF_OK;
+  STEIF_TRY(stf_cause_diagnose(c));
+  if (c->diagnosis.index < 1) return STEIF_OK;
+  sunrealtype *allowed = stf_pool_array(c->point->pool, c->point->n, sizeof *allowed);
+  if (!allowed) return STEIF_NO_MEMORY;
+  const int code = from_start(c, allowed, &start);
+  if (code) return code == STEIF_NO_MEMORY ? code : STEIF_OK;
+  sunrealtype most = 10;
+  const size_t n = c->point->n;
+  size_t at = n;
+  for (int number = 1; number <= STF_DEEPEST && at == n; number++) /* causes before effects */
+    for (size_t j = 0; j < n; j++)
+      if (c->diagnosis.number[j] == number && fabs(start.moved[j]) / allowed[j] > most)
+        most = fabs(start.moved[j]) / allowed[j], at = j;
+  if (at < n) {
+    const bool visible = start.worst >= 0 && start.violation > allowed[at];
+    steif_cause *cause = c->cause;
+    cause->kind = STEIF_CAUSE_START, cause->unknown = (sunindextype)at;
+    cause->equation = visible ? start.worst : -1;
+    cause->value[0] = start.moved[at], cause->value[1] = most;
+    stf_point_say(
+      cause->message,
+      "Start is inconsistent with %s%s: %s is off by %.3g (%.2g "
+      "weights). Call steif_consistent first%s; it says: %s",
+      visible ? "equation " : "a hidden constraint",
+      visible ? stf_point_equation(c->point, (size_t)start.worst, e) : "",
+      stf_point_unknown(c->point, at, y), -start.moved[at], most,
+      linear ? ", or take the method descriptor, which makes the jump and its impulses" : "",
+      start.message);
+  }
+  steif_start_clear(&start);
+  return STEIF_OK;
+}
+
+static int name_high_index(stf_search *c)
+{
+  const steif_diagnosis *d = &c->diagnosis;
+  steif_cause *cause = c->cause;
+  char *m = cause->message;
+  size_t at = 0;
+  for (size_t j = 1; j < c->point->n; j++)
+    if (d->number[j] > d->number[at]) at = j;
+  cause->kind = STEIF_CAUSE_INDEX, cause->unknown = (sunindextype)at;
+  cause->value[0] = d->index, cause->value[1] = d->number[at];
+  stf_point_say(m, "Index is %d (%s), and nonlinear equations are served up to 3: errors of ",
+                d->index, steif_confidence_name(d->confidence));
+  stf_point_list(c->point, m, false, d->number, 2, true);
+  stf_point_say(m, " grow with powers of 1/h; differentiated on the way: ");
+  stf_point_list(c->point, m, true, d->derivatives, 1, true);
+  stf_point_say(m, ". Put derivatives of these in their place until the index is 3 or less");
+  return STEIF_OK;
+}
+
+int stf_cause_index(stf_search *c)
+{
+  const size_t n = c->point->n;
+  const sunrealtype *error = c->scene->error;
+  char y[STEIF_SPEC_WORD];
+  STEIF_TRY(stf_cause_diagnose(c));
+  const steif_diagnosis *d = &c->diagnosis;
+  if (d->index > 3 && !c->point->system.linear) return name_high_index(c);
+  if (d->index < 2 || c->scene->weighted || !error) return STEIF_OK;
+  size_t at = 0;
+  for (size_t j = 1; j < n; j++)
+    if (fabs(error[j]) / c->weight[j] > fabs(error[at]) / c->weight[at]) at = j;
+  if (d->number[at] < 2) return STEIF_OK;
+  steif_cause *cause = c->cause;
+  cause->kind = STEIF_CAUSE_INDEX, cause->unknown = (sunindextype)at;
+  cause->value[0] = d->index, cause->value[1] = d->number[at];
+  stf_point_say(cause->message,
+                "Index is %d, weights are for index 1: the error of %s does not fall with h "
+                "(it is multiplied by h^-%d). Set index weights: ",
+                d->index, stf_point_unknown(c->point, at, y), d->number[at] - 1);
+  for (size_t j = 0; j < n && j < 24; j++)
+    stf_point_say(cause->message, "%s%d", j ? "," : "", d->number[j]);
+  stf_point_say(cause->message, "%s (computed), or use radau with them.", n > 24 ? ",..." : "");
+  return STEIF_OK;
+}

@@ -1,0 +1,96 @@
+/* observed_order.c: the observed order of a method on a problem whose end value is known.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "region.h"
+#include "region_thresholds.h"
+#include <math.h>
+
+static int at_end(steif_context *ctx, const steif_problem *problem, sunrealtype t1,
+                  N_Vector exact)
+{
+  const int code = problem->exact(t1, exact, NULL, problem->user);
+  STEIF_CHECK(code == 0, ctx, STEIF_CALLBACK,
+              "the exact solution of '%s' returned %d at t = %g", problem->name, code, t1);
+  return STEIF_OK;
+}
+
+/* max_i |y_i - exact_i| through the operations of the vector. */
+static int exact_error(steif_context *ctx, const steif_problem *problem, sunrealtype t1,
+                       N_Vector y, sunrealtype *error)
+{
+  N_Vector exact = N_VClone(y);
+  STEIF_CHECK(exact, ctx, STEIF_NO_MEMORY, "no memory for the exact solution");
+  const int code = at_end(ctx, problem, t1, exact);
+  if (code == STEIF_OK) {
+    N_VLinearSum(1, y, -1, exact, exact);
+    *error = N_VMaxNorm(exact);
+  }
+  N_VDestroy(exact);
+  return code;
+}
+
+static int reference_error(steif_context *ctx, const steif_problem *problem, sunrealtype t1,
+                           N_Vector y, sunrealtype *error)
+{
+  const steif_reference *ref = problem->reference;
+  STEIF_CHECK(ref && fabs(ref->t - t1) <= STF_TIME_ROUNDING * fmax(1, fabs(t1)), ctx,
+              STEIF_UNSUPPORTED,
+              "'%s' has neither an exact solution nor a reference value at t = %g: %s",
+              problem->name, t1, ref ? "end the run at the time of its reference" : "give one");
+  const sunrealtype *value = N_VGetArrayPointer(y);
+  STEIF_CHECK(value, ctx, STEIF_UNSUPPORTED,
+              "the reference of '%s' needs vectors with a host array", problem->name);
+  const sunindextype count = ref->count ? ref->count : problem->n;
+  *error = 0;
+  for (sunindextype i = 0; i < count; i++) {
+    const sunindextype at = ref->component ? ref->component[i] : i;
+    *error = fmax(*error, fabs(value[at] - ref->value[i]));
+  }
+  return STEIF_OK;
+}
+
+static int run(steif_context *ctx, const steif_problem *problem, const char *method,
+               const steif_options *options, sunrealtype *error)
+{
+  steif_solver *s = steif_solver_new(ctx, problem, method, options);
+  if (!s) return steif_status(ctx);
+  int code = steif_solve_to(s, options->t1);
+  if (code == STEIF_OK)
+    code = (problem->exact ? exact_error : reference_error)(ctx, problem, options->t1,
+                                                            steif_solution(s), error);
+  steif_solver_free(&s);
+  return code;
+}
+
+/* High orders reach rounding errors soon: they begin with longer steps. */
+static int usual_step(steif_context *ctx, const char *method, sunrealtype *h)
+{
+  steif_method_info m;
+  STEIF_TRY(steif_method_find(ctx, method, &m));
+  *h = m.order > 5 ? 0.5 : m.order > 2 ? 0.25 : 0.0625;
+  return STEIF_OK;
+}
+
+int steif_order_measure(steif_context *ctx, const steif_problem *problem, const char *method,
+                        const steif_options *options, sunrealtype h, size_t rows,
+                        steif_order_row *row)
+{
+  steif_options o = options ? *options : steif_defaults();
+  STEIF_CHECK(problem && method, ctx, STEIF_BAD_INPUT, "a problem and a method are needed");
+  if (o.t1 == 0) o.t1 = problem->t1;
+  const sunrealtype span = o.t1 - problem->t0;
+  if (h == 0) STEIF_TRY(usual_step(ctx, method, &h));
+  STEIF_CHECK(h > 0 && h <= span, ctx, STEIF_BAD_INPUT,
+              "the first step h = %g must be positive and at most the interval, %g", h, span);
+  STEIF_CHECK(rows >= 1 && rows <= 40, ctx, STEIF_BAD_INPUT,
+              "%zu rows were asked for: give 1 to 40", rows);
+  const sunrealtype first = span / ceil(span / h * (1 - STF_TIME_ROUNDING));
+  o.mesh = NULL;
+  o.mesh_size = 0;
+  for (size_t i = 0; i < rows; i++) {
+    row[i] = (steif_order_row){ldexp(first, -(int)i), NAN, NAN};
+    o.h = row[i].h;
+    STEIF_TRY(run(ctx, problem, method, &o, &row[i].error));
+    if (i > 0) row[i].order = log2(row[i - 1].error / row[i].error);
+  }
+  return STEIF_OK;
+}

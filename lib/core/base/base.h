@@ -1,0 +1,77 @@
+/* base.h: what every room may use: failing with a sentence, memory by pools, spec look-ups.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_BASE_H
+#define STF_BASE_H
+
+#include <stdbool.h>
+#include <steif/base.h>
+
+#define STF_EPS 2.2204460492503131e-16
+
+/* Store code and sentence in ctx and return the code. `where` is the calling function. */
+int stf_fail(steif_context *ctx, int code, const char *where, const char *format, ...)
+  STEIF_PRINTF(4, 5);
+
+#define STEIF_TRY(call)                                                                        \
+  do {                                                                                         \
+    const int stf_code_ = (call);                                                              \
+    if (stf_code_ != STEIF_OK) return stf_code_;                                               \
+  } while (0)
+
+#define STEIF_FAIL(ctx, code, ...) stf_fail(ctx, code, __func__, __VA_ARGS__)
+
+#define STEIF_CHECK(condition, ctx, code, ...)                                                 \
+  do {                                                                                         \
+    if (!(condition)) return STEIF_FAIL(ctx, code, __VA_ARGS__);                               \
+  } while (0)
+
+/* A failure that a smaller step may cure: cause and sentence are stored, STEIF_RETRY is returned. */
+#define STEIF_RECOVER(ctx, cause, ...) stf_recover(ctx, cause, __func__, __VA_ARGS__)
+int stf_recover(steif_context *ctx, int cause, const char *where, const char *format, ...)
+  STEIF_PRINTF(4, 5);
+
+/* While silent, recoverable failures store their cause but make no sentence: for attempts whose refusal
+ * is part of normal work. Returns what it was. */
+bool stf_silence(steif_context *ctx, bool silent);
+/* How many failures there have been: a callback's own is told by it, and not replaced. */
+long stf_failures(const steif_context *ctx);
+
+/* Single blocks, zeroed; NULL with the message set when memory is short. */
+void *stf_allocate(steif_context *ctx, size_t count, size_t size);
+void stf_release(steif_context *ctx, void *block);
+/* Do blocks come from the caller of the library? */
+bool stf_foreign_memory(const steif_context *ctx);
+int stf_threads(const steif_context *ctx);
+
+/* A pool owns blocks and vectors that live and die together. Claims return NULL with the message
+ * set; stf_pool_free accepts NULL and half-built pools. */
+typedef struct stf_pool stf_pool;
+stf_pool *stf_pool_new(steif_context *ctx);
+void *stf_pool_array(stf_pool *pool, size_t count, size_t size);
+N_Vector stf_pool_vector(stf_pool *pool, N_Vector like);
+/* A serial vector like `like` (serial) on an array that lives as long as the pool. */
+N_Vector stf_pool_view(stf_pool *pool, N_Vector like, sunrealtype *data);
+/* `count` clones of `like`, zeroed, as one array. */
+N_Vector *stf_pool_vectors(stf_pool *pool, int count, N_Vector like);
+/* Call destroy(object) when the pool goes; on failure destroys at once and returns NO_MEMORY. */
+int stf_pool_adopt(stf_pool *pool, void *object, void (*destroy)(void *object));
+void stf_pool_free(stf_pool **pool);
+
+/* Parameters of a spec, with range check; `fallback` when absent. */
+int stf_spec_int(steif_context *ctx, const steif_spec *spec, const char *key, int lowest,
+                 int highest, int fallback, int *value);
+int stf_spec_real(steif_context *ctx, const steif_spec *spec, const char *key,
+                  sunrealtype lowest, sunrealtype highest, sunrealtype fallback,
+                  sunrealtype *value);
+/* NULL when absent. */
+const char *stf_spec_word(const steif_spec *spec, const char *key);
+/* Refuse parameters not in `keys`, a NULL-terminated list ("" allows a bare word). */
+int stf_spec_only(steif_context *ctx, const steif_spec *spec, const char *const *keys);
+
+/* The name of the list nearest to `wrong` in edit distance; NULL for an empty list. `list[i]` is
+ * read through `stride` bytes so that the names may be the first member of structs. */
+const char *stf_nearest(const char *wrong, const void *list, size_t count, size_t stride);
+/* That distance. */
+int stf_distance(const char *a, const char *b);
+
+#endif

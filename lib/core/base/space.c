@@ -1,0 +1,250 @@
+/* space.c: vector kernels.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "space.h"
+#include "simd.h"
+#include <math.h>
+
+void stf_space_open(stf_space *space, N_Vector like)
+{
+  space->like = like;
+  space->n = N_VGetLength(like);
+  space->serial = N_VGetVectorID(like) == SUNDIALS_NVEC_SERIAL;
+}
+
+void stf_zero(const stf_space *space, N_Vector x)
+{
+  if (!space->serial) {
+    N_VConst(0, x);
+    return;
+  }
+  sunrealtype *a = STF_ARRAY(x);
+  for (sunindextype i = 0; i < space->n; i++) a[i] = 0;
+}
+
+void stf_copy(const stf_space *space, N_Vector x, N_Vector y) { stf_scale(space, 1, x, y); }
+
+void stf_scale(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y)
+{
+  if (!space->serial) {
+    N_VScale(c, x, y);
+    return;
+  }
+  const sunrealtype *a = STF_ARRAY(x);
+  sunrealtype *b = STF_ARRAY(y);
+  for (sunindextype i = 0; i < space->n; i++) b[i] = c * a[i];
+}
+
+void stf_axpy(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y)
+{
+  if (!space->serial) {
+    N_VLinearSum(c, x, 1, y, y);
+    return;
+  }
+  const sunrealtype *a = STF_ARRAY(x);
+  sunrealtype *b = STF_ARRAY(y);
+  for (sunindextype i = 0; i < space->n; i++) b[i] += c * a[i];
+}
+
+void stf_sum(const stf_space *space, sunrealtype a, N_Vector x, sunrealtype b, N_Vector y,
+             N_Vector z)
+{
+  if (!space->serial) {
+    N_VLinearSum(a, x, b, y, z);
+    return;
+  }
+  const sunrealtype *u = STF_ARRAY(x), *v = STF_ARRAY(y);
+  sunrealtype *w = STF_ARRAY(z);
+  for (sunindextype i = 0; i < space->n; i++) w[i] = a * u[i] + b * v[i];
+}
+
+/* Components are taken in blocks that stay in the first cache while the terms pass over them, four at
+ * a time; each is the sum of its terms in their order, on every machine. */
+enum { BLOCK = 256, TERMS = 4 };
+
+INLINE void add_terms(int terms, const sunrealtype *f, const sunrealtype *const *a, int size,
+                      sunrealtype *restrict sum)
+{
+  const sunrealtype *restrict a0 = a[0], *restrict a1 = a[1], *restrict a2 = a[2],
+                              *restrict a3 = a[3];
+  switch (terms) {
+  case 1:
+    for (int i = 0; i < size; i++) sum[i] += f[0] * a0[i];
+    break;
+  case 2:
+    for (int i = 0; i < size; i++) sum[i] = sum[i] + f[0] * a0[i] + f[1] * a1[i];
+    break;
+  case 3:
+    for (int i = 0; i < size; i++) sum[i] = sum[i] + f[0] * a0[i] + f[1] * a1[i] + f[2] * a2[i];
+    break;
+  case 4:
+    for (int i = 0; i < size; i++)
+      sum[i] = sum[i] + f[0] * a0[i] + f[1] * a1[i] + f[2] * a2[i] + f[3] * a3[i];
+  }
+}
+
+INLINE void add_all(int count, const sunrealtype *c, N_Vector const *x, sunindextype from,
+                    int size, sunrealtype *restrict sum)
+{
+  for (int j = 0; j < count;) {
+    sunrealtype f[TERMS];
+    const sunrealtype *a[TERMS] = {NULL};
+    int terms = 0;
+    for (; j < count && terms < TERMS; j++)
+      if (c[j] != 0) f[terms] = c[j], a[terms++] = STF_ARRAY(x[j]) + from;
+    add_terms(terms, f, a, size, sum);
+  }
+}
+
+#ifdef STF_SIMD_X86
+__attribute__((target("avx2"))) static void add_all_avx2(int count, const sunrealtype *c,
+                                                         N_Vector const *x, sunindextype from,
+                                                         int size, sunrealtype *sum)
+{
+  add_all(count, c, x, from, size, sum);
+}
+#endif
+
+/* sum += the terms in components from .. from + size - 1. */
+static void block_sum(int count, const sunrealtype *c, N_Vector const *x, sunindextype from,
+                      int size, sunrealtype *sum)
+{
+#ifdef STF_SIMD_X86
+  if (stf_simd_width() > 2) {
+    add_all_avx2(count, c, x, from, size, sum);
+    return;
+  }
+#endif
+  add_all(count, c, x, from, size, sum);
+}
+
+/* Few components: four at a time in registers, the last one again where less are left; terms in the same
+ * order, so the same bits. */
+enum { FEW = 8, TOGETHER = 4 };
+
+static void few_sums(sunindextype n, int count, const sunrealtype *c, N_Vector const *x,
+                     sunrealtype *out)
+{
+  for (sunindextype i = 0; i < n; i += TOGETHER) {
+    sunindextype at[TOGETHER];
+    sunrealtype sum[TOGETHER] = {0};
+    for (int q = 0; q < TOGETHER; q++) at[q] = i + q < n ? i + q : n - 1;
+    for (int j = 0; j < count; j++) {
+      const sunrealtype *from = STF_ARRAY(x[j]);
+      if (c[j] == 0) continue;
+      for (int q = 0; q < TOGETHER; q++) sum[q] += c[j] * from[at[q]];
+    }
+    for (int q = 0; q < TOGETHER; q++) out[at[q]] = sum[q];
+  }
+}
+
+static int block_size(sunindextype n, sunindextype from)
+{
+  return n - from < BLOCK ? (int)(n - from) : BLOCK;
+}
+
+/* Rows of a block one after another, so that its x are read from the first cache. */
+static void mix_blocks(const stf_space *space, int rows, int columns, const sunrealtype *M,
+                       N_Vector const *x, N_Vector *z, bool add)
+{
+  sunrealtype sum[BLOCK];
+  for (sunindextype from = 0; from < space->n; from += BLOCK) {
+    const int size = block_size(space->n, from);
+    for (int i = 0; i < rows; i++) {
+      sunrealtype *out = STF_ARRAY(z[i]) + from;
+      for (int k = 0; k < size; k++) sum[k] = 0;
+      block_sum(columns, M + i * columns, x, from, size, sum);
+      for (int k = 0; k < size; k++) out[k] = add ? out[k] + sum[k] : sum[k];
+    }
+  }
+}
+
+void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vector const *x,
+                 N_Vector z)
+{
+  if (space->serial && space->n <= FEW)
+    few_sums(space->n, count, c, x, STF_ARRAY(z));
+  else if (space->serial)
+    mix_blocks(space, 1, count, c, x, &z, false);
+  else if (count == 0)
+    N_VConst(0, z);
+  else
+    N_VLinearCombination(count, (sunrealtype *)c, (N_Vector *)x, z);
+}
+
+void stf_mix(const stf_space *space, int rows, int columns, const sunrealtype *M,
+             N_Vector const *x, N_Vector *z)
+{
+  if (space->serial && space->n > FEW) {
+    mix_blocks(space, rows, columns, M, x, z, false);
+    return;
+  }
+  for (int i = 0; i < rows; i++) stf_combine(space, columns, M + i * columns, x, z[i]);
+}
+
+void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtype *M,
+                 N_Vector const *x, N_Vector *z)
+{
+  if (space->serial) {
+    mix_blocks(space, rows, columns, M, x, z, true);
+    return;
+  }
+  for (int i = 0; i < rows; i++)
+    for (int j = 0; j < columns; j++) N_VLinearSum(M[i * columns + j], x[j], 1, z[i], z[i]);
+}
+
+sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w)
+{
+  if (!space->serial) return N_VWrmsNorm(x, w);
+  const sunrealtype *a = STF_ARRAY(x), *b = STF_ARRAY(w);
+  sunrealtype sum = 0;
+  for (sunindextype i = 0; i < space->n; i++) {
+    const sunrealtype p = a[i] * b[i];
+    sum += p * p;
+  }
+  return sqrt(sum / (sunrealtype)space->n);
+}
+
+sunrealtype stf_max(const stf_space *space, N_Vector x)
+{
+  if (!space->serial) return N_VMaxNorm(x);
+  const sunrealtype *a = STF_ARRAY(x);
+  sunrealtype most = 0;
+  for (sunindextype i = 0; i < space->n; i++) {
+    const sunrealtype p = fabs(a[i]);
+    if (p > most || isnan(p)) most = p; /* once NaN, no p is larger */
+  }
+  return most;
+}
+
+void stf_weights(const stf_space *space, sunrealtype rtol, sunrealtype atol, N_Vector atols,
+                 N_Vector y, N_Vector w)
+{
+  if (!space->serial) {
+    N_VAbs(y, w);
+    N_VScale(rtol, w, w);
+    if (atols)
+      N_VLinearSum(1, atols, 1, w, w);
+    else
+      N_VAddConst(w, atol, w);
+    N_VInv(w, w);
+    return;
+  }
+  const sunrealtype *a = STF_ARRAY(y), *t = atols ? STF_ARRAY(atols) : NULL;
+  sunrealtype *b = STF_ARRAY(w);
+  for (sunindextype i = 0; i < space->n; i++)
+    b[i] = 1 / (rtol * fabs(a[i]) + (t ? t[i] : atol));
+}
+
+bool stf_finite(const stf_space *space, N_Vector x)
+{
+  if (!space->serial) {
+    const sunrealtype square = N_VDotProd(x, x);
+    return isfinite(square) || (!isnan(square) && isfinite(N_VMaxNorm(x)));
+  }
+  const sunrealtype *a = STF_ARRAY(x);
+  sunrealtype sum = 0;
+  for (sunindextype i = 0; i < space->n; i++) sum += a[i] * 0;
+  return sum == 0;
+}
+
+sunrealtype stf_power(sunrealtype x, sunrealtype p) { return powf((float)x, (float)p); }

@@ -1,0 +1,47 @@
+/* space.h: vector kernels. Serial vectors run through loops on their arrays, any other N_Vector
+ * through its operations. Weights are reciprocal: norm(x) = sqrt(mean (x_i w_i)^2).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_SPACE_H
+#define STF_SPACE_H
+
+#include "base.h"
+#include <nvector/nvector_serial.h>
+
+typedef struct stf_space {
+  sunindextype n;
+  bool serial;
+  N_Vector like;
+} stf_space;
+
+void stf_space_open(stf_space *space, N_Vector like);
+
+/* The array of a serial vector, without a call. */
+#define STF_ARRAY(v) NV_DATA_S(v)
+
+void stf_zero(const stf_space *space, N_Vector x);
+void stf_copy(const stf_space *space, N_Vector x, N_Vector y);                 /* y = x */
+void stf_scale(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y); /* y = c x */
+void stf_axpy(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y);  /* y += c x */
+void stf_sum(const stf_space *space, sunrealtype a, N_Vector x, sunrealtype b, N_Vector y,
+             N_Vector z); /* z = a x + b y */
+/* z = sum_{j<count} c_j x_j; z may be x_0. */
+void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vector const *x,
+                 N_Vector z);
+/* z_i = sum_{j<columns} M[i columns + j] x_j, i < rows; z and x are disjoint. */
+void stf_mix(const stf_space *space, int rows, int columns, const sunrealtype *M,
+             N_Vector const *x, N_Vector *z);
+/* z_i += the same. */
+void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtype *M,
+                 N_Vector const *x, N_Vector *z);
+sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w);
+sunrealtype stf_max(const stf_space *space, N_Vector x);
+/* w_i = 1 / (rtol |y_i| + atol_i); atols NULL: atol for all. */
+void stf_weights(const stf_space *space, sunrealtype rtol, sunrealtype atol, N_Vector atols,
+                 N_Vector y, N_Vector w);
+/* Finite in all components (a sum of squares test: NaN and infinity survive every sum). */
+bool stf_finite(const stf_space *space, N_Vector x);
+
+/* x^p to seven digits, x from 1e-30 to 1e30: enough for the length of a step, at a third of the cost. */
+sunrealtype stf_power(sunrealtype x, sunrealtype p);
+
+#endif

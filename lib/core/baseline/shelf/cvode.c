@@ -1,0 +1,169 @@
+/* cvode.c: CVODE's variable-order BDF for y' = f(t, y).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "baseline.h"
+#include <cvode/cvode.h>
+#include <cvode/cvode_ls.h>
+
+typedef struct cvode {
+  stf_baseline base;
+  void *memory;
+} cvode;
+
+static const stf_flag flags[] = {
+  STF_FLAG(CV_TOO_MUCH_WORK, STEIF_STEP_LIMIT, "too many internal steps",
+           "Raise max_steps or loosen the tolerances"),
+  STF_FLAG(CV_TOO_MUCH_ACC, STEIF_BASELINE, "more accuracy was asked for than the machine has",
+           "Loosen rtol, or raise atol where a component is near zero"),
+  STF_FLAG(
+    CV_ERR_FAILURE, STEIF_BASELINE,
+    "the error test failed repeatedly or the step reached its minimum",
+    "There may be a singularity or a discontinuity of f here: look at y, declare breaks, "
+    "or loosen the tolerances"),
+  STF_FLAG(CV_CONV_FAILURE, STEIF_BASELINE,
+           "Newton's iteration failed repeatedly or the step reached its minimum",
+           "Check df/dy against differences; a stiff discontinuity of f does this too"),
+  STF_FLAG(CV_CONSTR_FAIL, STEIF_INFEASIBLE,
+           "a declared constraint was not kept however small the step",
+           "The solution leaves .constraint here, or the tolerances are too loose"),
+  STF_FLAG(CV_LINIT_FAIL, STEIF_BASELINE, "the linear solver could not be set up",
+           "Check storage and bandwidths"),
+  STF_FLAG(CV_LSETUP_FAIL, STEIF_BASELINE, "the Jacobian or its factorisation failed",
+           "Check the Jacobian callback and its pattern"),
+  STF_FLAG(CV_LSOLVE_FAIL, STEIF_BASELINE, "a linear solve failed",
+           "Check the Jacobian callback, or use a direct solver"),
+  STF_FLAG(CV_RHSFUNC_FAIL, STEIF_CALLBACK, "f asked to stop", "See what f objected to"),
+  STF_FLAG(CV_FIRST_RHSFUNC_ERR, STEIF_CALLBACK, "f could not be evaluated at the start",
+           "Check the start values"),
+  STF_FLAG(CV_REPTD_RHSFUNC_ERR, STEIF_CALLBACK, "f kept failing however small the step",
+           "The solution may leave the domain of f here"),
+  STF_FLAG(CV_UNREC_RHSFUNC_ERR, STEIF_CALLBACK, "f failed where the step cannot be repeated",
+           "The solution may leave the domain of f here"),
+  STF_FLAG(CV_MEM_FAIL, STEIF_NO_MEMORY, "memory is short", "Make the problem smaller"),
+  STF_FLAG(CV_ILL_INPUT, STEIF_BASELINE, "an argument was refused",
+           "An error weight that is not positive does this: raise atol above 0"),
+  STF_FLAG(CV_TOO_CLOSE, STEIF_STEP_SIZE, "the end is too close to the start",
+           "Make the interval longer than rounding"),
+  {0, 0, NULL, NULL, NULL}};
+
+static int verdict(cvode *s, int flag)
+{
+  sunrealtype h = 0;
+  int order = 0;
+  if (flag < 0 && s->memory) {
+    CVodeGetCurrentStep(s->memory, &h);
+    CVodeGetCurrentOrder(s->memory, &order);
+  }
+  stf_baseline_leave(&s->base);
+  return stf_baseline_verdict(&s->base, flag, h, order);
+}
+
+static int attach(cvode *s)
+{
+  stf_baseline *b = &s->base;
+  const steif_problem *p = b->run->problem;
+  int flag = CVodeSetLinearSolver(s->memory, b->solver, b->J);
+  if (b->J && stf_baseline_has_jac(b))
+    STF_CALL(flag, CVodeSetJacFn(s->memory, stf_baseline_jac));
+  if (!b->J && p->Av) STF_CALL(flag, CVodeSetJacTimes(s->memory, NULL, stf_baseline_jv));
+  if (b->preconditioned)
+    STF_CALL(flag,
+             CVodeSetPreconditioner(s->memory, stf_baseline_precsetup, stf_baseline_precsolve));
+  return flag;
+}
+
+static int configure(cvode *s, int order)
+{
+  stf_run *run = s->base.run;
+  const steif_options *o = run->options;
+  void *m = s->memory;
+  int flag = STF_SILENCE(CVodeSetErrHandlerFn, m, &s->base);
+  STF_CALL(flag, CVodeInit(m, stf_baseline_rhs, run->t, run->y));
+  STF_CALL(flag, CVodeSetUserData(m, s));
+  STF_CALL(flag, o->ewt         ? CVodeWFtolerances(m, stf_baseline_weights)
+                 : s->base.atol ? CVodeSVtolerances(m, o->rtol, s->base.atol)
+                                : CVodeSStolerances(m, o->rtol, o->atol));
+  STF_CALL(flag, CVodeSetMaxOrd(m, order));
+  if (s->base.constraint) STF_CALL(flag, CVodeSetConstraints(m, s->base.constraint));
+  STF_CALL(flag, CVodeSetMaxHnilWarns(m, -1));
+  if (o->h0 > 0) STF_CALL(flag, CVodeSetInitStep(m, o->h0));
+  if (o->h_max > 0) STF_CALL(flag, CVodeSetMaxStep(m, o->h_max));
+  STF_CALL(flag, attach(s));
+  return flag;
+}
+
+static int open(stf_run *run, void *state, const steif_spec *spec)
+{
+  cvode *s = state;
+  stf_baseline *b = &s->base;
+  int order;
+  STEIF_TRY(stf_spec_only(run->ctx, spec, (const char *const[]){"order", NULL}));
+  STEIF_TRY(stf_spec_int(run->ctx, spec, "order", 1, 5, 5, &order));
+  STEIF_TRY(stf_baseline_open(b, run, "CVODE", flags));
+  STEIF_TRY(stf_baseline_adaptive(b));
+  STEIF_TRY(stf_baseline_near(b));
+  STEIF_TRY(stf_baseline_linear(b, stf_baseline_has_jac(b)));
+  if (b->J && b->storage != run->problem->storage && stf_baseline_has_jac(b))
+    STEIF_TRY(stf_baseline_native(b));
+  stf_baseline_enter(b, run);
+  s->memory = CVodeCreate(CV_BDF, steif_sundials(run->ctx));
+  return verdict(s, s->memory ? configure(s, order) : CV_MEM_FAIL);
+}
+
+static void collect(cvode *s)
+{
+  steif_stats n = {0};
+  void *m = s->memory;
+  long more = 0;
+  CVodeGetNumSteps(m, &n.steps);
+  CVodeGetNumErrTestFails(m, &n.rejected);
+  CVodeGetNumRhsEvals(m, &n.nfe);
+  CVodeGetNumLinRhsEvals(m, &more);
+  n.nfe += more;
+  CVodeGetNumJacEvals(m, &n.nje);
+  CVodeGetNumLinSolvSetups(m, &n.nlu);
+  CVodeGetNumNonlinSolvIters(m, &n.newton);
+  CVodeGetNumStepSolveFails(m, &n.newton_fails);
+  CVodeGetNumLinIters(m, &n.nli);
+  CVodeGetLastStep(m, &n.h_last);
+  stf_baseline_count(&s->base, &n);
+}
+
+static int step(stf_run *run, void *state, sunrealtype t_stop)
+{
+  cvode *s = state;
+  STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
+  int flag = 0;
+  if (s->base.restart) flag = CVodeReInit(s->memory, stf_baseline_renew(&s->base), run->y);
+  STF_CALL(flag, CVodeSetStopTime(s->memory, t_stop));
+  STF_CALL(flag, CVode(s->memory, t_stop, run->y, &run->t, CV_ONE_STEP));
+  collect(s);
+  return verdict(s, flag);
+}
+
+static int dense(stf_run *run, void *state, sunrealtype t, N_Vector y)
+{
+  cvode *s = state;
+  STEIF_TRY(stf_baseline_inside(&s->base, &t));
+  stf_baseline_enter(&s->base, run);
+  const int flag = CVodeGetDky(s->memory, t, 0, y);
+  return stf_baseline_dense(&s->base, flag, t);
+}
+
+static void close(stf_run *run, void *state)
+{
+  (void)run;
+  cvode *s = state;
+  if (s->memory) CVodeFree(&s->memory);
+}
+
+const steif_engine steif_engine_cvode = {
+  .about = "CVODE: variable-order, variable-coefficient BDF in fixed-leading-coefficient form "
+           "(Cohen, Hindmarsh, Computers in Physics 10, 1996; SUNDIALS)",
+  .forms = STEIF_ODE,
+  .size = sizeof(cvode),
+  .open = open,
+  .step = step,
+  .dense = dense,
+  .renew = stf_baseline_renewed,
+  .close = close,
+};

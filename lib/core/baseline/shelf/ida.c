@@ -1,0 +1,251 @@
+/* ida.c: IDA's variable-order BDF for F(t, y, y') = 0 and the forms that lower to it.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "baseline.h"
+#include <ida/ida.h>
+#include <ida/ida_ls.h>
+#include <math.h>
+#include <stdio.h>
+
+typedef struct ida {
+  stf_baseline base;
+  void *memory;
+} ida;
+
+#define INDEX "The system may have an index above 1, or its start values are inconsistent: "
+
+static const stf_flag flags[] = {
+  STF_FLAG(IDA_TOO_MUCH_WORK, STEIF_STEP_LIMIT, "too many internal steps",
+           "Raise max_steps or loosen the tolerances"),
+  STF_FLAG(IDA_TOO_MUCH_ACC, STEIF_BASELINE, "more accuracy was asked for than the machine has",
+           "Loosen rtol, or raise atol where a component is near zero"),
+  STF_FLAG(IDA_ERR_FAIL, STEIF_BASELINE,
+           "the error test failed repeatedly or the step reached its minimum",
+           INDEX
+           "give yp0, set consistent = 1 or suppress_algebraic = 1, or use a steif method"),
+  STF_FLAG(IDA_CONV_FAIL, STEIF_BASELINE,
+           "Newton's iteration failed repeatedly or the step reached its minimum",
+           INDEX "check dF/dy + c dF/dy' against differences, or use a steif method"),
+  STF_FLAG(IDA_CONSTR_FAIL, STEIF_INFEASIBLE,
+           "a declared constraint was not kept however small the step",
+           "The solution leaves .constraint here, or the tolerances are too loose"),
+  STF_FLAG(IDA_LINIT_FAIL, STEIF_BASELINE, "the linear solver could not be set up",
+           "Check storage and bandwidths"),
+  STF_FLAG(IDA_LSETUP_FAIL, STEIF_BASELINE,
+           "dF/dy + c dF/dy' could not be evaluated or factored",
+           "Check the Jacobian callback; if s E - A is singular for every s no method helps"),
+  STF_FLAG(IDA_LSOLVE_FAIL, STEIF_BASELINE, "a linear solve failed",
+           "Check the Jacobian callback, or use a direct solver"),
+  STF_FLAG(IDA_RES_FAIL, STEIF_CALLBACK, "the residual asked to stop",
+           "See what the callback objected to"),
+  STF_FLAG(IDA_REP_RES_ERR, STEIF_CALLBACK, "the residual kept failing however small the step",
+           "The solution may leave the domain of the equations here"),
+  STF_FLAG(IDA_FIRST_RES_FAIL, STEIF_CALLBACK,
+           "the residual could not be evaluated at the start", "Check the start values"),
+  STF_FLAG(IDA_LINESEARCH_FAIL, STEIF_BASELINE,
+           "IDACalcIC found no consistent start values: its line search failed",
+           INDEX "give better y0 and yp0, or use a steif method"),
+  STF_FLAG(IDA_NO_RECOVERY, STEIF_BASELINE,
+           "IDACalcIC found no consistent start values: callbacks failed on the way",
+           "Give better y0 and yp0"),
+  STF_FLAG(IDA_BAD_EWT, STEIF_BASELINE, "an error weight is not positive",
+           "Raise atol above 0 for components that may vanish"),
+  STF_FLAG(IDA_MEM_FAIL, STEIF_NO_MEMORY, "memory is short", "Make the problem smaller"),
+  STF_FLAG(IDA_ILL_INPUT, STEIF_BASELINE, "an argument was refused",
+           "Raise atol above 0 for components that may vanish"),
+  {0, 0, NULL, NULL, NULL}};
+
+/* The equation that the start values miss by most goes into the message of a failed start. */
+static void name_equation(ida *s)
+{
+  stf_baseline *b = &s->base;
+  const stf_run *run = b->run;
+  if (run->stats.steps || b->fault.now) return;
+  const int seen = stf_lower_residual(run->t, run->y, run->yp, b->start, b);
+  b->fault.now = false;
+  const sunrealtype *r = N_VGetArrayPointer(b->start);
+  if (seen || !r) return;
+  sunindextype worst = 0;
+  for (sunindextype i = 1; i < run->problem->n; i++)
+    if (fabs(r[i]) > fabs(r[worst])) worst = i;
+  if (fabs(r[worst]) > sqrt(STF_EPS))
+    snprintf(b->detail, sizeof b->detail,
+             "; the start misses equation %lld (from 0) by most, F = %.3g", (long long)worst,
+             r[worst]);
+  else
+    snprintf(b->detail, sizeof b->detail,
+             "; the start satisfies the equations, so the index is suspect");
+}
+
+static int verdict(ida *s, int flag)
+{
+  sunrealtype h = 0;
+  int order = 0;
+  if (flag < 0 && s->memory) {
+    IDAGetCurrentStep(s->memory, &h);
+    IDAGetCurrentOrder(s->memory, &order);
+    name_equation(s);
+  }
+  stf_baseline_leave(&s->base);
+  return stf_baseline_verdict(&s->base, flag, h, order);
+}
+
+static int precsetup(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, sunrealtype c,
+                     void *user)
+{
+  const steif_problem *p = ((const stf_baseline *)user)->run->problem;
+  return p->precsetup ? p->precsetup(t, y, yp, r, c, p->user) : 0;
+}
+
+static int precsolve(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b, N_Vector z,
+                     sunrealtype c, sunrealtype delta, void *user)
+{
+  const steif_problem *p = ((const stf_baseline *)user)->run->problem;
+  return p->precsolve(t, y, yp, r, b, z, c, delta, p->user);
+}
+
+static int attach(ida *s)
+{
+  stf_baseline *b = &s->base;
+  const steif_problem *p = b->run->problem;
+  int flag = IDASetLinearSolver(s->memory, b->solver, b->J);
+  if (b->J && stf_lower_has_jac(b)) STF_CALL(flag, IDASetJacFn(s->memory, stf_lower_jac));
+  if (!b->J && p->Av) STF_CALL(flag, IDASetJacTimes(s->memory, NULL, stf_lower_jv));
+  if (b->preconditioned) STF_CALL(flag, IDASetPreconditioner(s->memory, precsetup, precsolve));
+  return flag;
+}
+
+static int configure(ida *s, int order)
+{
+  stf_run *run = s->base.run;
+  const steif_options *o = run->options;
+  void *m = s->memory;
+  int flag = STF_SILENCE(IDASetErrHandlerFn, m, &s->base);
+  STF_CALL(flag, IDAInit(m, stf_lower_residual, run->t, run->y, run->yp));
+  STF_CALL(flag, IDASetUserData(m, s));
+  STF_CALL(flag, o->ewt         ? IDAWFtolerances(m, stf_baseline_weights)
+                 : s->base.atol ? IDASVtolerances(m, o->rtol, s->base.atol)
+                                : IDASStolerances(m, o->rtol, o->atol));
+  STF_CALL(flag, IDASetMaxOrd(m, order));
+  if (s->base.constraint) STF_CALL(flag, IDASetConstraints(m, s->base.constraint));
+  if (o->h0 > 0) STF_CALL(flag, IDASetInitStep(m, o->h0));
+  if (o->h_max > 0) STF_CALL(flag, IDASetMaxStep(m, o->h_max));
+  STF_CALL(flag, attach(s));
+  return flag;
+}
+
+/* IDACalcIC where it was asked for. */
+static int consistent(ida *s)
+{
+  stf_run *run = s->base.run;
+  const steif_options *o = run->options;
+  if (!o->consistent) return 0;
+  int flag = IDACalcIC(s->memory, o->consistent == 1 ? IDA_YA_YDP_INIT : IDA_Y_INIT, o->t1);
+  STF_CALL(flag, IDAGetConsistentIC(s->memory, run->y, run->yp));
+  return flag;
+}
+
+static int check(stf_run *run, const steif_spec *spec, int *order)
+{
+  const int c = run->options->consistent;
+  STEIF_TRY(stf_spec_only(run->ctx, spec, (const char *const[]){"order", NULL}));
+  STEIF_TRY(stf_spec_int(run->ctx, spec, "order", 1, 5, 5, order));
+  STEIF_CHECK(c >= 0 && c <= 2, run->ctx, STEIF_BAD_INPUT,
+              "options.consistent = %d must be 0, 1 (IDACalcIC with YA_YDP_INIT) or 2 (Y_INIT)",
+              c);
+  return STEIF_OK;
+}
+
+static int open(stf_run *run, void *state, const steif_spec *spec)
+{
+  ida *s = state;
+  stf_baseline *b = &s->base;
+  const steif_options *o = run->options;
+  int order;
+  STEIF_TRY(check(run, spec, &order));
+  STEIF_TRY(stf_baseline_open(b, run, "IDA", flags));
+  STEIF_TRY(stf_baseline_adaptive(b));
+  if (!(b->start = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
+  N_Vector id = NULL;
+  STEIF_TRY(stf_lower_open(b));
+  STEIF_TRY(stf_start_slopes(b));
+  if (o->suppress_algebraic || o->consistent == 1) {
+    if (!(id = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
+    STEIF_TRY(stf_start_id(b, id));
+  }
+  stf_baseline_enter(b, run);
+  s->memory = IDACreate(steif_sundials(run->ctx));
+  int flag = s->memory ? configure(s, order) : IDA_MEM_FAIL;
+  if (id) STF_CALL(flag, IDASetId(s->memory, id));
+  if (o->suppress_algebraic) STF_CALL(flag, IDASetSuppressAlg(s->memory, 1));
+  STF_CALL(flag, consistent(s));
+  return verdict(s, flag);
+}
+
+static void collect(ida *s)
+{
+  steif_stats n = {0};
+  void *m = s->memory;
+  long more = 0;
+  IDAGetNumSteps(m, &n.steps);
+  IDAGetNumErrTestFails(m, &n.rejected);
+  IDAGetNumResEvals(m, &n.nfe);
+  IDAGetNumLinResEvals(m, &more);
+  n.nfe += more;
+  IDAGetNumJacEvals(m, &n.nje);
+  IDAGetNumLinSolvSetups(m, &n.nlu);
+  IDAGetNumNonlinSolvIters(m, &n.newton);
+  IDAGetNumStepSolveFails(m, &n.newton_fails);
+  IDAGetNumLinIters(m, &n.nli);
+  IDAGetLastStep(m, &n.h_last);
+  stf_baseline_count(&s->base, &n);
+}
+
+/* Behind a break or an event; y' is found where the form tells it and it is not known. */
+static int renew(ida *s)
+{
+  stf_run *run = s->base.run;
+  run->t = stf_baseline_renew(&s->base);
+  if (stf_start_slopes(&s->base)) return IDA_FIRST_RES_FAIL;
+  return IDAReInit(s->memory, run->t, run->y, run->yp);
+}
+
+static int step(stf_run *run, void *state, sunrealtype t_stop)
+{
+  ida *s = state;
+  STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
+  int flag = 0;
+  if (s->base.restart) flag = renew(s);
+  STF_CALL(flag, IDASetStopTime(s->memory, t_stop));
+  STF_CALL(flag, IDASolve(s->memory, t_stop, &run->t, run->y, run->yp, IDA_ONE_STEP));
+  collect(s);
+  return verdict(s, flag);
+}
+
+static int dense(stf_run *run, void *state, sunrealtype t, N_Vector y)
+{
+  ida *s = state;
+  STEIF_TRY(stf_baseline_inside(&s->base, &t));
+  stf_baseline_enter(&s->base, run);
+  const int flag = IDAGetDky(s->memory, t, 0, y);
+  return stf_baseline_dense(&s->base, flag, t);
+}
+
+static void close(stf_run *run, void *state)
+{
+  (void)run;
+  ida *s = state;
+  if (s->memory) IDAFree(&s->memory);
+}
+
+const steif_engine steif_engine_ida = {
+  .about =
+    "IDA: variable-order, variable-coefficient BDF for DAEs of index 1 and some of index 2 "
+    "(Hindmarsh et al., ACM TOMS 31, 2005; SUNDIALS)",
+  .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
+  .size = sizeof(ida),
+  .open = open,
+  .step = step,
+  .dense = dense,
+  .renew = stf_baseline_renewed,
+  .close = close,
+};

@@ -1,0 +1,153 @@
+/* consistent.c: consistent start values: by stages where the structure is certified, else from
+ * the whole derivative array, in passes over the numbers of the unknowns.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "array_start.h"
+#include <math.h>
+#include <string.h>
+
+/* -- report ------------------------------------------------------------------------------ */
+
+static void list_moved(const stf_start_task *task, char *text)
+{
+  const stf_point *s = task->point;
+  const steif_start *start = task->start;
+  enum { SHOWN = 6 };
+  char room[STEIF_SPEC_WORD];
+  bool done[STEIF_DIAGNOSE_LARGEST] = {false};
+  for (int shown = 0; shown < SHOWN; shown++) {
+    size_t at = s->n;
+    for (size_t j = 0; j < s->n; j++)
+      if (!done[j] && fabs(start->moved[j]) > 1e-9 * (fabs(s->y0[j]) + 1e-3 * s->floor[j]) &&
+          (at == s->n || fabs(start->moved[j]) > fabs(start->moved[at])))
+        at = j;
+    if (at == s->n) {
+      if (shown == 0) stf_point_say(text, "no component moved");
+      return;
+    }
+    done[at] = true;
+    stf_point_say(text, "%s%s by %.3g", shown ? ", " : "moved ", stf_point_unknown(s, at, room),
+                  start->moved[at]);
+  }
+  stf_point_say(text, " ...");
+}
+
+/* Largest violation of an equation without derivatives by the guess. */
+static void find_violation(const stf_start_task *task, const sunrealtype *residual)
+{
+  const stf_view *v = task->view;
+  bool differential[STEIF_DIAGNOSE_LARGEST] = {false};
+  for (sunindextype k = 0; k < v->column[v->n]; k++)
+    if (v->has[k] & 1) differential[v->row[k]] = true;
+  task->start->worst = -1;
+  for (size_t i = 0; i < v->n; i++)
+    if (!differential[i] && fabs(residual[i]) > task->start->violation)
+      task->start->violation = fabs(residual[i]), task->start->worst = (sunindextype)i;
+}
+
+static void report(const stf_start_task *task, const sunrealtype *residual)
+{
+  const stf_point *s = task->point;
+  steif_start *start = task->start;
+  char room[STEIF_SPEC_WORD], *text = start->message;
+  for (size_t j = 0; j < s->n; j++) {
+    start->moved[j] = start->y[j] - s->y0[j];
+    if (start->enforced[j] > start->levels) start->levels = start->enforced[j];
+  }
+  find_violation(task, residual);
+  if (start->worst >= 0 && start->violation > 1e-6 * task->scale[start->worst])
+    stf_point_say(text, "equation %s is violated by %.2e at the guess; ",
+                  stf_point_equation(s, (size_t)start->worst, room), start->violation);
+  list_moved(task, text);
+  if (start->levels > 0) {
+    stf_point_say(text, "; enforced with their derivatives: ");
+    stf_point_list(s, text, true, start->enforced, 1, true);
+  }
+}
+
+/* -- choice of the way ------------------------------------------------------------------- */
+
+/* The best array that closes, with indices of the components as diagnosed. */
+static int by_array(stf_start_task *task, const stf_evidence *e, const steif_diagnosis *d)
+{
+  const stf_derivative_array *best = NULL;
+  for (int k = e->arrays - 1; k >= 0; k--)
+    if (e->at[k].array.closed && (!best || e->at[k].array.index >= best->index))
+      best = &e->at[k].array;
+  STEIF_CHECK(best && d->index >= 0, task->point->ctx, STEIF_SINGULAR,
+              "no consistent start: %s", d->message);
+  return stf_start_array(task, best, d->number);
+}
+
+static int choose(stf_start_task *task, stf_evidence *e, const steif_diagnosis *d)
+{
+  stf_point *s = task->point;
+  task->view = &e->view;
+  STEIF_TRY(stf_view_take(s, s->t, s->y0, s->yp0, &e->view));
+  task->scale = stf_pool_array(s->pool, s->n, sizeof *task->scale);
+  if (!task->scale) return STEIF_NO_MEMORY;
+  const int code = stf_start_scale(task);
+  STEIF_CHECK(
+    code <= 0, s->ctx, STEIF_CALLBACK,
+    "'%s' cannot be evaluated at the guess, t = %g: give one inside the domain of its "
+    "functions",
+    s->problem.name, s->t);
+  STEIF_TRY(code);
+  return stf_evidence_certified(e) ? stf_start_stages(task, &e->offsets) : by_array(task, e, d);
+}
+
+int stf_start_from(stf_evidence *e, const steif_diagnosis *d, const steif_request *request,
+                   steif_start *start)
+{
+  static const steif_request none = {0};
+  stf_point *s = e->point;
+  stf_start_task task = {.point = s, .request = request ? request : &none, .start = start};
+  task.most = task.request->iterations > 0 ? task.request->iterations : 60;
+  sunrealtype *residual = stf_pool_array(s->pool, s->n, sizeof *residual);
+  if (!residual) return STEIF_NO_MEMORY;
+  STEIF_TRY(stf_start_allocate(s->ctx, s->n, start));
+  int code = choose(&task, e, d);
+  if (!code) code = stf_point_residual(s, s->t, s->y0, s->yp0, residual);
+  if (!code) report(&task, residual);
+  if (code) steif_start_clear(start);
+  return code;
+}
+
+static int find(stf_point *s, const steif_request *request, steif_start *start)
+{
+  stf_evidence evidence;
+  steif_diagnosis d = {.index = -1};
+  int code = stf_diagnose(s, &evidence, &d);
+  if (!code) code = stf_start_from(&evidence, &d, request, start);
+  stf_evidence_free(&evidence);
+  steif_diagnosis_clear(&d);
+  return code;
+}
+
+static int check_request(steif_context *ctx, const steif_problem *p, const steif_request *r)
+{
+  for (sunindextype j = 0; r && r->weight && j < p->n; j++)
+    STEIF_CHECK(r->weight[j] > 0 && isfinite(r->weight[j]), ctx, STEIF_BAD_INPUT,
+                "weight[%lld] = %g of the start of '%s' must be positive", (long long)j,
+                r->weight[j], p->name);
+  return STEIF_OK;
+}
+
+int steif_consistent(steif_context *ctx, const steif_problem *problem,
+                     const steif_point *inquiry, const steif_request *request,
+                     steif_start *start)
+{
+  stf_point point;
+  STEIF_CHECK(start, ctx, STEIF_BAD_INPUT, "a place for the start is needed, got NULL");
+  *start = (steif_start){0};
+  STEIF_TRY(stf_point_open(ctx, problem, inquiry, &point));
+  int code = STEIF_OK;
+  if (point.n > STEIF_DIAGNOSE_LARGEST)
+    code = STEIF_FAIL(ctx, STEIF_UNSUPPORTED,
+                      "'%s' has %zu unknowns: a consistent start is computed for at most %d",
+                      problem->name, point.n, STEIF_DIAGNOSE_LARGEST);
+  if (!code) code = check_request(ctx, problem, request);
+  if (!code) code = find(&point, request, start);
+  stf_point_close(&point);
+  if (!code) steif_forget(ctx);
+  return code;
+}

@@ -1,0 +1,51 @@
+/* engine.h: what a baseline integrator provides to be called like a method of ours.
+ *
+ * The frame (lib/march/solver.c) owns the run; an engine is one const vtable. Its private state of
+ * `size` bytes is zeroed before open and passed to every call; close must accept a half-opened one.
+ * Failures go through stf_fail with the sentence of what the integrator said.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_ENGINE_H
+#define STF_ENGINE_H
+
+#include "base.h"
+#include <steif/solver.h>
+
+/* The run as an engine sees it. */
+typedef struct stf_run {
+  steif_context *ctx;
+  stf_pool *pool; /* lives as long as the solver */
+  const steif_problem *problem;
+  int form;                     /* enum steif_form */
+  const steif_options *options; /* complete: defaults filled in, t1 > t0 */
+  N_Vector like;                /* vector to clone */
+  sunrealtype t;                /* time of y */
+  N_Vector y, yp;               /* in: start values (yp 0 where not known); out: after a step */
+  steif_stats stats;            /* the engine keeps it current after every step */
+} stf_run;
+
+typedef struct steif_engine {
+  const char *family; /* NULL: "baseline" */
+  const char *about;  /* one sentence with a citation */
+  unsigned forms;     /* enum steif_form accepted */
+  size_t size;
+  /* spec parameters are the engine's own: refuse unknown ones with stf_spec_only. */
+  int (*open)(stf_run *run, void *state, const steif_spec *spec);
+  /* One internal step, not beyond t_stop; sets run->t and run->y. */
+  int (*step)(stf_run *run, void *state, sunrealtype t_stop);
+  /* The solution at a time inside the last step. */
+  int (*dense)(stf_run *run, void *state, sunrealtype t, N_Vector y);
+  /* The next step begins anew from (run->t, run->y); run->yp holds slopes, or 0 where unknown. */
+  int (*renew)(stf_run *run, void *state);
+  void (*close)(stf_run *run, void *state);
+} steif_engine;
+
+/* Filled by the shelf of the baseline room. */
+typedef struct stf_engine_entry {
+  const char *name;
+  const steif_engine *item;
+} stf_engine_entry;
+extern const stf_engine_entry stf_engine_shelf[];
+extern const size_t stf_engine_count;
+
+#endif

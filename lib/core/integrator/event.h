@@ -1,0 +1,61 @@
+/* event.h: what watches the event functions of a problem during a run.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_EVENT_H
+#define STF_EVENT_H
+
+#include "base.h"
+#include <steif/solver.h>
+
+enum {
+  STF_NODES = 5, /* Chebyshev points of a step, both ends among them */
+  STF_FINE = 16  /* parts of a step at whose ends the polynomial through them is looked at */
+};
+
+typedef struct stf_detector {
+  int count;         /* event functions */
+  N_Vector y, after; /* inside the step; the state at the last event, then behind it */
+  N_Vector slope;    /* y' of `after`, if it is settled */
+  sunrealtype t;     /* before it the step has been searched ... */
+  sunrealtype *low;  /* ... and g had these values */
+  sunrealtype *high, *mid, *next;
+  sunrealtype *node;  /* STF_NODES rows of g */
+  sunrealtype *fine;  /* STF_FINE + 1 rows of the polynomials through them */
+  sunrealtype *noise; /* |g| that cannot be told from zero behind an event */
+  int *sign;          /* side of each function at t: 1, -1; 0: at zero, side unknown */
+  int *fired;
+  bool started;     /* g was seen at the start */
+  bool cut;         /* the step ends at the event, the next one begins anew from `after` */
+  bool settled;     /* options.reinitialise has found the slope */
+  bool moved;       /* the last reaction changed y */
+  bool silent;      /* the end of the step was shown to the observer before the reaction */
+  sunrealtype last; /* time of the last restart */
+  int gathered;     /* restarts in a row with almost no time between them */
+  char name[64];    /* of the last event */
+} stf_detector;
+
+/* s->events for a problem with events, else nothing. */
+int stf_event_open(steif_solver *s);
+/* Before a step: begin anew behind an event. */
+int stf_event_begin(steif_solver *s);
+/* After a step that began at `from`: find its events and react to them; s->end is lowered to one that
+ * changes the state or ends the run. */
+int stf_event_step(steif_solver *s, sunrealtype from);
+/* Is the solution at s->end in watch->after? */
+bool stf_event_holds(const steif_solver *s);
+
+/* --- event.c, for event_handler.c --- */
+/* g at t by dense output, and at y. */
+int stf_event_value(steif_solver *s, sunrealtype t, sunrealtype *g);
+int stf_event_ask(steif_solver *s, sunrealtype t, N_Vector y, sunrealtype *g);
+/* "'ground'", or "g1" of a function without a name. */
+void stf_event_name(const steif_problem *p, int i, size_t room, char *name);
+/* Resolution of time near t. */
+sunrealtype stf_event_tolerance(const steif_solver *s, sunrealtype t);
+/* Does function i leave its side for g in the direction asked for? */
+bool stf_event_crosses(const steif_solver *s, int i, sunrealtype g);
+
+/* --- event_handler.c --- */
+/* The event at t: tell, react; low, high: g on both sides of it. */
+int stf_event_fire(steif_solver *s, sunrealtype t, sunrealtype to);
+
+#endif

@@ -1,0 +1,206 @@
+/* event_handler.c: what happens at an event, and how a run begins anew behind it.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "integrator.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { GATHER = 10 }; /* restarts within `close` of each other in a row before the run stops */
+static const sunrealtype close = 1e-9;
+
+/* The first of those that fire, "'ground'" or "'ground' and others". */
+static void name_fired(steif_solver *s)
+{
+  stf_detector *w = s->events;
+  const size_t most = sizeof w->name - sizeof " and others";
+  int found = 0;
+  for (int i = 0; i < w->count; i++)
+    if (w->fired[i] && found++ == 0) stf_event_name(s->problem, i, most, w->name);
+  if (found > 1) strcat(w->name, " and others");
+}
+
+/* Who fires, at t or a little behind it: functions with one root in exact arithmetic do not agree
+ * about the last digits. Sides and noise behind the event. */
+static int collect(steif_solver *s, sunrealtype t, sunrealtype to)
+{
+  stf_detector *w = s->events;
+  STEIF_TRY(stf_event_value(s, fmin(t + 32 * stf_event_tolerance(s, t), to), w->mid));
+  for (int i = 0; i < w->count; i++) {
+    const bool now = stf_event_crosses(s, i, w->high[i]);
+    const bool soon = stf_event_crosses(s, i, w->mid[i]);
+    const sunrealtype after = soon || now ? w->mid[i] : w->high[i];
+    w->fired[i] = now || soon ? -w->sign[i] : 0;
+    if (w->fired[i]) w->noise[i] = 8 * fabs(w->mid[i] - w->low[i]);
+    if (w->fired[i] || w->sign[i] != 0) w->sign[i] = (after > 0) - (after < 0);
+  }
+  name_fired(s);
+  return STEIF_OK;
+}
+
+static bool terminal(const steif_solver *s)
+{
+  const steif_event *list = s->problem->event_list;
+  for (int i = 0; list && i < s->events->count; i++)
+    if (s->events->fired[i] && list[i].terminal) return true;
+  return false;
+}
+
+/* Restarts that crowd together never end: a state that slides along the surface g = 0, or bounces
+ * of which infinitely many fit into a finite time. */
+static int check_gathering(steif_solver *s, sunrealtype t)
+{
+  stf_detector *w = s->events;
+  const bool crowded = t - w->last <= close * (s->t1 - s->problem->t0);
+  w->gathered = crowded ? w->gathered + 1 : 0;
+  w->last = t;
+  STEIF_CHECK(
+    w->gathered < GATHER, s->ctx, STEIF_STEP_SIZE,
+    "the last %d events (%s) of problem '%s' crowd together at t = %.12g: it slides "
+    "along the surface of the event or bounces without end; give the model a rule for "
+    "that (hysteresis, a sliding mode, rest below a small speed) or end the run there",
+    GATHER, w->name, s->problem->name, t);
+  return STEIF_OK;
+}
+
+/* The step ends at t. Rests too short for the clock are left out. */
+static void cut(steif_solver *s, sunrealtype t)
+{
+  s->end = s->t1 - t <= 32 * STF_EPS * fabs(s->t1) ? s->t1 : t;
+}
+
+static int settle(steif_solver *s, sunrealtype t)
+{
+  stf_detector *w = s->events;
+  if (!s->options.reinitialise) return STEIF_OK;
+  N_VConst(0, w->slope);
+  STEIF_TRY(
+    s->options.reinitialise(s->ctx, s->problem, t, s->options.rtol, w->after, w->slope));
+  w->settled = N_VMaxNorm(w->slope) > 0;
+  return STEIF_OK;
+}
+
+static int react(steif_solver *s, sunrealtype t)
+{
+  stf_detector *w = s->events;
+  const steif_problem *p = s->problem;
+  stf_observe(s, t, w->after);
+  N_VScale(1, w->after, w->y);
+  const int wish = p->handle_event(t, w->after, w->fired, p->user);
+  N_VLinearSum(1, w->after, -1, w->y, w->y);
+  w->moved = !(N_VMaxNorm(w->y) <= 0);
+  STEIF_CHECK(wish >= STEIF_CONTINUE && wish <= STEIF_FINISH, s->ctx, STEIF_CALLBACK,
+              "react of problem '%s' returned %d at the event %s, t = %.12g", p->name, wish,
+              w->name, t);
+  s->finished = wish == STEIF_FINISH, w->silent = s->finished;
+  w->cut = wish == STEIF_RESTART;
+  if (wish == STEIF_CONTINUE) return STEIF_OK;
+  cut(s, t);
+  if (w->cut) STEIF_TRY(settle(s, t));
+  stf_space space;
+  stf_space_open(&space, w->after);
+  STEIF_CHECK(stf_finite(&space, w->after), s->ctx, STEIF_NOT_FINITE,
+              "react of problem '%s' left a component that is not finite, at t = %.12g",
+              p->name, t);
+  return w->cut ? check_gathering(s, t) : STEIF_OK;
+}
+
+int stf_event_fire(steif_solver *s, sunrealtype t, sunrealtype to)
+{
+  stf_detector *w = s->events;
+  const steif_options *o = &s->options;
+  STEIF_TRY(collect(s, t, to));
+  STEIF_TRY(stf_dense(s, t, w->after));
+  s->shown = w->after, s->t_shown = t;
+  if (o->on_event && o->on_event(s, t, w->after, w->fired, o->observer))
+    s->observer_stopped = true;
+  if (terminal(s)) {
+    s->finished = true;
+    cut(s, t);
+    return STEIF_OK;
+  }
+  return s->problem->handle_event ? react(s, t) : STEIF_OK;
+}
+
+bool stf_event_holds(const steif_solver *s) { return s->events->cut || s->finished; }
+
+/* -- behind it ------------------------------------------------------------------------------------ */
+
+static int renew_engine(steif_solver *s)
+{
+  stf_run *run = &s->run;
+  stf_detector *w = s->events;
+  N_VScale(1, w->after, run->y);
+  w->settled ? N_VScale(1, w->slope, run->yp) : N_VConst(0, run->yp);
+  w->settled = false;
+  run->t = s->end;
+  return s->engine->renew(run, s->engine_state);
+}
+
+static int renew_step(steif_solver *s)
+{
+  stf_step *step = &s->step;
+  const bool inside = step->t - s->end > 8 * STF_EPS * fabs(step->t);
+  if (inside && s->mesh_at > 0) s->mesh_at--; /* the rest of the given step */
+  stf_copy(&step->system.space, s->events->after, step->y);
+  step->yp_known = s->events->settled;
+  if (step->yp_known) stf_copy(&step->system.space, s->events->slope, step->yp);
+  step->t = s->end;
+  step->restart = step->newton.jacobian_wanted = true;
+  step->system.filled = false;
+  return STEIF_OK;
+}
+
+/* y' at s->end where it is known, else false. */
+static bool slopes(steif_solver *s, N_Vector y, N_Vector yp)
+{
+  const stf_run *run = &s->run;
+  const bool ode = (s->engine ? run->form : s->step.system.form) == STEIF_ODE;
+  if (ode && s->engine) return s->problem->f(s->end, y, yp, s->problem->user) == 0;
+  if (ode) return stf_system_rhs(&s->step.system, s->end, y, yp) == 0;
+  if (!s->engine && !s->step.yp_known) return false;
+  N_VScale(1, s->engine ? run->yp : s->step.yp, yp);
+  return true;
+}
+
+/* A function at zero: its side a little later along y'. Dense output would not do: errors within the
+ * tolerance may give the beginning of a step the wrong slope. */
+static int look_ahead(steif_solver *s, N_Vector y)
+{
+  stf_detector *w = s->events;
+  bool known = true;
+  for (int i = 0; i < w->count; i++) known = known && w->sign[i] != 0;
+  if (known || !slopes(s, y, w->y)) return STEIF_OK;
+  const sunrealtype ahead = close * (s->t1 - s->problem->t0);
+  N_VLinearSum(1, y, ahead, w->y, w->y);
+  STEIF_TRY(stf_event_ask(s, s->end + ahead, w->y, w->mid));
+  for (int i = 0; i < w->count; i++)
+    if (w->sign[i] == 0 && fabs(w->mid[i]) > w->noise[i])
+      w->sign[i] = (w->mid[i] > 0) - (w->mid[i] < 0);
+  return STEIF_OK;
+}
+
+/* The sides behind the event. Where the reaction has left y alone, they are known: a new f that turns
+ * the solution back makes it cross again. Else what fired is at zero until it is clearly off it. */
+static int start_watch(steif_solver *s)
+{
+  stf_detector *w = s->events;
+  N_Vector y = s->engine ? s->run.y : s->step.y;
+  STEIF_TRY(stf_event_ask(s, s->end, y, w->low));
+  if (w->started && !w->moved) return STEIF_OK;
+  for (int i = 0; i < w->count; i++) {
+    if (!w->fired[i]) w->noise[i] = 0;
+    const bool off = fabs(w->low[i]) > w->noise[i];
+    w->sign[i] = off ? (w->low[i] > 0) - (w->low[i] < 0) : 0;
+  }
+  w->started = true;
+  return look_ahead(s, y);
+}
+
+int stf_event_begin(steif_solver *s)
+{
+  stf_detector *w = s->events;
+  if (w->started && !w->cut) return STEIF_OK;
+  if (w->cut) STEIF_TRY(s->engine ? renew_engine(s) : renew_step(s));
+  w->cut = false;
+  return start_watch(s);
+}

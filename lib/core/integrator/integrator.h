@@ -1,0 +1,129 @@
+/* integrator.h: the march room inside: the solver object, step control and the list of methods.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_MARCH_H
+#define STF_MARCH_H
+
+#include "engine.h"
+#include "event.h"
+#include "method.h"
+#include <steif/solver.h>
+
+typedef struct stf_switching stf_switching;
+typedef struct stf_rounding stf_rounding;
+
+struct steif_solver {
+  steif_context *ctx;
+  stf_pool *pool;
+  const steif_problem *problem;
+  steif_problem semilinear; /* the problem with its linear part as the matrix */
+  steif_options options;    /* complete */
+  sunrealtype t1;
+  N_Vector serial, shown, dense,
+    atols; /* serial: our own prototype vector, if none was given */
+  sunrealtype t_shown;
+  sunrealtype end;      /* the solution is known up to here */
+  stf_detector *events; /* of events; NULL: none */
+  bool observed;        /* stf_observed */
+  bool finished;        /* by an event */
+  bool observer_stopped,
+    observer_failed;          /* the observer wishes to stop, and has failed itself */
+  stf_step step;              /* a method of ours ... */
+  stf_switching *switching;   /* of `auto`, which may change to another; NULL: it will not */
+  const steif_engine *engine; /* ... or a baseline */
+  void *engine_state;
+  stf_run run;
+  long total, rejected; /* equal steps in all; refused attempts */
+  long mesh_at;         /* given steps: intervals of the mesh or grid left behind */
+  int next_break;
+  sunrealtype h_next, h_old, h_tried, error_old; /* chosen steps */
+  bool after_reject, failed;
+  int constraint_moves;   /* steps in a row that a constraint has moved */
+  stf_rounding *rounding; /* of runs near it; NULL: not followed */
+  sunrealtype rounded;    /* in tolerances */
+  int failure;
+  char why[400];           /* the sentence of the failure */
+  sunrealtype *invariants; /* at the start, then room for as many */
+  sunrealtype cpu_s;
+  steif_stats stats;
+  char method[240]; /* spec in use; for auto with the reason */
+};
+
+/* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. */
+int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o);
+
+/* One accepted step of a method of ours, not beyond t_stop where step sizes are adaptive: breaks.c, which
+ * looks at limits and breaks, and control.c, which decides on step sizes. */
+int stf_advance(steif_solver *s, sunrealtype t_stop);
+int stf_adaptive_step(steif_solver *s, sunrealtype t_stop);
+int stf_fixed_step(steif_solver *s);
+
+/* steif_solve_step without its processor time, which the system takes longer to tell than a small step
+ * lasts. */
+int stf_step_untimed(steif_solver *s);
+
+/* Is there more to do after a step than to go on? */
+bool stf_observed(const steif_solver *s);
+
+/* Constraints: sensible, and kept at the start; kept by y at t; kept by the trial, which may be moved
+ * within the tolerance: STEIF_RETRY asks for a smaller step. */
+int stf_constraint_open(steif_solver *s);
+int stf_constraint_check(steif_solver *s, sunrealtype t, N_Vector y, const char *where);
+int stf_constraint_keep(steif_solver *s, sunrealtype h, int tries);
+
+/* Are absolute tolerances above so many times the rounding of the largest component of y? Where they
+ * are below, small components are differences of large ones. */
+bool stf_above_rounding(const steif_problem *p, const steif_options *o, const sunrealtype *y,
+                        sunrealtype times);
+/* s->rounding where it may matter; after a step, what has become of rounding errors. */
+int stf_rounding_open(steif_solver *s);
+int stf_rounding_step(steif_solver *s);
+/* What this has cost. */
+void stf_rounding_count(const steif_solver *s, steif_stats *sum);
+
+/* The invariants at the start. */
+int stf_drift_open(steif_solver *s);
+
+/* Show y at t to the observer; what it wishes is kept. */
+void stf_observe(steif_solver *s, sunrealtype t, N_Vector y);
+
+/* Dense output of the last step as the method made it, unchecked. */
+int stf_dense(steif_solver *s, sunrealtype t, N_Vector y);
+
+/* Weights of the norm at step.y. */
+int stf_weigh(const steif_solver *s);
+
+/* First length of a chosen step. */
+sunrealtype stf_first_step(const steif_solver *s);
+
+/* Two methods for `auto`, whose first choice, `name`, is open; and a look, before a step, at which of
+ * them is to make it. */
+int stf_switching_open(steif_solver *s, const char *name);
+int stf_switching_look(steif_solver *s);
+/* After a step that failed: dense output of the one before is asked of who made it. */
+void stf_switching_stay(steif_solver *s);
+
+/* The methods that `auto` chooses among, numbers of Radau and Rosenbrock methods being their orders, and
+ * the explicit one that it may switch to. */
+enum stf_auto_method {
+  STF_AUTO_DESCRIPTOR,
+  STF_AUTO_RADAU5,
+  STF_AUTO_RADAU9,
+  STF_AUTO_RADAU13,
+  STF_AUTO_RODAS4,
+  STF_AUTO_RODAS4P2,
+  STF_AUTO_RODAS5P,
+  STF_AUTO_BDF,
+  STF_AUTO_EXPLICIT
+};
+extern const char *const stf_auto_methods[]; /* their specs */
+/* The spec that `auto` stands for, and a sentence why. */
+const char *stf_choose(const steif_problem *p, const steif_options *o, int form, char *why,
+                       size_t room);
+
+/* method_names.c: the engine of that name, NULL for none; the family of any other spec, which says itself
+ * what is its own, and the table that the spec names, new: NULL for families without. */
+const steif_engine *stf_engine_find(const char *name);
+int stf_method_find(steif_context *ctx, const steif_spec *spec, const steif_method **method,
+                    steif_table **table);
+
+#endif

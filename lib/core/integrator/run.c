@@ -1,0 +1,225 @@
+/* run.c: the run of a solver: steps, what is shown, limits, statistics.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "integrator.h"
+#include <math.h>
+#include <stdio.h>
+#include <time.h>
+
+/* Seconds by a clock. */
+static sunrealtype now(clockid_t clock)
+{
+  struct timespec t;
+  clock_gettime(clock, &t);
+  return (sunrealtype)t.tv_sec + 1e-9 * (sunrealtype)t.tv_nsec;
+}
+
+sunrealtype steif_time(const steif_solver *s) { return s->t_shown; }
+
+const char *steif_method_used(const steif_solver *s) { return s->method; }
+
+N_Vector steif_solution(steif_solver *s) { return s->shown; }
+
+/* The end of the last step as the method made it; an event may lie before. */
+static sunrealtype stepped(const steif_solver *s) { return s->engine ? s->run.t : s->step.t; }
+
+void stf_observe(steif_solver *s, sunrealtype t, N_Vector y)
+{
+  const long failures = stf_failures(s->ctx);
+  s->shown = y, s->t_shown = t;
+  if (!s->options.observe || !s->options.observe(s, t, y, s->options.observer)) return;
+  s->observer_stopped = true, s->observer_failed = stf_failures(s->ctx) > failures;
+}
+
+/* The solution at the end of what is known. */
+static N_Vector last(const steif_solver *s)
+{
+  if (s->events && stf_event_holds(s)) return s->events->after;
+  return s->engine ? s->run.y : s->step.y;
+}
+
+static int failed(steif_solver *s, int code)
+{
+  s->failed = true, s->failure = code > 0 ? steif_status(s->ctx) : code;
+  snprintf(s->why, sizeof s->why, "%s", steif_message(s->ctx));
+  return s->failure;
+}
+
+static int advance(steif_solver *s)
+{
+  const int code =
+    s->engine ? s->engine->step(&s->run, s->engine_state, s->t1) : stf_advance(s, s->t1);
+  if (code) return failed(s, code);
+  s->end = s->t_shown = stepped(s);
+  s->shown = s->engine ? s->run.y : s->step.y;
+  return STEIF_OK;
+}
+
+static int watched(steif_solver *s)
+{
+  const sunrealtype from = s->end;
+  int code = stf_event_begin(s);
+  if (code) return failed(s, code);
+  STEIF_TRY(advance(s));
+  code = stf_event_step(s, from);
+  return code ? failed(s, code) : STEIF_OK;
+}
+
+/* Do other limits than steps allow one more? */
+static int within_limits(steif_solver *s, sunrealtype begun)
+{
+  const steif_options *o = &s->options;
+  STEIF_CHECK(!o->stop || !*o->stop, s->ctx, STEIF_STOPPED,
+              "the run was stopped from outside at t = %.12g after %ld steps", s->end,
+              steif_statistics(s)->steps);
+  if (!(o->max_seconds > 0)) return STEIF_OK;
+  const sunrealtype seconds = now(CLOCK_MONOTONIC) - begun;
+  STEIF_CHECK(seconds < o->max_seconds, s->ctx, STEIF_TIME_LIMIT,
+              "the run took %.3g seconds to t = %.12g (%ld steps), max_seconds is %.3g: raise "
+              "it or loosen the tolerance",
+              seconds, s->end, steif_statistics(s)->steps, o->max_seconds);
+  return STEIF_OK;
+}
+
+bool stf_observed(const steif_solver *s)
+{
+  const steif_options *o = &s->options;
+  return s->events || o->observe || o->stop || o->max_seconds > 0;
+}
+
+/* A step and all that may hang on it. */
+static int step_once(steif_solver *s, sunrealtype begun)
+{
+  if (!s->observed) return advance(s);
+  STEIF_TRY(within_limits(s, begun));
+  STEIF_TRY(s->events ? watched(s) : advance(s));
+  if (!(s->finished && s->events->silent)) stf_observe(s, s->end, last(s));
+  const bool asked = s->observer_stopped, explained = s->observer_failed;
+  s->observer_stopped = s->observer_failed = false;
+  if (asked && explained) return steif_status(s->ctx);
+  STEIF_CHECK(!asked, s->ctx, STEIF_CALLBACK, "the observer stopped the run at t = %.12g",
+              s->end);
+  return STEIF_OK;
+}
+
+static int ready(steif_solver *s)
+{
+  STEIF_CHECK(!s->failed, s->ctx, s->failure,
+              "the run had failed before, at t = %.12g (%s): make a new solver", s->end,
+              s->why);
+  return STEIF_OK;
+}
+
+/* STEIF_EVENT with its sentence. */
+static int ended(steif_solver *s)
+{
+  return STEIF_FAIL(s->ctx, STEIF_EVENT, "the run ended at t = %.17g by the event %s", s->end,
+                    s->events->name);
+}
+
+static sunrealtype begin(const steif_solver *s)
+{
+  return s->options.max_seconds > 0 ? now(CLOCK_MONOTONIC) : 0;
+}
+
+int stf_step_untimed(steif_solver *s)
+{
+  STEIF_TRY(ready(s));
+  if (s->finished) return ended(s);
+  STEIF_CHECK(s->end < s->t1, s->ctx, STEIF_BAD_INPUT,
+              "the run is at its end t1 = %.12g: no step is left", s->t1);
+  STEIF_TRY(step_once(s, begin(s)));
+  s->shown = last(s), s->t_shown = s->end;
+  steif_forget(s->ctx);
+  return STEIF_OK;
+}
+
+int steif_solve_step(steif_solver *s)
+{
+  const sunrealtype before = now(CLOCK_PROCESS_CPUTIME_ID);
+  const int code = stf_step_untimed(s);
+  s->cpu_s += now(CLOCK_PROCESS_CPUTIME_ID) - before;
+  return code;
+}
+
+/* Show the solution at t inside the last step. */
+static int show(steif_solver *s, sunrealtype t)
+{
+  STEIF_TRY(steif_dense(s, t, s->dense));
+  s->shown = s->dense, s->t_shown = t;
+  return STEIF_OK;
+}
+
+int steif_solve_to(steif_solver *s, sunrealtype t)
+{
+  STEIF_TRY(ready(s));
+  STEIF_CHECK(isfinite(t) && t >= s->problem->t0 &&
+                t <= s->t1 * (1 + (s->t1 > 0 ? 1e-14 : -1e-14)),
+              s->ctx, STEIF_BAD_INPUT,
+              "t = %.17g lies outside the interval [%.17g, %.17g] of the "
+              "run: set options.t1",
+              t, s->problem->t0, s->t1);
+  if (t > s->t1) t = s->t1;
+  const sunrealtype before = now(CLOCK_PROCESS_CPUTIME_ID), begun = begin(s);
+  int code = STEIF_OK;
+  while (!code && s->end < t && !s->finished) code = step_once(s, begun);
+  if (!code && s->end > t)
+    code = show(s, t);
+  else if (!code)
+    s->shown = last(s), s->t_shown = s->end;
+  s->cpu_s += now(CLOCK_PROCESS_CPUTIME_ID) - before;
+  if (!code && s->end < t) return ended(s);
+  if (!code) steif_forget(s->ctx);
+  return code;
+}
+
+int stf_dense(steif_solver *s, sunrealtype t, N_Vector y)
+{
+  const steif_method *method = s->step.method;
+  if (s->engine) return s->engine->dense(&s->run, s->engine_state, t, y);
+  return method->dense ? method->dense(&s->step, t, y) : method->dense_by_f(&s->step, t, y);
+}
+
+int steif_dense(steif_solver *s, sunrealtype t, N_Vector y)
+{
+  const sunrealtype h = s->engine ? s->run.stats.h_last : s->step.h, from = stepped(s) - h;
+  const sunrealtype slack = 1e-12 * (fabs(s->end) + h);
+  STEIF_CHECK(s->engine || s->step.count > 0, s->ctx, STEIF_BAD_INPUT,
+              "no step has been made yet");
+  STEIF_CHECK(t >= from - slack && t <= s->end + slack, s->ctx, STEIF_BAD_INPUT,
+              "t = %.17g lies outside the last step [%.17g, %.17g]", t, from, s->end);
+  return stf_dense(s, t, y);
+}
+
+int steif_stages(steif_solver *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                 N_Vector **X)
+{
+  *count = 0;
+  if (s->engine || !s->step.method->stages || s->step.count == 0) return STEIF_OK;
+  return s->step.method->stages(&s->step, count, c, b, X);
+}
+
+const steif_stats *steif_statistics(steif_solver *s)
+{
+  steif_stats *out = &s->stats;
+  if (s->engine)
+    *out = s->run.stats;
+  else {
+    const stf_step *step = &s->step;
+    const steif_pencil_stats *pencil =
+      step->system.pencil ? steif_pencil_statistics(step->system.pencil) : NULL;
+    *out = (steif_stats){.steps = step->count,
+                         .rejected = s->rejected,
+                         .nfe = step->system.nfe,
+                         .nje = step->system.nje,
+                         .newton = step->newton.sweeps,
+                         .newton_fails = step->newton.fails,
+                         .h_last = step->h,
+                         .rounding = s->rounded};
+    if (pencil) out->nlu = pencil->factors + pencil->refactors, out->nsolve = pencil->solves;
+    if (pencil) out->nli = pencil->iterations;
+    out->nlu += step->factors, out->nsolve += step->solves;
+    stf_rounding_count(s, out);
+  }
+  out->cpu_s = s->cpu_s;
+  return out;
+}

@@ -1,0 +1,256 @@
+/* solver.c: the solver object: made from a problem, a spec and options.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "integrator.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* -- opening ----------------------------------------------------------------------------- */
+
+static int check_vector(steif_context *ctx, const steif_problem *p, const steif_options *o)
+{
+  if (!o->like) return STEIF_OK;
+  const sunindextype n = N_VGetLength(o->like);
+  STEIF_CHECK(n == p->n, ctx, STEIF_BAD_INPUT,
+              "options.like has %lld components, problem '%s' has %lld", (long long)n, p->name,
+              (long long)p->n);
+  return STEIF_OK;
+}
+
+static void destroy_vector(void *v) { N_VDestroy(v); }
+
+static int open_vectors(steif_solver *s, N_Vector *y, N_Vector *yp)
+{
+  N_Vector like = s->options.like;
+  if (!like) {
+    like = s->serial = N_VNew_Serial(s->problem->n, steif_sundials(s->ctx));
+    STEIF_CHECK(like, s->ctx, STEIF_NO_MEMORY, "no memory for a vector of %lld components",
+                (long long)s->problem->n);
+    STEIF_TRY(stf_pool_adopt(s->pool, like, destroy_vector));
+  }
+  *y = stf_pool_vector(s->pool, like);
+  *yp = stf_pool_vector(s->pool, like);
+  s->dense = stf_pool_vector(s->pool, like);
+  if (!*y || !*yp || !s->dense) return STEIF_NO_MEMORY;
+  if (!s->options.atols) return STEIF_OK;
+  s->atols = stf_pool_vector(s->pool, like);
+  if (!s->atols) return STEIF_NO_MEMORY;
+  sunrealtype *a = N_VGetArrayPointer(s->atols);
+  STEIF_CHECK(a, s->ctx, STEIF_UNSUPPORTED, "options.atols needs vectors with a host array");
+  memcpy(a, s->options.atols, (size_t)s->problem->n * sizeof *a);
+  return STEIF_OK;
+}
+
+static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vector y,
+                       N_Vector yp)
+{
+  const steif_engine *engine = s->engine;
+  STEIF_CHECK(engine->forms & (unsigned)form, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' does not accept problems of form %s such as '%s'", spec->name,
+              steif_form_name(form), s->problem->name);
+  s->engine_state = stf_pool_array(s->pool, 1, engine->size);
+  if (!s->engine_state) return STEIF_NO_MEMORY;
+  s->run = (stf_run){.ctx = s->ctx,
+                     .pool = s->pool,
+                     .problem = s->problem,
+                     .form = form,
+                     .options = &s->options,
+                     .like = y,
+                     .t = s->problem->t0,
+                     .y = y,
+                     .yp = yp};
+  stf_space space;
+  bool known;
+  stf_space_open(&space, y);
+  STEIF_TRY(stf_system_start(s->ctx, s->problem, form, &space, y, yp, &known));
+  s->shown = y;
+  return engine->open(&s->run, s->engine_state, spec);
+}
+
+static int equal_steps(steif_solver *s)
+{
+  const sunrealtype span = s->t1 - s->problem->t0,
+                    count = ceil(span / s->options.h * (1 - 1e-12));
+  STEIF_CHECK(
+    count <= 1 / STF_EPS, s->ctx, STEIF_BAD_INPUT,
+    "h = %g divides the interval of length %g into more steps than a clock can tell apart",
+    s->options.h, span);
+  s->total = count < 1 ? 1 : (long)count;
+  s->step.h_equal = span / (sunrealtype)s->total;
+  return STEIF_OK;
+}
+
+static void destroy_table(void *step)
+{
+  stf_step *s = step;
+  steif_table_free(s->ctx, &s->table);
+}
+
+/* How hard Newton works: relative to the error tolerance, or near rounding for given steps. */
+static void open_newton(steif_solver *s)
+{
+  stf_newton *newton = &s->step.newton;
+  const steif_options *o = &s->options;
+  const bool adaptive = s->step.adaptive;
+  newton->tolerance = o->newton > 0 ? o->newton : adaptive ? 1e-2 : 1e-3;
+  newton->rounding = adaptive ? 10 * STF_EPS / o->rtol : 100 * newton->tolerance;
+  newton->iterations = o->iterations ? o->iterations : adaptive ? 10 : 30;
+  newton->stale_rate = adaptive ? 1e-3 : 0.1;
+  newton->eta_least = adaptive ? 0 : 1e-2;
+  newton->jacobian_new = true;
+}
+
+static int claim_state(steif_solver *s)
+{
+  s->step.state = stf_pool_array(s->pool, 1, s->step.method->size);
+  return s->step.state ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+static int claim_step(steif_solver *s)
+{
+  stf_step *step = &s->step;
+  step->next = stf_pool_vector(s->pool, step->y);
+  step->error = stf_pool_vector(s->pool, step->y);
+  step->weights = stf_pool_vector(s->pool, step->y);
+  return step->next && step->error && step->weights ? claim_state(s) : STEIF_NO_MEMORY;
+}
+
+/* A family may have another one for a system like this. */
+static int specialise(steif_solver *s)
+{
+  stf_step *step = &s->step;
+  const steif_method *variant = step->method->variant ? step->method->variant(step) : NULL;
+  if (!variant) return STEIF_OK;
+  step->method = variant;
+  return claim_state(s);
+}
+
+/* What methods for y' = L y + N(t, y) see: L, or df/dy at the start, in the place of the matrix. */
+static const steif_problem *semilinear(steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  s->semilinear = *p;
+  s->semilinear.linear = 1;
+  if (p->L || p->Lv) s->semilinear.A = p->L, s->semilinear.Av = p->Lv, s->semilinear.jac = NULL;
+  return &s->semilinear;
+}
+
+static int open_system(steif_solver *s, int form, N_Vector y, N_Vector yp)
+{
+  stf_step *step = &s->step;
+  const steif_options *o = &s->options;
+  const sunrealtype scale = o->atol / o->rtol;
+  if (!(step->method->traits & STF_EXPLICIT))
+    return stf_system_open(
+      s->pool, s->ctx, step->method->traits & STF_SEMILINEAR ? semilinear(s) : s->problem, form,
+      o->force_storage ? o->storage : s->problem->storage, scale, y, yp, &step->system);
+  step->system.ctx = s->ctx, step->system.problem = s->problem, step->system.form = form;
+  step->system.scale = scale, step->system.weight = 1;
+  return STEIF_OK;
+}
+
+static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector y, N_Vector yp)
+{
+  stf_step *step = &s->step;
+  const steif_problem *p = s->problem;
+  steif_options *o = &s->options;
+  *step = (stf_step){.ctx = s->ctx,
+                     .pool = s->pool,
+                     .problem = p,
+                     .options = o,
+                     .t0 = p->t0,
+                     .t = p->t0,
+                     .y = y,
+                     .yp = yp};
+  STEIF_TRY(stf_method_find(s->ctx, spec, &step->method, &step->table));
+  STEIF_TRY(stf_pool_adopt(s->pool, step, destroy_table));
+  steif_method_info info = {0};
+  STEIF_TRY(step->method->describe(s->ctx, spec, step->table, &info));
+  STEIF_CHECK(step->method->forms & (unsigned)form, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' does not accept problems of form %s such as '%s'", s->method,
+              steif_form_name(form), p->name);
+  step->adaptive = !o->mesh && !(o->h > 0);
+  STEIF_CHECK(!step->adaptive || info.adaptive, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' has no error estimate to choose steps by: give steps with h", s->method);
+  step->absolute = form == STEIF_DESCRIPTOR;
+  if (!step->adaptive && !o->mesh) STEIF_TRY(equal_steps(s));
+  const stf_space *space = &step->system.space;
+  stf_space_open(&step->system.space, y);
+  STEIF_TRY(stf_system_start(s->ctx, p, form, space, y, yp, &step->yp_known));
+  STEIF_TRY(claim_step(s));
+  STEIF_TRY(open_system(s, form, y, yp));
+  open_newton(s);
+  step->control = stf_control_usual;
+  STEIF_TRY(specialise(s));
+  STEIF_TRY(step->method->open(step, spec, step->table));
+  s->shown = step->y;
+  if (!step->adaptive) return STEIF_OK;
+  s->h_next = stf_first_step(s);
+  return stf_rounding_open(s);
+}
+
+/* Weights of the caller at the start: baselines do not look at their signs. */
+static int check_ewt(steif_solver *s, N_Vector y)
+{
+  if (!s->options.ewt) return STEIF_OK;
+  const int returned = s->options.ewt(y, s->dense, s->problem->user);
+  STEIF_CHECK(returned == 0 && N_VMin(s->dense) > 0, s->ctx, STEIF_CALLBACK,
+              "ewt of problem '%s' returned %d with the smallest weight %g at the start: it "
+              "returns 0 with 1 / (error allowed in y_i) > 0",
+              s->problem->name, returned, N_VMin(s->dense));
+  return STEIF_OK;
+}
+
+static int open(steif_solver *s, const char *method)
+{
+  steif_spec spec;
+  N_Vector y = NULL, yp = NULL;
+  const int form = steif_problem_form(s->ctx, s->problem);
+  if (!form) return steif_status(s->ctx);
+  STEIF_TRY(stf_options_complete(s->ctx, s->problem, &s->options));
+  STEIF_TRY(check_vector(s->ctx, s->problem, &s->options));
+  s->t1 = s->options.t1, s->t_shown = s->end = s->problem->t0;
+  STEIF_TRY(open_vectors(s, &y, &yp));
+  snprintf(s->method, sizeof s->method, "%s", method);
+  const bool automatic = !strcmp(method, "auto");
+  if (automatic)
+    method = stf_choose(s->problem, &s->options, form, s->method, sizeof s->method);
+  STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
+  s->engine = stf_engine_find(spec.name);
+  STEIF_TRY(s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp));
+  if (s->engine) STEIF_TRY(check_ewt(s, y));
+  if (automatic) STEIF_TRY(stf_switching_open(s, method));
+  STEIF_TRY(stf_constraint_open(s));
+  STEIF_TRY(stf_drift_open(s));
+  STEIF_TRY(stf_event_open(s));
+  s->observed = stf_observed(s);
+  return STEIF_OK;
+}
+
+steif_solver *steif_solver_new(steif_context *ctx, const steif_problem *problem,
+                               const char *method, const steif_options *options)
+{
+  if (!ctx) return NULL;
+  if (!method) {
+    STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a method is needed, got NULL");
+    return NULL;
+  }
+  steif_forget(ctx);
+  steif_solver *s = stf_allocate(ctx, 1, sizeof *s);
+  if (!s) return NULL;
+  s->ctx = ctx, s->problem = problem;
+  s->options = options ? *options : steif_defaults();
+  s->pool = stf_pool_new(ctx);
+  if (!s->pool || open(s, method)) steif_solver_free(&s);
+  return s;
+}
+
+void steif_solver_free(steif_solver **s)
+{
+  if (!s || !*s) return;
+  steif_context *ctx = (*s)->ctx;
+  if ((*s)->engine_state) (*s)->engine->close(&(*s)->run, (*s)->engine_state);
+  stf_pool_free(&(*s)->pool);
+  stf_release(ctx, *s);
+  *s = NULL;
+}

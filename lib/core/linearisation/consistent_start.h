@@ -1,0 +1,37 @@
+/* consistent_start.h: a consistent start as it is found, and by the stages of the structure.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_CONSISTENT_START_H
+#define STF_CONSISTENT_START_H
+
+#include "pryce.h"
+#include "sparse_view.h"
+
+/* One search. */
+typedef struct stf_start_task {
+  stf_point *point;
+  const steif_request *request;
+  steif_start *start;
+  const stf_view *view;
+  sunrealtype *scale; /* n: size of the terms of each equation */
+  int most;           /* iterations of a stage */
+} stf_start_task;
+
+/* The lists of *start, from a pool of its own. */
+int stf_start_allocate(steif_context *ctx, size_t n, steif_start *start);
+enum steif_attribute stf_start_attribute(const stf_start_task *task, size_t j);
+sunrealtype stf_start_weight(const stf_start_task *task, size_t j);
+/* Fills task->scale at the point; > 0 where F cannot be evaluated. */
+int stf_start_scale(stf_start_task *task);
+/* The start of a problem whose structure is certified. */
+int stf_start_stages(stf_start_task *task, const stf_offsets *s);
+
+/* Weight of derivatives, which have no guess, beside 1 of guesses: small enough to leave the guesses
+ * their place, large enough to make the nearest point one. */
+#define STF_PROXIMAL 1e-3
+/* Residuals over the terms of their equations: not fulfilled; fulfilled so well that an unfinished
+ * search for the nearest point is good enough. */
+#define STF_VIOLATED 1e-6
+#define STF_FULFILLED 1e-10
+
+#endif

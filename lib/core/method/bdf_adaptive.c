@@ -1,0 +1,254 @@
+/* bdf_adaptive.c: BDF with chosen steps and orders 1 to 5 (or up to the p of the spec), variable
+ * coefficients on the true mesh.
+ *
+ *   y'(t_{n+1}) = (1/h) sum_j alpha_j y_{n+1-j},
+ *   error_k = h/(t_{n+1} - t_{n-k}) (y_{n+1} - pred_k),
+ * pred_k the extrapolation through k + 1 past points. A first step from a start without y' is two of
+ * half its length, whose error is their second difference: the way from y_0 to y_1, all that one step
+ * has to show, is O(h), and would be kept below the tolerance. Factors are kept while alpha_0/h stays
+ * within a ratio of 1.67; steps grow only by factors above 1.5, and every k + 1 steps the
+ * neighbouring orders are compared (biases 6, 6, 10 as in VODE: Brown, Byrne, Hindmarsh, SISC
+ * 10, 1989). Newton stops at a hundredth of what the error may be: what it leaves in the past values is
+ * amplified by up to 2^(k+1) - 1 in the estimate, and more of it would hold the step down where
+ * the solution is smooth.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "method.h"
+#include <math.h>
+#include <string.h>
+
+enum { HIGHEST = 5, POINTS = HIGHEST + 2, AGE = 50 }; /* AGE: steps a Jacobian may serve */
+
+/* Of past values, amplified by up to 2^(k+1) - 1 in the estimate. */
+static const sunrealtype rounding = 3e-12;
+
+typedef struct state {
+  int p, k, last;   /* highest order; order of the trial; of the last step */
+  int points, wait; /* valid past points; steps until the order is looked at */
+  int refusals;
+  sunrealtype omega; /* frequency of the fastest part if that oscillates; 0: it does not */
+  long seen, since;  /* Jacobians made, and the step of the last one */
+  long omega_of;     /* Jacobians made when omega was found */
+  N_Vector y[POINTS + 1];
+  sunrealtype t[POINTS + 1];
+  sunrealtype alpha[HIGHEST + 1], allowed[HIGHEST + 1]; /* allowed: of the error of order k */
+  N_Vector base, offset, Z, other;
+} state;
+
+/* Weights of the extrapolation to time t through the first `count` past points. */
+static void extrapolate(const state *e, int count, sunrealtype t, sunrealtype *weight)
+{
+  sunrealtype node[POINTS];
+  for (int j = 0; j < count; j++) node[j] = e->t[j] - t;
+  stf_interpolate(count - 1, node, 0, weight);
+}
+
+static void predict(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const int count = e->points < e->k + 1 ? e->points : e->k + 1;
+  sunrealtype weight[POINTS];
+  extrapolate(e, count, s->t + h, weight);
+  stf_combine(space, count, weight, e->y, e->base);
+  if (e->points == 1 && s->yp_known) stf_axpy(space, h, s->yp, e->base);
+}
+
+/* From t on with e->alpha and their sum over past values in e->offset. */
+static int finish(stf_step *s, sunrealtype t, sunrealtype h)
+{
+  static const sunrealtype c[] = {1};
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  stf_newton_single(&s->newton, e->alpha[0]);
+  if (!s->absolute) stf_axpy(space, e->alpha[0] / h, e->base, e->offset);
+  stf_zero(space, e->Z);
+  const stf_stages g = {.t = t,
+                        .h = h,
+                        .c = c,
+                        .base = s->absolute ? NULL : &e->base,
+                        .offset = &e->offset,
+                        .Z = s->absolute ? &s->next : &e->Z};
+  STEIF_TRY(stf_solve_stages(s, &g));
+  if (!s->absolute) stf_sum(space, 1, e->base, 1, e->Z, s->next);
+  return STEIF_OK;
+}
+
+static int solve(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  sunrealtype a[HIGHEST + 1], node[HIGHEST + 1] = {0};
+  for (int j = 1; j <= e->k; j++) node[j] = (e->t[j - 1] - (s->t + h)) / h;
+  stf_differentiate(e->k, node, e->alpha);
+  for (int j = 1; j <= e->k; j++) a[j - 1] = e->alpha[j] / h;
+  stf_combine(&s->system.space, e->k, a, e->y, e->offset);
+  return finish(s, s->t, h);
+}
+
+/* Two steps of order 1 and length h / 2 with their error; e->other: the point between them. */
+static int halves(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const sunrealtype d = h / 2, c[] = {1, -2, 1};
+  e->alpha[0] = 1, e->alpha[1] = -1;
+  stf_copy(space, s->y, e->base);
+  stf_scale(space, -1 / d, s->y, e->offset);
+  STEIF_TRY(finish(s, s->t, d));
+  stf_copy(space, s->next, e->other);
+  stf_sum(space, 2, e->other, -1, s->y, e->base);
+  stf_scale(space, -1 / d, e->other, e->offset);
+  STEIF_TRY(finish(s, s->t + d, d));
+  N_Vector v[] = {s->next, e->other, s->y};
+  stf_combine(space, 3, c, v, s->error);
+  return STEIF_OK;
+}
+
+/* Orders above 2 amplify oscillations whose frequency times h is of size 1; where the fastest are
+ * beyond, slower ones are there. */
+static int find_oscillation(stf_step *s)
+{
+  state *e = s->state;
+  e->omega_of = s->system.nje;
+  stf_sum(&s->system.space, 1, s->next, -1, e->y[0], e->Z);
+  return stf_oscillation(s, e->Z, e->other, e->offset, &e->omega);
+}
+
+static bool oscillates(const state *e, sunrealtype h) { return e->omega * h > 1; }
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  if (s->restart) e->points = 1, e->k = 1, e->wait = 2, e->t[0] = s->t;
+  if (!s->rejected) e->refusals = 0;
+  if (++e->refusals > 4) e->k = 1; /* the history is not to be trusted */
+  if (e->k > e->points) e->k = e->points;
+  if (s->system.nje != e->seen) e->seen = s->system.nje, e->since = s->count;
+  if (s->count - e->since >= AGE) s->newton.jacobian_wanted = true;
+  s->control.order = e->k, s->control.tolerance = e->allowed[e->k];
+  stf_share_newton(s, rounding);
+  if (e->points == 1 && !s->yp_known) return halves(s, h);
+  predict(s, h);
+  STEIF_TRY(solve(s, h));
+  if (s->system.nje != e->omega_of) STEIF_TRY(find_oscillation(s));
+  const sunrealtype span = e->points > e->k ? s->t + h - e->t[e->k] : 2 * h;
+  stf_sum(&s->system.space, h / span, s->next, -h / span, e->base, s->error);
+  return STEIF_OK;
+}
+
+/* Norm of the error of order k, in units of what is allowed, for the step just solved. */
+static sunrealtype error_at(stf_step *s, int k)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  sunrealtype weight[POINTS];
+  const sunrealtype t = s->t + s->h_try, scale = s->h_try / (t - e->t[k]);
+  extrapolate(e, k + 1, t, weight);
+  stf_combine(space, k + 1, weight, e->y, e->other);
+  stf_sum(space, scale, s->next, -scale, e->other, e->other);
+  return stf_norm(space, e->other, s->weights) / e->allowed[k];
+}
+
+static sunrealtype step_factor(sunrealtype bias, sunrealtype error, int k)
+{
+  return 1 / (pow(bias * error, 1 / (k + 1.0)) + 1e-6);
+}
+
+/* Order and length of the next step; among orders that reach the longest one, the highest. */
+static void choose(stf_step *s)
+{
+  state *e = s->state;
+  const int k = e->k;
+  const sunrealtype cap = s->options->h_max > 0 ? s->options->h_max / s->h_try : INFINITY;
+  const sunrealtype now = stf_norm(&s->system.space, s->error, s->weights);
+  sunrealtype best = step_factor(6, now / e->allowed[k], k);
+  int order = k;
+  if (--e->wait <= 0) {
+    const sunrealtype lower = k > 1 ? step_factor(6, error_at(s, k - 1), k - 1) : 0;
+    const bool room = k < (oscillates(e, s->h_try) ? 2 : e->p) && e->points >= k + 2;
+    const sunrealtype higher = room ? step_factor(10, error_at(s, k + 1), k + 1) : 0;
+    if (fmin(lower, cap) > best) best = lower, order = k - 1;
+    if (fmin(higher, cap) >= fmin(best, cap)) best = higher, order = k + 1;
+    e->wait = 2;
+  }
+  if (k > 2 && oscillates(e, s->h_try)) {
+    e->k = 2, e->wait = 3;
+    s->control.next = fmax(fmin(step_factor(6, error_at(s, 2), 2), 1), 0.1);
+    return;
+  }
+  s->control.next = best < 1.5 ? 1 : fmin(best, s->count < 2 ? 1e4 : 10);
+  if (s->control.next == 1 && !(order > k && best >= cap)) return;
+  if (order != k) e->k = order;
+  e->wait = e->k + 1;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  e->last = e->k;
+  choose(s);
+  N_Vector oldest = e->y[POINTS];
+  for (int j = POINTS; j > 0; j--) e->y[j] = e->y[j - 1], e->t[j] = e->t[j - 1];
+  e->y[0] = s->y = s->next;
+  e->t[0] = s->t + s->h_try;
+  s->next = oldest;
+  if (e->points < POINTS) e->points++;
+  if (s->system.form == STEIF_IMPLICIT) stf_copy(&s->system.space, s->newton.Zp[0], s->yp);
+}
+
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  const state *e = s->state;
+  sunrealtype weight[POINTS];
+  extrapolate(e, e->last + 1, t, weight);
+  stf_combine(&s->system.space, e->last + 1, weight, e->y, y);
+  return STEIF_OK;
+}
+
+/* Order 1 serves beginnings, whose few errors do not add up. Highest orders 1 and 2 would need a million
+ * steps for six digits: they keep a tenth of the tolerance in each step, and less at the end. */
+static sunrealtype share(const stf_step *s, int p, int k)
+{
+  const int order = k > 1 ? k : 2;
+  return p > 2 ? stf_share(s, order, order, rounding) : 0.1;
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  (void)table;
+  state *e = s->state;
+  stf_transform transform;
+  const bool be = !strcmp(spec->name, "be");
+  const char *start = s->options->start ? s->options->start : stf_spec_word(spec, "start");
+  STEIF_CHECK(!start || !strcmp(start, "ramp"), s->ctx, STEIF_UNSUPPORTED,
+              "start=%s is for given steps: set h", start);
+  STEIF_TRY(stf_spec_int(s->ctx, spec, "p", 1, 6, be ? 1 : HIGHEST, &e->p));
+  if (e->p > HIGHEST) e->p = HIGHEST;
+  STEIF_TRY(stf_transform_single(s->pool, 1, &transform));
+  STEIF_TRY(stf_newton_open(s->pool, &s->system, &transform, s->weights, &s->newton));
+  s->newton.shift_ratio_most = 1.67, s->newton.renew_with_factors = true,
+  s->newton.stale_rate = 0.7;
+  e->base = stf_pool_vector(s->pool, s->y);
+  e->offset = stf_pool_vector(s->pool, s->y);
+  e->Z = stf_pool_vector(s->pool, s->y);
+  e->other = stf_pool_vector(s->pool, s->y);
+  if (!e->base || !e->offset || !e->Z || !e->other) return STEIF_NO_MEMORY;
+  e->y[0] = s->y, e->t[0] = s->t;
+  e->points = 1, e->k = 1, e->wait = 2;
+  for (int j = 1; j <= POINTS; j++)
+    if (!(e->y[j] = stf_pool_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
+  for (int k = 1; k <= HIGHEST; k++) e->allowed[k] = share(s, e->p, k);
+  s->control.bias = 6;
+  return STEIF_OK;
+}
+
+const steif_method steif_method_bdf_adaptive = {
+  .about = "backward differentiation formulas of variable step and order",
+  .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
+  .traits = STF_ADAPTIVE | STF_MULTISTEP,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+};

@@ -1,0 +1,141 @@
+/* error_estimate.c: what methods make of their error estimates.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "method.h"
+#include <math.h>
+
+/* Weights of the divided difference through k + 1 nodes. */
+static void difference(int k, const sunrealtype *node, sunrealtype *weight)
+{
+  for (int j = 0; j <= k; j++) {
+    weight[j] = 1;
+    for (int m = 0; m <= k; m++)
+      if (m != j) weight[j] /= node[j] - node[m];
+  }
+}
+
+sunrealtype stf_share(const stf_step *s, int q, int p, sunrealtype rounding)
+{
+  const sunrealtype sum = 2e-3, anchor = 1e-3, most = 0.1;
+  const sunrealtype rtol = s->options->rtol, power = (q + 1.0) / p;
+  return fmin(most, fmax(pow(sum * rtol / anchor, power) * anchor, rounding) / rtol);
+}
+
+int stf_share_open(stf_step *s, const char *name, int q, int p)
+{
+  const sunrealtype rounding = 1e-14, none = 0.1 * rounding;
+  const sunrealtype wanted = stf_share(s, q, p, none) * s->options->rtol;
+  s->control.order = q;
+  if (!s->adaptive) return STEIF_OK;
+  STEIF_CHECK(
+    wanted > none, s->ctx, STEIF_UNSUPPORTED,
+    "'%s' of order %d cannot keep rtol = %g: the error of one step would have to be below "
+    "rounding; take a method of higher order, radau:s=3 or more, or a larger rtol",
+    name, p, s->options->rtol);
+  s->control.tolerance = stf_share(s, q, p, rounding);
+  if (!(s->method->traits & STF_EXPLICIT)) stf_share_newton(s, rounding);
+  return STEIF_OK;
+}
+
+void stf_share_newton(stf_step *s, sunrealtype rounding)
+{
+  const sunrealtype most = 1e-3, least = 0.1 * rounding / s->options->rtol;
+  if (s->options->newton > 0) return;
+  s->newton.tolerance = fmin(most, fmax(0.01 * s->control.tolerance, least));
+}
+
+void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transform *transform,
+                       sunrealtype rtol)
+{
+  const int s = T->s;
+  const sunrealtype re = transform->re[0], im = transform->im[0], anchor = 1e-3;
+  sunrealtype node[STEIF_STAGES + 1] = {0}, weight[STEIF_STAGES + 1];
+  for (int i = 0; i < s; i++) node[i + 1] = T->c[i];
+  difference(s, node, weight);
+  for (int i = 0; i < s; i++) e->top[i] = weight[i + 1];
+  difference(s - 1, node + 1, e->below);
+  e->s = s, e->beyond = T->order - s;
+  e->gain = re + im * im / re;
+  for (int k = s + 1; k <= T->order + 1; k++) e->gain /= k;
+  e->legendre = 1;
+  for (int k = 1; k <= s; k++) e->legendre *= (sunrealtype)k / (s + k);
+  const sunrealtype part = fmin(0.05, 0.002 * s * s);
+  e->loosest =
+    part * pow(anchor, (s + 1.0) / (2 * s)) * pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
+}
+
+void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunrealtype below)
+{
+  const sunrealtype wanted = 0.3;
+  const bool seen = top * e->legendre > wanted;
+  sunrealtype ratio = seen ? e->gain : 0; /* of the error to the estimate */
+  for (int k = 0; k < e->beyond; k++) ratio *= e->s * top / below;
+  const bool less = ratio * e->loosest > wanted && e->loosest > wanted;
+  s->control.tolerance = !less ? e->loosest : ratio < 1 ? wanted / ratio : wanted;
+  s->control.order = e->s + (less && ratio < 1 ? e->beyond : 0);
+}
+
+void stf_estimate_none(stf_step *s, const stf_estimate *e)
+{
+  const sunrealtype bound = 0.05;
+  s->control.tolerance = fmin(s->control.tolerance, bound);
+  s->control.order = e->s;
+}
+
+/* Unknowns of index 3 forget their start in so many steps; what so many refusals have not cured is not
+ * theirs. */
+enum { SETTLED = 3, PATIENT = 3 };
+
+/* Linear systems start from impulses, which they forget more slowly. */
+static bool watched(const stf_step *s)
+{
+  return s->problem->dae_index >= 3 && !s->system.linear;
+}
+
+static bool settled(const stf_step *s) { return s->count >= SETTLED && s->tries < PATIENT; }
+
+bool stf_filters_twice(const stf_step *s)
+{
+  return watched(s) ? !settled(s) : s->count == 0 || s->rejected;
+}
+
+void stf_estimate_levels(stf_step *s)
+{
+  const int *index = s->problem->index;
+  const sunrealtype rounding = 1e-11, strict = 0.05 + rounding / s->options->rtol;
+  if (!index || !watched(s) || !settled(s) || s->control.tolerance <= strict) return;
+  sunrealtype *error = N_VGetArrayPointer(s->error);
+  for (sunindextype i = 0; i < s->problem->n; i++)
+    if (index[i] > 1) error[i] *= s->control.tolerance / strict;
+}
+
+enum { PATIENCE = 2 };
+
+int stf_filter_rounds(const stf_step *s)
+{
+  return s->rejected && s->undamped > PATIENCE ? 3 : 1;
+}
+
+int stf_test_undamped(stf_step *s, N_Vector first, int rounds, bool diverged)
+{
+  const stf_space *space = &s->system.space;
+  const sunrealtype bound = 0.1;
+  stf_axpy(space, -rounds, s->error, first);
+  const sunrealtype part = stf_norm(space, first, s->weights);
+  if (!s->rejected) s->undamped = 0;
+  if (part > bound) s->undamped++;
+  if (s->undamped > PATIENCE || diverged)
+    stf_axpy(space, 1, first, s->next);
+  else if (s->undamped)
+    stf_scale(space, s->control.tolerance / bound, first, s->error);
+  return STEIF_OK;
+}
+
+int stf_check_index(const stf_step *s, const char *name)
+{
+  STEIF_CHECK(
+    !s->adaptive || s->problem->dae_index < 3, s->ctx, STEIF_UNSUPPORTED,
+    "'%s' cannot choose steps for problem '%s' of index %d, whose multipliers it does "
+    "not find: use radau, or give steps with h",
+    name, s->problem->name, s->problem->dae_index);
+  return STEIF_OK;
+}

@@ -1,0 +1,243 @@
+/* irk_interleaved.c: collocation with chosen steps for small dense systems y' = f or M y' = f: the same formulas
+ * as irk.c, with all shifts in vector lanes (interleaved.h) and the control of an adaptive code.
+ *
+ *   Start of the iteration: the last polynomial, cut where its terms at the new step begin to grow.
+ *   Jacobian: at (t_n + h/4, predicted) while the prediction is good, else at (t_n, y_n); renewed with
+ *   the factors when the rate of convergence was above 1e-3.
+ *   Newton: theta_m = ||d^m|| / ||d^(m-1)||, eta = theta/(1 - theta), stop at eta ||d|| <= kappa.
+ *   Where many iterations are left, one new Jacobian and LU at a stage as it is then.
+ *   Error: (lambda_0/h M - J)^{-1} [f(t_n, y_n) + M/h sum d_j Z_j], filtered twice at the start and
+ *   after a refusal; where the end is not a stage, the same of f and the slope at the end.
+ * Hairer and Wanner, Solving ODEs II, IV.8.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "irk_interleaved.h"
+#include <math.h>
+#include <string.h>
+
+typedef stf_irk_interleaved state;
+
+bool stf_interleaved_serves(const stf_step *s)
+{
+  const steif_table *T = s->table;
+  return T && T->kind == STEIF_COLLOCATION && T->s <= STF_EIGEN_STAGES && T->c[0] > 0 &&
+         s->adaptive && s->system.space.serial && s->system.storage == STEIF_DENSE &&
+         s->problem->n <= STF_INTERLEAVED &&
+         (s->system.form == STEIF_ODE || s->system.form == STEIF_MASS);
+}
+
+/* Vectors whose data are the rows of an array. */
+static N_Vector *views(stf_step *s, double *data)
+{
+  const state *e = s->state;
+  N_Vector *v = stf_pool_array(s->pool, (size_t)e->s, sizeof *v);
+  for (int j = 0; v && j < e->s; j++)
+    if (!(v[j] = stf_pool_view(s->pool, s->y, data + j * e->n))) return NULL;
+  return v;
+}
+
+static int claim(stf_step *s, state *e)
+{
+  const size_t n = (size_t)e->n;
+  e->Y = views(s, e->L->Y), e->F = views(s, e->L->F);
+  e->a = stf_pool_array(s->pool, n * (size_t)e->L->wide, sizeof *e->a);
+  e->moved = stf_pool_vector(s->pool, s->y);
+  e->f0 = stf_pool_array(s->pool, n, sizeof *e->f0);
+  e->before = stf_pool_array(s->pool, n, sizeof *e->before);
+  if (e->M) e->last_Z = stf_pool_array(s->pool, n * (size_t)e->L->wide, sizeof *e->last_Z);
+  if (e->M && !e->last_Z) return STEIF_NO_MEMORY;
+  return e->Y && e->F && e->moved && e->a && e->f0 && e->before ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  (void)spec;
+  state *e = s->state;
+  stf_transform transform;
+  e->table = table, e->s = table->s, e->n = (int)s->problem->n;
+  e->accurate = table->claims & STEIF_STIFFLY_ACCURATE;
+  if (!e->accurate) STEIF_TRY(stf_check_index(s, table->name));
+  STEIF_TRY(stf_transform_build(s->pool, s->ctx, table, &transform));
+  e->B = transform.B;
+  STEIF_TRY(stf_system_mass(s->pool, &s->system, &e->M));
+  if (!(e->L = stf_interleaved_new(s->pool, &transform, e->n, e->M))) return STEIF_NO_MEMORY;
+  STEIF_TRY(claim(s, e));
+  e->L->whole = !e->accurate;
+  for (int j = 0; j < e->s; j++) stf_irk_interleaved_basis(e, j);
+  e->itmax =
+    s->options->iterations ? s->options->iterations : 7 + (e->s > 3 ? 5 * (e->s - 3) / 2 : 0);
+  e->kappa = s->options->newton > 0 ? s->options->newton : 1e-4;
+  if (s->problem->dae_index >= 3 && !(s->options->newton > 0)) e->kappa = 1e-5;
+  e->eta = 1, e->J_new = true;
+  stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
+  return STEIF_OK;
+}
+
+/* -- error, end ---------------------------------------------------------------------------------------- */
+
+static int slope(stf_step *s, double t, N_Vector y, double *out)
+{
+  state *e = s->state;
+  STEIF_TRY(stf_system_rhs(&s->system, t, y, s->error));
+  memcpy(out, STF_ARRAY(s->error), (size_t)e->n * sizeof *out);
+  return STEIF_OK;
+}
+
+/* x = f + M/h sum d_j Z_j. */
+static void defect(const state *e, const double *f, double h, double *x)
+{
+  double sum[STF_INTERLEAVED];
+  for (int i = 0; i < e->n; i++) {
+    sum[i] = 0;
+    for (int j = 0; j < e->s; j++) sum[i] += e->d[j] * e->L->Z[i * e->L->wide + j];
+    sum[i] /= h;
+  }
+  for (int i = 0; i < e->n; i++) {
+    x[i] = e->M ? f[i] : f[i] + sum[i];
+    for (int j = 0; e->M && j < e->n; j++) x[i] += e->M[i * e->n + j] * sum[j];
+  }
+}
+
+/* The estimate with f at y + the first one: free of what stiff components off their slow manifold
+ * add to that at every step size, and at index 3 of the errors of velocities. */
+static int filter_again(stf_step *s, double t, N_Vector y, double h)
+{
+  state *e = s->state;
+  double *x = STF_ARRAY(s->error), f[STF_INTERLEAVED];
+  stf_sum(&s->system.space, 1, y, 1, s->error, e->moved);
+  STEIF_TRY(slope(s, t, e->moved, f));
+  defect(e, f, h, x);
+  stf_interleaved_filter(e->L, x);
+  return STEIF_OK;
+}
+
+static bool finite(int n, const double *x)
+{
+  double zero = 0;
+  for (int i = 0; i < n; i++) zero += 0 * x[i];
+  return zero == 0;
+}
+
+static int estimate(stf_step *s, double h)
+{
+  state *e = s->state;
+  if (!e->f0_known) STEIF_TRY(slope(s, s->t, s->y, e->f0));
+  e->f0_known = finite(e->n, e->f0);
+  defect(e, e->f0, h, STF_ARRAY(s->error));
+  stf_interleaved_filter(e->L, STF_ARRAY(s->error));
+  if (!stf_filters_twice(s)) return STEIF_OK;
+  if (stf_norm(&s->system.space, s->error, s->weights) <= s->control.tolerance) return STEIF_OK;
+  return filter_again(s, s->t, s->y, h);
+}
+
+static int estimate_end(stf_step *s, double h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  double f[STF_INTERLEAVED];
+  STEIF_TRY(slope(s, s->t + h, s->next, f));
+  defect(e, f, h, STF_ARRAY(s->error));
+  stf_interleaved_filter(e->L, STF_ARRAY(s->error));
+  STEIF_TRY(filter_again(s, s->t + h, s->next, h));
+  const int rounds = stf_filter_rounds(s);
+  for (int k = 1; k < rounds; k++) STEIF_TRY(filter_again(s, s->t + h, e->moved, h));
+  stf_sum(space, 1, e->moved, -1, s->next, e->moved);
+  return stf_test_undamped(s, e->moved, rounds, e->fails > 0);
+}
+
+static void set_tolerance(stf_step *s, const state *e)
+{
+  const double *w = STF_ARRAY(s->weights);
+  double top = 0, below = 0;
+  const int *index = s->problem->index;
+  for (int i = 0; i < e->n; i++) {
+    const double *z = e->L->Z + i * e->L->wide;
+    double high = 0, low = 0;
+    if (index && index[i] > 1) continue;
+    for (int j = 0; j < e->s; j++)
+      high += e->higher_order.top[j] * z[j], low += e->higher_order.below[j] * z[j];
+    top += w[i] * w[i] * high * high, below += w[i] * w[i] * low * low;
+  }
+  stf_estimate_set(s, &e->higher_order, e->rounding_limited ? 0 : sqrt(top), sqrt(below));
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  stf_irk_interleaved_predict(s, e, h);
+  STEIF_TRY(stf_irk_interleaved_prepare(s, h));
+  STEIF_TRY(stf_irk_interleaved_iterate(s, h));
+  stf_interleaved_end(e->L);
+  set_tolerance(s, e);
+  double *next = STF_ARRAY(s->next);
+  const double *y = STF_ARRAY(s->y);
+  for (int i = 0; i < e->n; i++) {
+    const double *z = e->L->Z + i * e->L->wide;
+    double sum = e->accurate ? z[e->s - 1] : 0;
+    for (int j = 0; !e->accurate && j < e->s; j++) sum += e->end[j] * z[j];
+    next[i] = y[i] + sum;
+  }
+  const int reach = 2 * e->itmax;
+  const stf_control *usual = &stf_control_usual;
+  s->control.safety =
+    fmin(usual->safety, usual->safety * (reach + 1) / (e->iterations + reach));
+  s->control.grow = e->theta > 0.05 ? fmax(1, 0.5 / e->theta) : usual->grow;
+  s->control.keep = e->theta <= 1e-3 ? usual->keep : 1;
+  STEIF_TRY(e->accurate ? estimate(s, h) : estimate_end(s, h));
+  stf_estimate_levels(s);
+  return STEIF_OK;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  const int wide = e->L->wide;
+  double size = 0;
+  const double *w = STF_ARRAY(s->weights);
+  stf_interleaved_keep(e->L, e->K, e->a);
+  for (int i = 0; i < e->n; i++) {
+    const double *z = e->L->Z + i * wide;
+    size += z[e->s - 1] * z[e->s - 1] * w[i] * w[i];
+  }
+  e->first_correction /= sqrt(size / (double)e->n) + 1e-300;
+  memcpy(e->before, STF_ARRAY(s->y), (size_t)e->n * sizeof *e->before);
+  stf_swap(s);
+  e->history = true, e->f0_known = false, e->fails = 0, e->J_new = false;
+  e->renew_J = e->theta > 1e-3;
+}
+
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  const state *e = s->state;
+  const double x = (t - s->t) / s->h;
+  for (int i = 0; i < e->n; i++) {
+    const double *a = e->a + i * e->L->wide;
+    double sum = 0;
+    for (int k = e->s; k-- > 0;) sum = (sum + a[k]) * x;
+    STF_ARRAY(y)[i] = STF_ARRAY(s->y)[i] + sum;
+  }
+  return STEIF_OK;
+}
+
+static int stages(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                  N_Vector **X)
+{
+  const state *e = s->state;
+  *count = e->s, *c = e->table->c, *b = e->table->b, *X = e->Y;
+  for (int j = 0; j < e->s; j++)
+    for (int i = 0; i < e->n; i++)
+      STF_ARRAY(e->Y[j])[i] = e->before[i] + e->L->Z[i * e->L->wide + j];
+  return STEIF_OK;
+}
+
+const steif_method steif_method_irk_interleaved = {
+  .about = "fully implicit Runge-Kutta, all shifts in vector lanes",
+  .forms = STEIF_ODE | STEIF_MASS,
+  .traits = STF_ADAPTIVE,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+  .stages = stages,
+};

@@ -1,0 +1,221 @@
+/* method.h: the method room inside: what a family of methods provides, and the running state.
+ *
+ * An attempt is pure: attempt(s, h) reads accepted history and writes trial vectors only (s->next,
+ * s->error, trial parts of the private state); another attempt simply overwrites them. commit alone
+ * turns the trial into history; it leaves the new solution in s->y. Factors and Jacobians are not
+ * history.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_METHOD_H
+#define STF_METHOD_H
+
+#include "newton.h"
+#include <steif/method.h>
+#include <steif/solver.h>
+
+typedef struct stf_step stf_step;
+
+enum stf_trait {
+  STF_ADAPTIVE = 1,    /* fills s->error */
+  STF_MULTISTEP = 2,   /* keeps history: steps given at open */
+  STF_EXPLICIT = 4,    /* needs neither matrices nor, for given steps, weights */
+  STF_SEMILINEAR = 8,  /* the matrix is the constant linear part of a semilinear problem */
+  STF_UNCORRECTED = 16 /* nothing corrects the rounding of its linear solves */
+};
+
+/* Where a family takes its coefficients from: the tables of one kind. Its specs are PREFIX:TABLE, or TABLE
+ * alone where there is no prefix. */
+typedef struct stf_tables {
+  enum steif_table_kind kind;
+  const char *prefix, *example; /* example: for those who leave the table out */
+} stf_tables;
+
+/* A spec for the list of methods, which ascends in `place`, from 0 to STF_PLACES - 1. */
+enum { STF_PLACES = 10 };
+typedef struct stf_example {
+  const char *spec;
+  int place;
+} stf_example;
+
+/* What a method says of its error and proposes for the length of steps, filled in by open, attempt and
+ * commit. The integrator alone decides on it. */
+typedef struct stf_control {
+  sunrealtype tolerance;    /* of the norm of s->error */
+  int order;                /* q: s->error = O(h^(q + 1)) */
+  sunrealtype safety;       /* h_next = safety (tolerance / error)^(1/(q + 1)) h ... */
+  sunrealtype shrink, grow; /* ... within these factors of h ... */
+  sunrealtype keep;  /* ... and h where the factor lies in 1 .. keep: matrices stay factored */
+  sunrealtype bias;  /* > 1: of the error after a rejection, instead of safety */
+  sunrealtype next;  /* > 0: factor of h for the next step, instead of all these */
+  sunrealtype retry; /* > 0: factor of h after STEIF_RETRY, for one attempt */
+} stf_control;
+/* The usual one, but for tolerance and order. */
+extern const stf_control stf_control_usual;
+
+typedef struct steif_method {
+  const char *about;
+  unsigned forms, traits;
+  /* How users call it. Is a spec of this name one of the family's? NULL: those of `tables` only; variants
+   * have neither. Examples 0, 1, ... are listed, .spec NULL past the end; tables are listed without. */
+  bool (*owns)(const char *name);
+  const stf_tables *tables;
+  stf_example (*example)(size_t i);
+  /* The family that is to make the steps of this opened system; NULL: this one. */
+  const struct steif_method *(*variant)(const stf_step *s);
+  size_t size; /* private state, zeroed by the frame */
+  int (*open)(stf_step *s, const steif_spec *spec, const steif_table *table);
+  int (*attempt)(stf_step *s, sunrealtype h); /* STEIF_RETRY: try a smaller h */
+  void (*commit)(stf_step *s);
+  /* y(t) inside the last step, from what was committed; or, of families whose dense output evaluates f, by
+   * the other slot. */
+  int (*dense)(const stf_step *s, sunrealtype t, N_Vector y);
+  int (*dense_by_f)(stf_step *s, sunrealtype t, N_Vector y);
+  int (*stages)(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                N_Vector **X); /* NULL: none */
+  /* r and M(z), r x r pairs by rows; M NULL: r only. NULL: steps are no function of z. */
+  int (*propagator)(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                    const sunrealtype z[2], int *r, sunrealtype *M);
+  /* order, stages, claims of *info from the spec, and refusal of bad parameters. */
+  int (*describe)(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                  steif_method_info *info);
+  /* The method as a general linear one; NULL: that of its table, or none. */
+  int (*general)(steif_context *ctx, const steif_spec *spec, steif_glm *glm);
+} steif_method;
+
+struct stf_step {
+  steif_context *ctx;
+  stf_pool *pool;
+  const steif_problem *problem;
+  const steif_options *options;
+  const steif_method *method;
+  void *state;
+  steif_table *table; /* of this method; NULL for multistep */
+  stf_system system;
+  stf_newton newton;
+  sunrealtype t0, t, h; /* start; time of y; length of the last step (0: none yet) */
+  sunrealtype h_equal;  /* > 0: all steps have this length */
+  long count;           /* accepted steps */
+  N_Vector y, yp;       /* accepted; yp: slope (start, or last implicit slope) */
+  bool yp_known, adaptive, absolute; /* absolute: stages solved for Y, not for Y - y_n */
+  bool rejected;                     /* this attempt repeats one that was refused ... */
+  int tries;                         /* ... this many times */
+  bool restart;         /* the next step follows a discontinuity: no history before t */
+  bool end_slope_known; /* stf_hermite has the slope at the end of the last step */
+  sunrealtype h_try;    /* of the trial */
+  N_Vector next, error, weights;
+  stf_control control;  /* what the attempt says of `error` */
+  long factors, solves; /* made by a family without the pencil */
+  int undamped;         /* attempts of this step rejected for undamped components */
+};
+
+typedef struct stf_method_entry {
+  const char *name;
+  const steif_method *item;
+} stf_method_entry;
+extern const stf_method_entry stf_method_shelf[];
+extern const size_t stf_method_count;
+
+/* Solve stages with the factors at hand: prepares them, renews a stale Jacobian, and repeats a
+ * refused solve with a new Jacobian and Z = 0, and when the step is given once more with a new
+ * Jacobian in every iteration, before giving up. */
+int stf_solve_stages(stf_step *s, const stf_stages *stages);
+
+/* What an estimate of order q may be, in units of the tolerance, so that the errors of all steps of a
+ * method of order p add to a multiple of rtol where y is smooth, est^(p/(q+1)) ~ rtol, but above
+ * rounding, relative to y. At rtol = 1e-3 the multiple is small enough for orbits that magnify errors a thousand
+ * times before they close. */
+sunrealtype stf_share(const stf_step *s, int q, int p, sunrealtype rounding);
+/* Newton's tolerance for s->control.tolerance, unless the caller has given his: what is left of the
+ * iteration must not be seen in the estimate. */
+void stf_share_newton(stf_step *s, sunrealtype rounding);
+/* Both for a method of one order, which refuses what is below rounding. */
+int stf_share_open(stf_step *s, const char *name, int q, int p);
+
+/* How far the estimate of collocation, of order s, may exceed the tolerance because the method has
+ * order p. On y' = lambda y, omega = h |lambda|, the error is the estimate times
+ * s! / (gamma_0 (p + 1)!) omega^(p-s); omega is taken from the divided differences of order s
+ * through (0, 0) and all stages and of order s - 1 through the stages, whose ratio is omega / s.
+ * Small oscillations that a step does not resolve let the differences stay as large as they were
+ * below: then the error is as large as the estimate, unless they are
+ * below the tolerance themselves. Never more than a bound
+ * that makes the sum of the errors of all steps proportional to rtol where y is smooth, est^(p/(s+1))
+ * ~ rtol, and at rtol = 1e-3 is half of the 0.1 rtol^((s+1)/(2s)) of Hairer and Wanner (II, IV.8), less
+ * below s = 5: the more steps, the more errors add. */
+typedef struct stf_estimate {
+  int s, beyond;             /* beyond: p - s */
+  sunrealtype gain, loosest; /* s! / (gamma_0 (p + 1)!) */
+  sunrealtype legendre;      /* size of x^s + ... orthogonal to lower powers on [0, 1] */
+  sunrealtype top[STEIF_STAGES], below[STEIF_STAGES]; /* weights of Z_j */
+} stf_estimate;
+void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transform *transform,
+                       sunrealtype rtol);
+/* s->control.tolerance and s->control.order of this attempt, from the norms of the two differences. */
+void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunrealtype below);
+
+/* The same where the estimate is all that is known: no higher order. */
+void stf_estimate_none(stf_step *s, const stf_estimate *e);
+
+/* Velocities and multipliers of index 3 have no more than the order of the estimate: it is made
+ * larger for them, as if the tolerance had not been raised, but above rounding; not in the first steps,
+ * whose start they forget, nor where many shorter steps do not help. */
+void stf_estimate_levels(stf_step *s);
+/* Is a large estimate to be filtered once more? That removes what a stiff component not on its slow
+ * manifold contributes at every step size: at the start and after a refusal, but not, without
+ * need, the errors of velocities at index 3. */
+bool stf_filters_twice(const stf_step *s);
+
+/* Error test of methods that do not damp, at the end of a step: what the second filter took from the
+ * first estimate is the deviation of stiff and algebraic components, which later steps will return
+ * with the same size; it must be small against the tolerance itself. Where shorter steps do not make it
+ * so, or Newton diverged in this step, it is taken from s->next. s->error is the estimate after the
+ * filters, `first` the sum of the `rounds` before it and is overwritten. */
+int stf_test_undamped(stf_step *s, N_Vector first, int rounds, bool diverged);
+/* How many estimates are taken off before the one that counts: 1, more where refusals do not help, since
+ * each leaves a part of a deviation that a nonlinear f or an old matrix keeps. */
+int stf_filter_rounds(const stf_step *s);
+
+/* Refuses chosen steps on problems of index 3: methods whose stages have order 1 or
+ * that do not damp do not find the multipliers there, and no estimate of theirs would tell. */
+int stf_check_index(const stf_step *s, const char *name);
+
+/* Variants: collocation with all shifts in vector lanes, where `serves` is true of the opened system, and BDF
+ * with chosen steps. */
+bool stf_interleaved_serves(const stf_step *s);
+extern const steif_method steif_method_irk_interleaved;
+extern const steif_method steif_method_bdf_adaptive;
+/* Collocation, which starting procedures use. */
+extern const steif_method steif_method_irk;
+
+/* The largest eigenvalues of J by six steps of power iteration with J^2 from v, which is overwritten
+ * with w and work: omega if they are near +-i omega, for J^2 v = -omega^2 v whatever the norm, else 0.
+ * Of the ode form and the matrices at hand. */
+int stf_oscillation(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *omega);
+
+/* The spectral radius of J, by the same power iteration. */
+int stf_spectral_radius(stf_step *s, N_Vector v, N_Vector w, N_Vector work,
+                        sunrealtype *radius);
+
+/* y <-> next. */
+void stf_swap(stf_step *s);
+
+/* Forms y' = f(t, y) and M y' = f(t, y): df/dt at (t_n, y_n) by differences inside a step of length
+ * h, from f there; `work` is lost. Nothing is done where the problem is autonomous. */
+int stf_slope_in_time(stf_step *s, sunrealtype h, N_Vector f, N_Vector slope, N_Vector work);
+
+/* y = the cubic through both ends of the last step of y' = f(t, y) with their slopes; that of the
+ * end, f(t, y), is made in `end` the first time. */
+int stf_hermite(stf_step *s, sunrealtype t, N_Vector before, N_Vector slope, N_Vector end,
+                N_Vector y);
+
+/* propagator, or the sentence that there is none. */
+int stf_propagate(steif_context *ctx, const steif_method *method, const steif_spec *spec,
+                  const steif_table *table, const sunrealtype z[2], int *r, sunrealtype *M);
+/* One r x r complex number as a propagator. */
+void stf_propagate_scalar(const sunrealtype R[2], int *r, sunrealtype *M);
+
+/* Weights of differentiation at node 0 of the polynomial through nodes 0 .. k (distinct): a[j],
+ * and of its value at x (value may be NULL). */
+void stf_differentiate(int k, const sunrealtype *node, sunrealtype *a);
+void stf_interpolate(int k, const sunrealtype *node, sunrealtype x, sunrealtype *value);
+
+#endif

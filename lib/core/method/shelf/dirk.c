@@ -1,0 +1,165 @@
+/* dirk.c: diagonally implicit Runge-Kutta methods with one nonzero diagonal entry gamma, stage
+ * after stage with one real shift 1/(gamma h); an explicit first stage takes the last slope.
+ *
+ *   Y_i = y_n + h sum_{j<i} a_ij K_j + Z_i,  K_i = Z_i / (gamma h),  F(t_n + c_i h, Y_i, K_i) =
+ * 0. Error estimate: h sum (b_i - bhat_i) K_i filtered by (E/(gamma h) - A)^{-1} E/(gamma h).
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "stage_chain.h"
+
+typedef struct state {
+  const steif_table *table;
+  stf_chain chain;
+  int s, first;  /* first implicit stage, 0 or 1 */
+  N_Vector *old; /* slopes of the last step */
+  N_Vector before;
+  bool accurate; /* stiffly accurate */
+  bool stepped;
+} state;
+
+static int check(stf_step *s, state *e)
+{
+  const steif_table *T = e->table;
+  e->first = T->A[0] == 0;
+  for (int i = e->first; i < T->s; i++)
+    STEIF_CHECK(
+      T->A[i * (T->s + 1)] > 0, s->ctx, STEIF_UNSUPPORTED,
+      "table '%s' has the diagonal entry %g at stage %d: explicit stages are served at the "
+      "beginning only",
+      T->name, T->A[i * (T->s + 1)], i + 1);
+  STEIF_CHECK(
+    !e->first || s->yp_known, s->ctx, STEIF_UNSUPPORTED,
+    "'dirk:%s' begins with the slope y'(t0), which form %s of problem '%s' does not give: "
+    "set .yp0, or take a method with an implicit first stage",
+    T->name, steif_form_name(s->system.form), s->problem->name);
+  STEIF_CHECK(!e->first || (T->claims & STEIF_STIFFLY_ACCURATE), s->ctx, STEIF_UNSUPPORTED,
+              "table '%s' has an explicit first stage and is not stiffly accurate", T->name);
+  STEIF_CHECK(!s->adaptive || T->bhat, s->ctx, STEIF_UNSUPPORTED,
+              "'dirk:%s' has no embedded method: give steps with h", T->name);
+  return STEIF_OK;
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  (void)spec;
+  state *e = s->state;
+  e->table = table, e->s = table->s;
+  e->accurate = table->claims & STEIF_STIFFLY_ACCURATE;
+  e->chain = (stf_chain){.s = e->s, .k = 1, .A = table->A, .c = table->c};
+  STEIF_TRY(check(s, e));
+  STEIF_TRY(stf_check_index(s, table->name));
+  STEIF_TRY(stf_chain_open(s, table->name, &e->chain));
+  e->old = stf_pool_vectors(s->pool, e->s, s->y);
+  e->before = stf_pool_vector(s->pool, s->y);
+  const int q = table->order_hat < table->order ? table->order_hat : table->order;
+  STEIF_TRY(stf_share_open(s, table->name, q, table->order));
+  return e->old && e->before ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+static int estimate(stf_step *s)
+{
+  state *e = s->state;
+  sunrealtype weight[STEIF_STAGES];
+  for (int i = 0; i < e->s; i++)
+    weight[i] = (e->table->b[i] - e->table->bhat[i]) / e->chain.gamma;
+  stf_combine(&s->system.space, e->s, weight, e->chain.K, e->chain.base);
+  return stf_chain_filter(s, &e->chain);
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  stf_chain *chain = &e->chain;
+  if (e->first) {
+    const bool start = !e->stepped || (s->restart && s->yp_known);
+    stf_copy(space, start ? s->yp : e->old[e->s - 1], chain->K[0]);
+    stf_copy(space, s->y, chain->X[0]);
+  }
+  chain->guess = e->stepped && !s->restart ? e->old[e->s - 1] : NULL;
+  STEIF_TRY(stf_chain_run(s, chain, e->first, &s->y, h));
+  if (e->accurate)
+    stf_copy(space, chain->X[e->s - 1], s->next);
+  else {
+    stf_combine(space, e->s, e->table->b, chain->K, s->next);
+    stf_sum(space, 1, s->y, h, s->next, s->next);
+  }
+  return s->adaptive ? estimate(s) : STEIF_OK;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  N_Vector *K = e->old, y = e->before;
+  e->old = e->chain.K, e->chain.K = K;
+  e->before = s->y, s->y = s->next, s->next = y;
+  e->stepped = true;
+  if (s->system.form == STEIF_IMPLICIT) stf_copy(&s->system.space, e->old[e->s - 1], s->yp);
+}
+
+/* Both end values, the slope at the end (last stage of a stiffly accurate method) and the slope
+ * at the start (explicit first stage): of degree 1 to 3, as many as the method gives. */
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  const state *e = s->state;
+  const sunrealtype x = (t - (s->t - s->h)) / s->h, u = 1 - x;
+  if (!e->accurate || !e->first) {
+    const sunrealtype end = e->accurate ? 1 : 0,
+                      c[] = {u * (1 - end * x), x * (1 + end * u), -s->h * x * u * end};
+    N_Vector v[] = {e->before, s->y, e->old[e->s - 1]};
+    stf_combine(&s->system.space, 3, c, v, y);
+    return STEIF_OK;
+  }
+  const sunrealtype c[] = {u * u * (1 + 2 * x), x * x * (1 + 2 * u), s->h * x * u * u,
+                           -s->h * x * x * u};
+  N_Vector v[] = {e->before, s->y, e->old[0], e->old[e->s - 1]};
+  stf_combine(&s->system.space, 4, c, v, y);
+  return STEIF_OK;
+}
+
+static int stages(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                  N_Vector **X)
+{
+  const state *e = s->state;
+  *count = e->s, *c = e->table->c, *b = e->table->b, *X = e->chain.X;
+  return STEIF_OK;
+}
+
+static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                      const sunrealtype z[2], int *r, sunrealtype *M)
+{
+  (void)spec;
+  sunrealtype R[2];
+  STEIF_TRY(steif_table_stability(ctx, table, z, R));
+  stf_propagate_scalar(R, r, M);
+  return STEIF_OK;
+}
+
+static int describe(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                    steif_method_info *info)
+{
+  static const char *const keys[] = {"", NULL};
+  STEIF_TRY(stf_spec_only(ctx, spec, keys));
+  info->family = "dirk", info->about = table->about;
+  info->order = table->order, info->stages = table->s, info->claims = table->claims;
+  info->adaptive = table->bhat != NULL;
+  return STEIF_OK;
+}
+
+static const stf_tables tables = {
+  .kind = STEIF_DIRK, .prefix = "dirk", .example = "dirk:alexander2"};
+
+const steif_method steif_method_dirk = {
+  .about = "diagonally implicit Runge-Kutta",
+  .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
+  .traits = STF_ADAPTIVE,
+  .tables = &tables,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+  .stages = stages,
+  .propagator = propagator,
+  .describe = describe,
+};

@@ -1,0 +1,323 @@
+/* glm.c: general linear methods, explicit or with one real shift:
+ *   G = U X_n + h C F,   X_{n+1} = V X_n + h D F.
+ * What a step leaves, X_{n+1}, h F and X_n, determines Nordsieck's vector z of order p (as far
+ * as W asks for it), and from it the solution, the history for another step length, X <- W
+ * diag(q^j) z, and dense output; the combination that gives error h^{p+1} y^{(p+1)} is the
+ * estimate. Where there is none the change of z_p = h^p y^(p) since the last step gives it, in the first
+ * step the values of the start. The start is fitted to p further values within the first step.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "starting_values.h"
+#include "stage_chain.h"
+#include "general.h"
+#include <math.h>
+#include <string.h>
+
+enum { DATA = STF_LEAST, POWERS = STEIF_PAST + 1 };
+
+typedef struct state {
+  const steif_glm *g;
+  int k, r, p, data; /* data: 2 k + r */
+  stf_chain chain;
+  stf_begin begin;
+  N_Vector *at, *past, *slopes; /* X_n, X_{n-1} scaled as in the last step, its F */
+  N_Vector *from, *to;          /* trial: X_n for another h, X_{n+1} */
+  N_Vector *x;                  /* X_n of the trial: at or from */
+  N_Vector before;
+  sunrealtype scale;  /* h that belongs to at */
+  sunrealtype *first; /* k x (p + 1): X_0 from the values of the start */
+  sunrealtype z[POWERS * DATA], finish[DATA], error[DATA]; /* rows of weights */
+  bool known[POWERS], estimates, dense, begun; /* begun: the trial is a first step */
+} state;
+
+static bool uses(const steif_glm *g, int j)
+{
+  for (int i = 0; i < g->k; i++)
+    if (g->W[i * (g->order + 1) + j] != 0) return true;
+  return false;
+}
+
+/* ---- opening ---- */
+
+static int rows(stf_step *s, state *e)
+{
+  const steif_glm *g = e->g;
+  sunrealtype target[POWERS + 1] = {0};
+  bool found = true;
+  e->dense = true;
+  for (int j = 0; j <= e->p; j++) {
+    target[j] = 1;
+    STEIF_TRY(stf_glm_combination(s->ctx, g, target, false, e->z + j * e->data, &e->known[j]));
+    target[j] = 0;
+    found = found && (e->known[j] || !uses(g, j));
+    e->dense = e->dense && e->known[j];
+  }
+  STEIF_TRY(stf_glm_solution(s->ctx, g, e->finish));
+  STEIF_CHECK(
+    found || s->h_equal > 0, s->ctx, STEIF_UNSUPPORTED,
+    "'%s' cannot change its step: X does not determine Nordsieck's vector; give equal "
+    "steps with h",
+    g->name);
+  target[e->p + 1] = g->error;
+  return stf_glm_combination(s->ctx, g, target, true, e->error, &e->estimates);
+}
+
+static int check(stf_step *s, const steif_glm *g)
+{
+  const enum steif_table_kind shape = stf_glm_shape(g);
+  STEIF_CHECK(shape != STEIF_COLLOCATION, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' has a full C: stages one after another are served, C lower triangular",
+              g->name);
+  bool explicit_ = false;
+  for (int i = 0; i < g->r; i++) explicit_ = explicit_ || g->C[i * (g->r + 1)] == 0;
+  STEIF_CHECK(!explicit_ || s->system.form == STEIF_ODE, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' has explicit stages, which need y' = f(t, y); problem '%s' has form %s",
+              g->name, s->problem->name, steif_form_name(s->system.form));
+  STEIF_CHECK(g->order <= STEIF_PAST, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' has order %d; %d is the highest served", g->name, g->order, STEIF_PAST);
+  return STEIF_OK;
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  state *e = s->state;
+  const steif_glm *g = e->g = table->general;
+  (void)spec;
+  e->k = g->k, e->r = g->r, e->p = g->order, e->data = 2 * e->k + e->r;
+  e->chain = (stf_chain){.s = g->r, .k = g->k, .A = g->C, .c = g->xi, .U = g->U};
+  STEIF_TRY(check(s, g));
+  STEIF_TRY(rows(s, e));
+  const int powers = stf_glm_powers(g), count = powers || e->estimates ? powers : 1;
+  const bool explicit_ = stf_glm_shape(g) == STEIF_EXPLICIT;
+  STEIF_TRY(stf_begin_open(s, count, e->p, explicit_, &e->begin));
+  e->first = stf_pool_array(s->pool, (size_t)(e->k * (count + 1)), sizeof *e->first);
+  if (!e->first) return STEIF_NO_MEMORY;
+  stf_glm_first(g, count, e->first);
+  STEIF_TRY(stf_chain_open(s, g->name, &e->chain));
+  e->at = stf_pool_vectors(s->pool, e->k, s->y);
+  e->past = stf_pool_vectors(s->pool, e->k, s->y);
+  e->from = stf_pool_vectors(s->pool, e->k, s->y);
+  e->to = stf_pool_vectors(s->pool, e->k, s->y);
+  e->slopes = stf_pool_vectors(s->pool, e->r, s->y);
+  e->before = stf_pool_vector(s->pool, s->y);
+  s->control.order = e->p, s->control.tolerance = 1;
+  s->control.grow = 2; /* history of a much shorter step is of little use */
+  return e->at && e->past && e->from && e->to && e->slopes && e->before ? STEIF_OK
+                                                                        : STEIF_NO_MEMORY;
+}
+
+/* ---- a step ---- */
+
+/* out = d (X_{n+1}; h F; X_n), where d is not 0. */
+static void combine(const stf_step *s, const sunrealtype *d, N_Vector *X, N_Vector *F,
+                    sunrealtype h, N_Vector *before, N_Vector out)
+{
+  const state *e = s->state;
+  sunrealtype weight[DATA];
+  N_Vector v[DATA];
+  int count = 0;
+  for (int i = 0; i < e->data; i++) {
+    if (d[i] == 0) continue;
+    const int f = i - e->k, b = f - e->r;
+    weight[count] = f >= 0 && b < 0 ? h * d[i] : d[i];
+    v[count++] = f < 0 ? X[i] : b < 0 ? F[f] : before[b];
+  }
+  stf_combine(&s->system.space, count, weight, v, out);
+}
+
+/* X_n for steps of length h. */
+static void rescale(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const int n = e->p + 1;
+  for (int i = 0; i < e->k; i++) {
+    sunrealtype row[DATA] = {0}, power = 1;
+    for (int j = 0; j < n; j++, power *= h / e->scale)
+      for (int m = 0; m < e->data && e->g->W[i * n + j] != 0; m++)
+        row[m] += e->g->W[i * n + j] * power * e->z[j * e->data + m];
+    combine(s, row, e->at, e->slopes, e->scale, e->past, e->from[i]);
+  }
+}
+
+static int history(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  e->x = e->from, e->begun = s->count == 0 || s->restart;
+  if (e->begun) {
+    STEIF_TRY(stf_begin_run(s, &e->begin, h));
+    stf_mix(&s->system.space, e->k, e->begin.count + 1, e->first, e->begin.value, e->from);
+    return STEIF_OK;
+  }
+  /* Lengths that differ by the rounding of the clock are the same. */
+  if (fabs(h - e->scale) <= 4 * STF_EPS * (fabs(s->t) + h))
+    e->x = e->at;
+  else
+    rescale(s, h);
+  return STEIF_OK;
+}
+
+static int advance(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const steif_glm *g = e->g;
+  for (int i = 0; i < e->k; i++) {
+    sunrealtype row[DATA] = {0};
+    memcpy(row + e->k, g->D + i * e->r, (size_t)e->r * sizeof *row);
+    memcpy(row + e->k + e->r, g->V + i * e->k, (size_t)e->k * sizeof *row);
+    combine(s, row, e->to, e->chain.K, h, e->x, e->to[i]);
+  }
+  combine(s, e->finish, e->to, e->chain.K, h, e->x, s->next);
+  if (!stf_finite(&s->system.space, s->next))
+    return STEIF_RECOVER(
+      s->ctx, STEIF_NOT_FINITE,
+      "the step of problem '%s' from t = %.12g with h = %.6g overflowed: the "
+      "step is too large for '%s'",
+      s->problem->name, s->t, h, g->name);
+  return STEIF_OK;
+}
+
+/* error h^{p+1} y^{(p+1)} from h^p y^(p) at both ends. */
+static void difference(stf_step *s, sunrealtype h, N_Vector out)
+{
+  state *e = s->state;
+  const sunrealtype *z = e->z + e->p * e->data;
+  const sunrealtype power = pow(h / e->scale, e->p);
+  sunrealtype now[DATA], before[DATA];
+  for (int i = 0; i < e->data; i++) now[i] = e->g->error * z[i], before[i] = power * now[i];
+  combine(s, now, e->to, e->chain.K, h, e->x, out);
+  combine(s, before, e->at, e->slopes, e->scale, e->past, s->error);
+  stf_axpy(&s->system.space, -1, s->error, out);
+}
+
+static int estimate(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const sunrealtype filter = e->chain.gamma > 0 ? 1 / (e->chain.gamma * h) : 1;
+  if (e->estimates)
+    combine(s, e->error, e->to, e->chain.K, h, e->x, e->chain.base);
+  else if (e->begun)
+    stf_sum(space, 1, s->next, -1, e->begin.value[e->begin.count], e->chain.base);
+  else
+    difference(s, h, e->chain.base);
+  stf_scale(space, filter, e->chain.base, e->chain.base);
+  return stf_chain_filter(s, &e->chain);
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  STEIF_TRY(history(s, h));
+  e->chain.guess = s->count > 0 && !s->restart ? e->slopes[e->r - 1] : NULL;
+  STEIF_TRY(stf_chain_run(s, &e->chain, 0, e->x, h));
+  STEIF_TRY(advance(s, h));
+  return s->adaptive ? estimate(s, h) : STEIF_OK;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  N_Vector *free1 = e->past, *free2 = e->x == e->at ? e->from : e->at, *F = e->slopes,
+           y = e->before;
+  e->past = e->x, e->at = e->to, e->to = free1, e->from = free2;
+  e->slopes = e->chain.K, e->chain.K = F;
+  e->scale = s->h_try;
+  e->before = s->y, s->y = s->next, s->next = y;
+  if (s->system.form == STEIF_IMPLICIT) stf_copy(&s->system.space, e->slopes[e->r - 1], s->yp);
+}
+
+/* Taylor's polynomial at the end of the step, or where it is not known the straight line. */
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  const state *e = s->state;
+  const sunrealtype x = (t - s->t) / s->h;
+  if (!e->dense) {
+    stf_sum(&s->system.space, 1 + x, s->y, -x, e->before, y);
+    return STEIF_OK;
+  }
+  sunrealtype d[DATA] = {0}, term = 1;
+  for (int j = 0; j <= e->p; j++, term *= x / j)
+    for (int m = 0; m < e->data; m++) d[m] += term * e->z[j * e->data + m];
+  combine(s, d, e->at, e->slopes, e->scale, e->past, y);
+  return STEIF_OK;
+}
+
+/* ---- the rest ---- */
+
+static int stages(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                  N_Vector **X)
+{
+  const state *e = s->state;
+  *count = e->r, *c = e->g->xi, *b = NULL, *X = e->chain.X;
+  return STEIF_OK;
+}
+
+static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                      const sunrealtype z[2], int *r, sunrealtype *M)
+{
+  (void)spec;
+  *r = table->general->k;
+  return M ? steif_glm_propagator(ctx, table->general, z, M) : STEIF_OK;
+}
+
+static int describe(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                    steif_method_info *info)
+{
+  const steif_glm *g = table->general;
+  sunrealtype target[POWERS + 1] = {0}, d[DATA];
+  bool estimates = false, damps = true;
+  (void)spec;
+  info->family = "glm", info->about = table->about;
+  info->order = g->order, info->stages = g->r, info->claims = table->claims;
+  if (g->order <= STEIF_PAST) {
+    target[g->order] = 1;
+    STEIF_TRY(stf_glm_combination(ctx, g, target, false, d, &estimates));
+    target[g->order] = 0, target[g->order + 1] = g->error;
+    if (!estimates) STEIF_TRY(stf_glm_combination(ctx, g, target, true, d, &estimates));
+    STEIF_TRY(stf_glm_rescales(ctx, g, &damps));
+  }
+  info->adaptive = estimates && damps && g->error != 0;
+  return STEIF_OK;
+}
+
+static const stf_tables tables = {
+  .kind = STEIF_GLM, .prefix = "glm", .example = "glm:nord22, glm:ab,p=3, glm:file=PATH"};
+
+static stf_example example(size_t i)
+{
+  static const char *const spec[] = {"glm:ab,p=2",
+                                     "glm:ab,p=3",
+                                     "glm:ab,p=4",
+                                     "glm:am,p=2",
+                                     "glm:am,p=3",
+                                     "glm:am,p=4",
+                                     "glm:bdf,p=3",
+                                     "glm:irks,p=1",
+                                     "glm:irks,p=2",
+                                     "glm:irks,p=3",
+                                     "glm:irks,p=4",
+                                     "glm:dimsim1,p=3",
+                                     "glm:dimsim1,p=4",
+                                     "glm:dimsim2,p=3",
+                                     "glm:dimsim2,p=4",
+                                     "glm:nordsieck,of=bdf,p=2",
+                                     "glm:nordsieck,of=bdf,p=4",
+                                     "glm:nordsieck,of=am,p=3",
+                                     "glm:nordsieck,of=am,p=5"};
+  return (stf_example){i < sizeof spec / sizeof *spec ? spec[i] : NULL, 4};
+}
+
+const steif_method steif_method_glm = {
+  .about = "general linear methods",
+  .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
+  .traits = STF_ADAPTIVE,
+  .tables = &tables,
+  .example = example,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+  .stages = stages,
+  .propagator = propagator,
+  .describe = describe,
+};

@@ -1,0 +1,334 @@
+/* irk.c: fully implicit Runge-Kutta methods (Gauss, Radau, Lobatto IIIC), all stages at once.
+ *
+ * Stages Y_i = y_n + Z_i with slopes Y_i' = (1/h) sum_m B_im Z_m, B = A^{-1}, are solved through
+ * the split of B. The polynomial of degree s with y_n at 0 and slopes Y_i' at c_i,
+ *   u(t_n + x h) = y_n + sum_j w_j(x) Z_j,   w(x)^T = (int_0^x l_i)_i^T B,
+ * gives the end value (w(1) = b^T B), the start of the next iteration and dense output.
+ * Error estimate (c_1 > 0): the shifted solve of -F(t_n, y_n, u'(t_n)) with the collocation
+ * polynomial through (0, y_n) and all stages; order s (Hairer and Wanner II, IV.8). Where the end is
+ * not a stage, of -F(t_n + h, y_{n+1}, u'(t_n + h)): stiff and algebraic components are off there.
+ * compensated=1: stages solved until rounding stops it, coefficients in two parts, and the end value
+ * a sum that remembers its rounding (E. Hairer, R. I. McLachlan and A. Razakarivony, BIT 48 (2008)).
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "kick_drift.h"
+#include "stage_polynomial.h"
+#include <math.h>
+
+typedef struct state {
+  const steif_table *table;
+  int s;
+  stf_stage_polynomial u;
+  sunrealtype *row_sum; /* B 1 */
+  sunrealtype filter;   /* blended iteration: weight gamma_0 of the estimate */
+  stf_estimate higher_order;
+  sunrealtype omega;   /* frequency of the fastest part if that oscillates; 0: it does not */
+  long omega_of;       /* Jacobians made when omega was found */
+  long fails;          /* of Newton up to the accepted step */
+  N_Vector *Z, *trial; /* of the last step and of the attempt, relative to y_n */
+  N_Vector *base, *offset, *X;
+  N_Vector before; /* y_n of the last step */
+  N_Vector work, imaginary;
+  N_Vector lost, next_lost; /* what rounding took from y and from the trial; NULL: not kept */
+  stf_parts parts;          /* of B and of w(1), where that is kept */
+  bool history;
+} state;
+
+static int claim(stf_step *s, state *e)
+{
+  const size_t count = (size_t)e->s;
+  e->row_sum = stf_pool_array(s->pool, count, sizeof *e->row_sum);
+  e->Z = stf_pool_vectors(s->pool, e->s, s->y);
+  e->trial = stf_pool_vectors(s->pool, e->s, s->y);
+  e->X = stf_pool_vectors(s->pool, e->s, s->y);
+  e->base = stf_pool_array(s->pool, count, sizeof *e->base);
+  e->offset = s->absolute ? stf_pool_vectors(s->pool, e->s, s->y) : e->base;
+  e->before = stf_pool_vector(s->pool, s->y);
+  e->work = stf_pool_vector(s->pool, s->y);
+  e->imaginary = stf_pool_vector(s->pool, s->y);
+  return e->imaginary && e->row_sum && e->Z && e->trial && e->X && e->base && e->offset &&
+             e->before && e->work
+           ? STEIF_OK
+           : STEIF_NO_MEMORY;
+}
+
+static int open_sums(stf_step *s, const steif_spec *spec)
+{
+  state *e = s->state;
+  int compensated;
+  STEIF_TRY(stf_spec_int(s->ctx, spec, "compensated", 0, 1, 0, &compensated));
+  if (!compensated) return STEIF_OK;
+  STEIF_CHECK(!s->absolute, s->ctx, STEIF_UNSUPPORTED,
+              "compensated=1 of '%s' is for problems that are not of form descriptor",
+              spec->name);
+  STEIF_TRY(stf_transform_parts(s->pool, s->ctx, e->table, &e->parts));
+  for (int i = 0; i < 2; i++) s->newton.B_part[i] = e->parts.B[i];
+  e->lost = stf_pool_vector(s->pool, s->y);
+  e->next_lost = stf_pool_vector(s->pool, s->y);
+  return e->lost && e->next_lost ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+/* Sparse factors cost many solves: one real matrix is factored in place of s, and serves steps within
+ * a ratio of 2. The iteration converges linearly however exact the Jacobian: renewed when it does
+ * worse than 0.4, or with the factors. */
+static int blend(stf_step *s)
+{
+  state *e = s->state;
+  stf_newton *newton = &s->newton;
+  const sunrealtype re = newton->transform.re[0], im = newton->transform.im[0];
+  e->filter = re / (re * re + im * im);
+  newton->shift_ratio_most = 2, newton->renew_with_factors = true, newton->stale_rate = 0.4;
+  if (!s->options->iterations) newton->iterations = 14;
+  if (!(s->options->newton > 0) && s->problem->dae_index < 2) newton->tolerance = 0.03;
+  return stf_newton_blend(s->pool, s->table, newton);
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  state *e = s->state;
+  stf_transform transform;
+  e->table = table, e->s = table->s;
+  if (!(table->claims & STEIF_STIFFLY_ACCURATE)) STEIF_TRY(stf_check_index(s, table->name));
+  STEIF_TRY(stf_transform_build(s->pool, s->ctx, table, &transform));
+  STEIF_TRY(stf_newton_open(s->pool, &s->system, &transform, s->weights, &s->newton));
+  STEIF_TRY(claim(s, e));
+  STEIF_TRY(open_sums(s, spec));
+  STEIF_TRY(stf_stage_polynomial_open(s->pool, table, transform.B, &e->u));
+  for (int j = 0; j < e->s; j++) {
+    e->row_sum[j] = 0;
+    for (int m = 0; m < e->s; m++) e->row_sum[j] += transform.B[j * e->s + m];
+  }
+  STEIF_CHECK(!s->adaptive || table->c[0] > 0, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' has no error estimate (its first node is 0): give steps with h",
+              table->name);
+  if (s->adaptive && !(s->options->newton > 0))
+    s->newton.tolerance = s->problem->dae_index >= 3 ? 1e-6 : 1e-4;
+  if (s->adaptive && s->table->s > 1 && !s->system.linear && s->system.storage == STEIF_SPARSE)
+    STEIF_TRY(blend(s));
+  stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
+  return STEIF_OK;
+}
+
+/* Stage increments of the next step from the last one's; zero for linear systems, whose one solve
+ * needs no start. */
+static void predict(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  if (s->system.linear) return;
+  if (!e->history || s->restart) {
+    for (int j = 0; j < e->s; j++) stf_zero(space, e->trial[j]);
+    return;
+  }
+  stf_mix(space, e->s, e->s, stf_stage_polynomial_ahead(&e->u, h / s->h), e->Z, e->trial);
+}
+
+/* error = -(lambda/h E - A)^{-1} F(t, y, u') with the real lane; with a pair the quadratic filter
+ * -(re/im) Im of the complex solve, or its real part, which keeps stiff components; with the one
+ * shift sigma of the blended iteration -sigma h gamma_0 (sigma E - A)^{-1} F, gamma_0 = 1/lambda or
+ * re/|lambda|^2. */
+static int filtered(stf_step *s, sunrealtype h, sunrealtype t, N_Vector y)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const stf_transform *transform = &s->newton.transform;
+  const bool blended = s->newton.gamma > 0, real = blended || transform->im[0] == 0;
+  STEIF_TRY(stf_system_residual(&s->system, t, y, e->work, s->error));
+  if (!real) stf_zero(space, e->imaginary);
+  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, real ? NULL : &e->imaginary));
+  if (blended)
+    stf_scale(space, -e->filter * s->newton.shift * h, s->error, s->error);
+  else if (real || !e->u.accurate)
+    stf_scale(space, -1, s->error, s->error);
+  else
+    stf_scale(space, transform->re[0] / transform->im[0], e->imaginary, s->error);
+  return STEIF_OK;
+}
+
+static int estimate_end(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  N_Vector first = e->X[0];
+  STEIF_TRY(filtered(s, h, s->t + h, s->next));
+  const int rounds = stf_filter_rounds(s);
+  N_VConst(0, first);
+  for (int k = 0; k < rounds; k++) {
+    stf_axpy(space, 1, s->error, first);
+    stf_sum(space, 1, s->next, 1, first, s->newton.Y);
+    STEIF_TRY(filtered(s, h, s->t + h, s->newton.Y));
+  }
+  return stf_test_undamped(s, first, rounds, s->newton.fails > e->fails);
+}
+
+/* Of the components of index 1: others begin at the error of the last step. */
+static sunrealtype size(stf_step *s, const sunrealtype *weight)
+{
+  state *e = s->state;
+  const int *index = s->problem->index;
+  stf_combine(&s->system.space, e->s, weight, e->trial, e->work);
+  sunrealtype *work = index ? N_VGetArrayPointer(e->work) : NULL;
+  for (sunindextype i = 0; work && i < s->problem->n; i++)
+    if (index[i] > 1) work[i] = 0;
+  return stf_norm(&s->system.space, e->work, s->weights);
+}
+
+/* Oscillations that a step does not resolve take from the higher order. */
+static int set_tolerance(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  if (s->system.nje != e->omega_of) {
+    e->omega_of = s->system.nje;
+    stf_sum(&s->system.space, 1, s->next, -1, s->y, e->work);
+    STEIF_TRY(stf_oscillation(s, e->work, e->X[0], e->imaginary, &e->omega));
+  }
+  stf_estimate_set(s, &e->higher_order, size(s, e->higher_order.top),
+                   size(s, e->higher_order.below));
+  if (e->omega * h > 1) stf_estimate_none(s, &e->higher_order);
+  return STEIF_OK;
+}
+
+static int estimate(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  STEIF_TRY(set_tolerance(s, h));
+  sunrealtype slope[STEIF_STAGES];
+  for (int j = 0; j < e->s; j++) slope[j] = e->u.slope[j] / h;
+  stf_combine(space, e->s, slope, e->trial, e->work);
+  if (!e->u.accurate) return estimate_end(s, h);
+  STEIF_TRY(filtered(s, h, s->t, s->y));
+  if (!stf_filters_twice(s)) return STEIF_OK;
+  if (stf_norm(space, s->error, s->weights) <= s->control.tolerance) return STEIF_OK;
+  stf_sum(space, 1, s->y, 1, s->error, s->newton.Y);
+  return filtered(s, h, s->t, s->newton.Y);
+}
+
+static int solve(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  stf_stages g = {.t = s->t, .h = h, .c = e->table->c, .Z = e->trial};
+  if (!s->absolute) {
+    for (int j = 0; j < e->s; j++) e->base[j] = s->y;
+    g.base = e->base;
+    STEIF_TRY(stf_solve_stages(s, &g));
+    return e->lost ? stf_newton_polish(&s->newton, &g) : STEIF_OK;
+  }
+  for (int j = 0; j < e->s; j++) stf_scale(space, -e->row_sum[j] / h, s->y, e->offset[j]);
+  g.offset = e->offset;
+  STEIF_TRY(stf_solve_stages(s, &g));
+  if (e->u.accurate) stf_copy(space, e->trial[e->s - 1], s->next);
+  for (int j = 0; j < e->s; j++) stf_axpy(space, -1, s->y, e->trial[j]);
+  return STEIF_OK;
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  predict(s, h);
+  STEIF_TRY(solve(s, h));
+  if (e->lost) {
+    stf_combine(space, e->s, e->parts.w[0], e->trial, e->work);
+    stf_combine(space, e->s, e->parts.w[1], e->trial, e->imaginary);
+    stf_axpy(space, 1, e->imaginary, e->work);
+    stf_add_compensated(space, e->work, (stf_point){s->y, e->lost},
+                        (stf_point){s->next, e->next_lost});
+  } else if (!e->u.accurate) {
+    stf_combine(space, e->s, e->u.end, e->trial, s->next);
+    stf_axpy(space, 1, s->y, s->next);
+  } else if (!s->absolute)
+    stf_sum(space, 1, s->y, 1, e->trial[e->s - 1], s->next);
+  if (!s->adaptive) return STEIF_OK;
+  STEIF_TRY(estimate(s, h));
+  stf_estimate_levels(s);
+  return STEIF_OK;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  N_Vector *Z = e->Z, y = e->before;
+  e->Z = e->trial, e->trial = Z;
+  e->before = s->y, s->y = s->next, s->next = y;
+  N_Vector lost = e->lost;
+  e->lost = e->next_lost, e->next_lost = lost;
+  e->history = true, e->fails = s->newton.fails;
+  if (s->system.form == STEIF_IMPLICIT)
+    stf_copy(&s->system.space, s->newton.Zp[e->s - 1], s->yp);
+}
+
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  const state *e = s->state;
+  sunrealtype x[STEIF_STAGES];
+  for (int j = 0; j < e->s; j++)
+    x[j] = stf_stage_polynomial_weight(&e->u, j, (t - (s->t - s->h)) / s->h);
+  stf_combine(&s->system.space, e->s, x, e->Z, y);
+  stf_axpy(&s->system.space, 1, e->before, y);
+  return STEIF_OK;
+}
+
+static int stages(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                  N_Vector **X)
+{
+  const state *e = s->state;
+  *count = e->s, *c = e->table->c, *b = e->table->b, *X = e->X;
+  for (int j = 0; j < e->s; j++) stf_sum(&s->system.space, 1, e->before, 1, e->Z[j], e->X[j]);
+  return STEIF_OK;
+}
+
+static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                      const sunrealtype z[2], int *r, sunrealtype *M)
+{
+  (void)spec;
+  sunrealtype R[2];
+  STEIF_TRY(steif_table_stability(ctx, table, z, R));
+  stf_propagate_scalar(R, r, M);
+  return STEIF_OK;
+}
+
+static int describe(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                    steif_method_info *info)
+{
+  int compensated;
+  STEIF_TRY(stf_spec_int(ctx, spec, "compensated", 0, 1, 0, &compensated));
+  info->family = "irk", info->about = table->about;
+  info->order = table->order, info->stages = table->s, info->claims = table->claims;
+  info->adaptive = table->c[0] > 0;
+  return STEIF_OK;
+}
+
+static const stf_tables tables = {.kind = STEIF_COLLOCATION};
+
+static stf_example example(size_t i)
+{
+  static const char *const spec[] = {
+    "gauss:s=1",   "gauss:s=2",     "gauss:s=3",     "gauss:s=4",    "gauss:s=5", "radau:s=1",
+    "radau:s=2",   "radau:s=3",     "radau:s=4",     "radau:s=5",    "radau:s=7", "radau1a:s=2",
+    "radau1a:s=3", "lobatto3c:s=2", "lobatto3c:s=3", "lobatto3c:s=4"};
+  return (stf_example){i < sizeof spec / sizeof *spec ? spec[i] : NULL, 1};
+}
+
+static const steif_method *variant(const stf_step *s)
+{
+  return stf_interleaved_serves(s) ? &steif_method_irk_interleaved : NULL;
+}
+
+const steif_method steif_method_irk = {
+  .about = "fully implicit Runge-Kutta",
+  .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
+  .traits = STF_ADAPTIVE,
+  .tables = &tables,
+  .example = example,
+  .variant = variant,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+  .stages = stages,
+  .propagator = propagator,
+  .describe = describe,
+};

@@ -1,0 +1,265 @@
+/* rosenbrock.c: linearly implicit methods with one real shift and no iteration (rosenbrock_data.h): few digits,
+ * smooth problems.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "lu.h"
+#include "method.h"
+#include <complex.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct state {
+  const stf_rodas *r;
+  stf_newton *newton;
+  N_Vector u[STF_RODAS_STAGES], old[STF_RODAS_STAGES]; /* of the trial, of the last step */
+  N_Vector Y, sum, ft, f0, before;
+  bool have_f0;  /* f0 = f(t_n, y_n), ft = df/dt there */
+  bool unrolled; /* the stages run through `kernel` */
+  stf_rosenbrock kernel;
+  sunrealtype h_factored;
+} state;
+
+static const stf_rodas *find(const char *name)
+{
+  for (size_t i = 0; i < stf_rodas_count; i++)
+    if (!strcmp(stf_rodas_tables[i].name, name)) return stf_rodas_tables + i;
+  return NULL;
+}
+
+/* Serial vectors and dense matrices of few unknowns. */
+static bool serves(const stf_step *s)
+{
+  return s->system.space.serial && s->system.storage == STEIF_DENSE &&
+         s->problem->n <= STF_ROSENBROCK;
+}
+
+static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
+{
+  (void)table;
+  state *e = s->state;
+  stf_transform transform;
+  e->r = find(spec->name);
+  STEIF_TRY(stf_check_index(s, spec->name));
+  STEIF_TRY(stf_transform_single(s->pool, 1 / e->r->g, &transform));
+  STEIF_TRY(stf_newton_open(s->pool, &s->system, &transform, s->weights, &s->newton));
+  N_Vector *const all[] = {&e->Y, &e->sum, &e->ft, &e->f0, &e->before};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+    if (!(*all[i] = stf_pool_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
+  for (int i = 0; i < e->r->s; i++)
+    if (!(e->u[i] = stf_pool_vector(s->pool, s->y)) ||
+        !(e->old[i] = stf_pool_vector(s->pool, s->y)))
+      return STEIF_NO_MEMORY;
+  e->unrolled = serves(s);
+  if (e->unrolled) stf_system_rosenbrock_open(&s->system, &e->kernel);
+  s->newton.jacobian_new = false;
+  STEIF_TRY(stf_share_open(s, spec->name, e->r->order - 1, e->r->order));
+  s->control.tolerance =
+    fmin(0.1, 10 * s->control.tolerance); /* the estimate of Rodas is generous */
+  return STEIF_OK;
+}
+
+/* f at the accepted point and its slope in t. */
+static int start(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  STEIF_TRY(stf_system_rhs(&s->system, s->t, s->y, e->f0));
+  STEIF_TRY(stf_slope_in_time(s, h, e->f0, e->ft, e->sum));
+  e->have_f0 = stf_finite(&s->system.space, e->f0) && stf_finite(&s->system.space, e->ft);
+  return STEIF_OK;
+}
+
+/* Y_i, the argument of stage i. */
+static void argument(stf_step *s, int i)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  if (i >= e->r->rows) {
+    stf_axpy(space, 1, e->u[i - 1], e->Y);
+    return;
+  }
+  stf_combine(space, i, e->r->a + i * (i - 1) / 2, e->u, e->Y);
+  stf_axpy(space, 1, s->y, e->Y);
+}
+
+static int stage(stf_step *s, int i, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_rodas *r = e->r;
+  const stf_space *space = &s->system.space;
+  sunrealtype c[STF_RODAS_STAGES];
+  argument(s, i);
+  if (i == 0)
+    stf_copy(space, e->f0, e->u[0]);
+  else
+    STEIF_TRY(stf_system_rhs(&s->system, s->t + r->alpha[i] * h, e->Y, e->u[i]));
+  if (r->gamma[i] != 0 && !s->problem->autonomous)
+    stf_axpy(space, r->gamma[i] * h, e->ft, e->u[i]);
+  if (i > 0) {
+    for (int j = 0; j < i; j++) c[j] = r->c[i * (i - 1) / 2 + j] / h;
+    stf_combine(space, i, c, e->u, e->sum);
+    if (s->system.form == STEIF_MASS) {
+      STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', e->sum, s->error));
+      stf_axpy(space, 1, s->error, e->u[i]);
+    } else
+      stf_axpy(space, 1, e->sum, e->u[i]);
+  }
+  return steif_pencil_solve(s->system.pencil, 0, 1, &e->u[i], NULL);
+}
+
+static bool stale(const stf_step *s)
+{
+  return !s->newton.jacobian_new && (s->count > 0 || s->restart);
+}
+
+static int stages(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const int last = e->r->s - 1;
+  STEIF_TRY(stf_newton_prepare(&s->newton, s->t, h, s->y, s->yp, stale(s)));
+  s->newton.jacobian_new = true;
+  for (int i = 0; i <= last; i++) STEIF_TRY(stage(s, i, h));
+  stf_sum(&s->system.space, 1, e->Y, 1, e->u[last], s->next);
+  return STEIF_OK;
+}
+
+static int prepare_unrolled(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  if (stale(s) && !s->system.linear) {
+    e->h_factored = 0;
+    STEIF_TRY(stf_system_matrices(&s->system, s->t, s->y, s->yp));
+  }
+  s->newton.jacobian_new = true;
+  if (e->h_factored == h) return STEIF_OK;
+  e->h_factored = 0;
+  s->factors++;
+  STEIF_TRY(stf_system_rosenbrock(&s->system, &e->kernel, e->r->g, s->t, h));
+  e->h_factored = h;
+  return STEIF_OK;
+}
+
+static int stages_unrolled(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  STEIF_TRY(prepare_unrolled(s, h));
+  const stf_rodas *r = e->r;
+  stf_rosenbrock_stage g = {.h = h, .y = STF_ARRAY(s->y), .Y = STF_ARRAY(e->Y)};
+  for (int i = 0; i < r->s; i++) g.u[i] = STF_ARRAY(e->u[i]);
+  stf_copy(&s->system.space, s->y, e->Y);
+  g.ft = STF_ARRAY(e->ft);
+  for (int i = 0; i < r->s; i++) {
+    N_Vector f = i == 0 ? e->f0 : e->sum;
+    if (i > 0) STEIF_TRY(stf_system_rhs(&s->system, s->t + r->alpha[i] * h, e->Y, f));
+    g.i = i, g.f = STF_ARRAY(f), g.c = r->c + i * (i - 1) / 2;
+    g.a = i + 1 < r->rows ? r->a + i * (i + 1) / 2 : NULL;
+    g.slope = s->problem->autonomous ? 0 : r->gamma[i] * h;
+    stf_rosenbrock_solve(&e->kernel, &g);
+  }
+  s->solves += r->s;
+  stf_copy(&s->system.space, e->Y, s->next);
+  return STEIF_OK;
+}
+
+static int attempt(stf_step *s, sunrealtype h)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const int last = e->r->s - 1;
+  if (!e->have_f0) STEIF_TRY(start(s, h));
+  STEIF_TRY(e->unrolled ? stages_unrolled(s, h) : stages(s, h));
+  stf_copy(space, e->u[last], s->error);
+  if (!stf_finite(space, s->next))
+    return STEIF_RECOVER(s->ctx, STEIF_NOT_FINITE,
+                         "the step of problem '%s' from t = %.12g with h = %.6g is not finite",
+                         s->problem->name, s->t, h);
+  return STEIF_OK;
+}
+
+static void commit(stf_step *s)
+{
+  state *e = s->state;
+  stf_copy(&s->system.space, s->y, e->before);
+  for (int i = 0; i < e->r->s; i++) {
+    N_Vector u = e->old[i];
+    e->old[i] = e->u[i], e->u[i] = u;
+  }
+  e->have_f0 = false;
+  stf_swap(s);
+}
+
+/* (1 - x) y_n + x y_{n+1} + x (1 - x) sum (d_i + x d_{s+i}) u_i. */
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  const state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const sunrealtype x = (t - (s->t - s->h)) / s->h, *d = e->r->d;
+  sunrealtype c[STF_RODAS_STAGES];
+  const int count = e->r->s;
+  for (int i = 0; i < count; i++) c[i] = x * (1 - x) * (d[i] + x * d[count + i]);
+  stf_combine(space, count, c, e->old, y);
+  stf_axpy(space, 1 - x, e->before, y);
+  stf_axpy(space, x, s->y, y);
+  return STEIF_OK;
+}
+
+/* The step on y' = lambda y with exact Jacobian: u_i solved in complex arithmetic. */
+static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                      const sunrealtype z[2], int *r, sunrealtype *M)
+{
+  (void)table;
+  const stf_rodas *t = find(spec->name);
+  const double complex zeta = z[0] + z[1] * I, pivot = 1 / t->g - zeta;
+  double complex u[STF_RODAS_STAGES], Y = 1;
+  sunrealtype R[2] = {0, 0};
+  if (isfinite(z[0]) && isfinite(z[1])) {
+    STEIF_CHECK(cabs(pivot) > 0, ctx, STEIF_SINGULAR, "z = %.17g is the pole of '%s'", z[0],
+                spec->name);
+    for (int i = 0; i < t->s; i++) {
+      const sunrealtype *a = t->a + i * (i - 1) / 2, *c = t->c + i * (i - 1) / 2;
+      double complex sum = 0;
+      Y = i < t->rows ? 1 : Y + u[i - 1];
+      for (int j = 0; j < i; j++) {
+        if (i < t->rows) Y += a[j] * u[j];
+        sum += c[j] * u[j];
+      }
+      u[i] = (zeta * Y + sum) / pivot;
+    }
+    Y += u[t->s - 1];
+    R[0] = creal(Y), R[1] = cimag(Y);
+  }
+  stf_propagate_scalar(R, r, M);
+  return STEIF_OK;
+}
+
+static int describe(steif_context *ctx, const steif_spec *spec, const steif_table *table,
+                    steif_method_info *info)
+{
+  (void)table;
+  STEIF_TRY(stf_spec_only(ctx, spec, (const char *const[]){NULL}));
+  const stf_rodas *r = find(spec->name);
+  info->family = "rosenbrock", info->about = r->about;
+  info->order = r->order, info->stages = r->s, info->adaptive = 1;
+  info->claims = STEIF_A_STABLE | STEIF_L_STABLE;
+  return STEIF_OK;
+}
+
+static bool owns(const char *name) { return find(name); }
+
+static stf_example example(size_t i)
+{
+  return (stf_example){i < stf_rodas_count ? stf_rodas_tables[i].name : NULL, 2};
+}
+
+const steif_method steif_method_rosenbrock = {
+  .about = "Rosenbrock methods of Rodas type",
+  .forms = STEIF_ODE | STEIF_MASS,
+  .traits = STF_ADAPTIVE | STF_UNCORRECTED,
+  .owns = owns,
+  .example = example,
+  .size = sizeof(state),
+  .open = open,
+  .attempt = attempt,
+  .commit = commit,
+  .dense = dense,
+  .propagator = propagator,
+  .describe = describe,
+};

@@ -1,0 +1,24 @@
+/* sparse.h: what sparse.c holds for a pencil: KLU's objects, or fronts.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_SPARSE_H
+#define STF_SPARSE_H
+
+#include "lu.h"
+#include "sum_pattern.h"
+#include <klu.h>
+
+/* out = E x or A x. */
+int stf_sparse_product(steif_pencil *p, char which, N_Vector x, N_Vector out);
+/* The pattern of a sparse pencil and KLU's analysis of it; of a factored slot s E - A
+ * on it, and its factors. */
+const stf_pattern *stf_sparse_pattern(const steif_pencil *p);
+klu_l_symbolic *stf_sparse_symbolic(const steif_pencil *p);
+const double *stf_sparse_values(const steif_pencil *p, int slot);
+klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot);
+/* The fronts whose factors a slot has in use, and these; NULL: KLU's are. */
+const stf_multifrontal *stf_sparse_fronts(const steif_pencil *p, int slot,
+                                          const double **factors);
+/* The reciprocal pivot growth down to which pivots in use are kept. */
+double stf_sparse_growth(const steif_pencil *p, int slot);
+
+#endif

@@ -1,0 +1,141 @@
+/* operator.c: the pencil of a problem known by products, and its preconditioner: callbacks, or the
+ * incomplete factors of the matrices of a sparse problem.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "problem.h"
+#include <math.h>
+
+int stf_operator_remember(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  const steif_problem *p = s->problem;
+  s->at_t = t;
+  stf_copy(&s->space, y, s->at_y);
+  stf_copy(&s->space, yp, s->at_yp);
+  return p->Av && !p->precsolve ? STEIF_OK : stf_system_residual(s, t, y, yp, s->at_f);
+}
+
+/* -- products by callbacks --------------------------------------------------------------------- */
+
+static int product_E(N_Vector x, N_Vector out, void *user)
+{
+  stf_system *s = user;
+  return s->problem->Ev(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
+}
+
+/* A x = -F_y x by one difference along x, of any length where F is linear; the residual at the point is
+ * at_f. */
+static int difference_A(stf_system *s, N_Vector x, N_Vector out)
+{
+  const sunrealtype size = sqrt(N_VDotProd(x, x));
+  if (!(size > 0)) {
+    stf_zero(&s->space, out);
+    return 0;
+  }
+  const sunrealtype length = s->linear ? 1 : sqrt(STF_EPS);
+  const sunrealtype step = length * (s->scale + sqrt(N_VDotProd(s->at_y, s->at_y))) / size;
+  stf_sum(&s->space, 1, s->at_y, step, x, s->work[4]);
+  const int code = stf_system_residual(s, s->at_t, s->work[4], s->at_yp, s->work[5]);
+  stf_sum(&s->space, 1 / step, s->at_f, -1 / step, s->work[5], out);
+  return code;
+}
+
+static int product_A(N_Vector x, N_Vector out, void *user)
+{
+  stf_system *s = user;
+  if (!s->problem->Av) return difference_A(s, x, out);
+  return s->problem->Av(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
+}
+
+static int prepare(sunrealtype shift, void *user)
+{
+  stf_system *s = user;
+  const steif_problem *p = s->problem;
+  if (!p->precsetup) return 0;
+  return p->precsetup(s->at_t, s->at_y, s->at_yp, s->at_f, shift, p->user);
+}
+
+static int precondition(sunrealtype shift, N_Vector r, N_Vector z, sunrealtype tolerance,
+                        void *user)
+{
+  stf_system *s = user;
+  const steif_problem *p = s->problem;
+  (void)tolerance;
+  return p->precsolve(s->at_t, s->at_y, s->at_yp, s->at_f, r, z, shift, 0, p->user);
+}
+
+static int claim(stf_pool *pool, stf_system *s, const steif_operator *op)
+{
+  s->pencil = steif_pencil_new_operator(s->ctx, op, s->space.like);
+  if (!s->pencil) return steif_status(s->ctx);
+  return stf_pool_adopt(pool, s->pencil, stf_system_destroy_pencil);
+}
+
+int stf_operator_open(stf_pool *pool, stf_system *s)
+{
+  const steif_problem *p = s->problem;
+  const bool has_E = s->form != STEIF_ODE;
+  STEIF_CHECK(!has_E || p->Ev, s->ctx, STEIF_UNSUPPORTED,
+              "problem '%s' of form %s needs the product .Ev for Krylov storage", p->name,
+              steif_form_name(s->form));
+  STEIF_CHECK(s->form != STEIF_DESCRIPTOR || p->Av, s->ctx, STEIF_UNSUPPORTED,
+              "problem '%s' of form descriptor needs the product .Av for Krylov storage",
+              p->name);
+  if (!(s->at_y = stf_pool_vector(pool, s->space.like)) ||
+      !(s->at_yp = stf_pool_vector(pool, s->space.like)) ||
+      !(s->at_f = stf_pool_vector(pool, s->space.like)))
+    return STEIF_NO_MEMORY;
+  return claim(pool, s,
+               &(steif_operator){.E = has_E ? product_E : NULL,
+                                 .A = product_A,
+                                 .prepare = p->precsolve ? prepare : NULL,
+                                 .precondition = p->precsolve ? precondition : NULL,
+                                 .user = s});
+}
+
+/* -- products and preconditioner by matrices ----------------------------------------------------- */
+
+bool stf_operator_has_near(const stf_system *s)
+{
+  const steif_problem *p = s->problem;
+  const bool fills_A =
+    p->A || p->pattern || (s->form == STEIF_IMPLICIT ? p->idajac != NULL : p->jac != NULL);
+  const bool fills_E = s->form == STEIF_ODE || p->E || (s->form == STEIF_IMPLICIT && fills_A);
+  return s->krylov && p->storage == STEIF_SPARSE && !p->precsolve && fills_A && fills_E &&
+         (s->space.serial || N_VGetArrayPointer(s->space.like));
+}
+
+static int near_E(N_Vector x, N_Vector out, void *user)
+{
+  return steif_pencil_product(((stf_system *)user)->near, 'E', x, out);
+}
+
+static int near_A(N_Vector x, N_Vector out, void *user)
+{
+  return steif_pencil_product(((stf_system *)user)->near, 'A', x, out);
+}
+
+static int near_prepare(sunrealtype shift, void *user)
+{
+  return steif_pencil_factor(((stf_system *)user)->near, 1, &(steif_shift){shift, 0});
+}
+
+static int near_solve(sunrealtype shift, N_Vector r, N_Vector z, sunrealtype tolerance,
+                      void *user)
+{
+  stf_system *s = user;
+  (void)shift, (void)tolerance;
+  stf_copy(&s->space, r, z);
+  return steif_pencil_solve(s->near, 0, 1, &z, NULL);
+}
+
+int stf_operator_open_near(stf_pool *pool, stf_system *s)
+{
+  s->near = steif_pencil_new_incomplete(s->ctx, s->E, s->A);
+  if (!s->near) return steif_status(s->ctx);
+  STEIF_TRY(stf_pool_adopt(pool, s->near, stf_system_destroy_pencil));
+  return claim(pool, s,
+               &(steif_operator){.E = s->E ? near_E : NULL,
+                                 .A = near_A,
+                                 .prepare = near_prepare,
+                                 .precondition = near_solve,
+                                 .user = s});
+}

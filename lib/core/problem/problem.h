@@ -1,0 +1,107 @@
+/* problem.h: the problem room inside: every form lowered to one residual and one pencil.
+ *
+ *   F(t, y, y') with E = dF/dy', A = -dF/dy:
+ *   ode          y' - f(t, y)             E = I,  A = df/dy
+ *   mass         M y' - f(t, y)           E = M,  A = df/dy
+ *   implicit     F(t, y, y')              E = F_y', A = -F_y
+ *   descriptor   E y' - A y - g(t)
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_PROBLEM_H
+#define STF_PROBLEM_H
+
+#include "base.h"
+#include "lu.h"
+#include "space.h"
+#include <steif/pencil.h>
+#include <steif/problem.h>
+
+typedef struct stf_groups stf_groups;
+
+typedef struct stf_system {
+  steif_context *ctx;
+  const steif_problem *problem;
+  stf_space space;
+  int form;
+  bool linear;                /* constant E and A: linearised once */
+  enum steif_storage storage; /* of E and A */
+  bool krylov;                /* the pencil is an operator */
+  steif_pencil *pencil;
+  steif_pencil *near; /* operators: ILU(0) of E and A; NULL: there are no matrices */
+  SUNMatrix E, A;     /* owned; E NULL: identity */
+  sunrealtype scale;  /* floor of |y_j| in difference increments: atol / rtol */
+  stf_groups *groups; /* columns that may be moved together */
+  N_Vector work[6];
+  N_Vector at_y, at_yp, at_f; /* point of the last linearisation (operators only) */
+  sunrealtype at_t;
+  bool filled;
+  sunrealtype weight; /* of g in the residual of the descriptor form, 1 */
+  long nfe, nje;
+} stf_system;
+
+/* Everything is claimed from the pool. The first linearisation is made at (t0, y, yp), the
+ * start values that stf_system_start has filled in. */
+int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem, int form,
+                    enum steif_storage storage, sunrealtype scale, N_Vector y, N_Vector yp,
+                    stf_system *system);
+
+/* r = F(t, y, yp). r must differ from y and yp. */
+int stf_system_residual(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp, N_Vector r);
+/* out = f(t, y) of the ode and mass forms. */
+int stf_system_rhs(stf_system *system, sunrealtype t, N_Vector y, N_Vector out);
+/* E and A at (t, y, yp) into the pencil; nothing for a linear system already filled. */
+int stf_system_linearise(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
+/* The same into system->E and system->A only, for families with factors of their own. */
+int stf_system_matrices(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
+/* own_factors.c, for those who do not see matrices. E of a dense system by rows, from the pool; NULL for
+ * the identity. */
+int stf_system_mass(stf_pool *pool, const stf_system *system, sunrealtype **M);
+/* Factors of lambda/h E - A or 1/(gamma h) E - A by lu.h, dense systems only; STEIF_RETRY where they cannot
+ * be made in the step from t. */
+int stf_system_interleave(const stf_system *system, stf_interleaved *L, sunrealtype t,
+                          sunrealtype h);
+void stf_system_rosenbrock_open(const stf_system *system, stf_rosenbrock *R);
+int stf_system_rosenbrock(const stf_system *system, stf_rosenbrock *R, sunrealtype gamma,
+                          sunrealtype t, sunrealtype h);
+/* Sparse: entries of A and of its factors, and their flops; negative: not known. */
+double stf_system_fill(const stf_system *system, double *entries, double *fill);
+/* out_i += weight() a_ij x_j over all entries stored of A, column by column; needs host arrays. */
+void stf_system_add_entries(const stf_system *system, sunrealtype (*weight)(void *data),
+                            void *data, const sunrealtype *x, sunrealtype *out);
+
+/* Start values into y and yp: y' is given, or f for the ode form, else left as it is; *known
+ * tells whether yp can be relied on. */
+int stf_system_start(steif_context *ctx, const steif_problem *problem, int form,
+                     const stf_space *space, N_Vector y, N_Vector yp, bool *known);
+
+/* STEIF_BAD_INPUT where problem.index declares less than E and A at the start show. */
+int stf_index_check(stf_system *system);
+
+/* Is the problem complete for this kind of storage? */
+int stf_storage_check(steif_context *ctx, const steif_problem *problem,
+                      enum steif_storage storage);
+
+/* "'lambda'", or "y3" without names; `room` has STEIF_SPEC_WORD characters. */
+const char *stf_unknown(const steif_problem *problem, sunindextype i, char *room);
+
+/* The 0-based component that is not finite, or -1. Needs a host array (else -1). */
+sunindextype stf_not_finite(N_Vector v);
+
+/* operator.c: pencils known by products. Operators are applied at a point: remember it. */
+int stf_operator_remember(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
+/* Of the callbacks; or of the matrices filled in, with their ILU(0) as preconditioner. */
+int stf_operator_open(stf_pool *pool, stf_system *system);
+int stf_operator_open_near(stf_pool *pool, stf_system *system);
+/* Does Krylov storage keep the sparse matrices of this problem? */
+bool stf_operator_has_near(const stf_system *system);
+void stf_system_destroy_pencil(void *pencil);
+
+/* Differences: dF/dy or dF/dy' of `which` ('A': f or -F by y; 'E': F by y') into M. */
+int stf_groups_open(stf_pool *pool, stf_system *system);
+int stf_differ(stf_system *system, char which, sunrealtype t, N_Vector y, N_Vector yp,
+               SUNMatrix M);
+/* One random direction through the filled pencil against differences: a missing entry is
+ * named. Two evaluations, and a few for each row that deviates. */
+int stf_probe(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
+
+#endif

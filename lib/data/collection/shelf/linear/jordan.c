@@ -1,0 +1,150 @@
+/* jordan.c: N x' + x = f(t), index k: N the k x k Jordan block with ones above a zero diagonal.
+ *
+ * Smooth part x_s = sum_{i<k} (-1)^i N^i f^(i), whatever the start; x(0-) off it adds impulses.
+ *
+ *   case       f_m, m = 1..k     x(0-)
+ *   H-inc      0                 (1, ..., k)
+ *   N-inc      cos(t + m)        (1, ..., k)
+ *   N-cons     cos(t + m)        x_s(0)
+ *   sin-inc    sin(m t)          x_s(0) + (0.1, ..., 0.1 k)
+ *   sin-cons   sin(m t)          x_s(0)
+ *
+ * S. L. Campbell, Distributional convergence of BDF approximations to solutions of descriptor
+ * systems, Circuits Systems Signal Process. 8 (1989).
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "collection.h"
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <string.h>
+
+enum { LARGEST = 12 };
+
+enum forcing { ZERO, COSINE, SINE };
+
+typedef struct variant {
+  const char *name;
+  enum forcing forcing;
+  sunrealtype smooth, ramp; /* x(0-)_m = smooth * x_s(0)_m + ramp * m */
+  sunrealtype t1;
+} variant;
+
+static const variant variants[] = {{"N-cons", COSINE, 1, 0, 1},
+                                   {"N-inc", COSINE, 0, 1, 1},
+                                   {"H-inc", ZERO, 0, 1, 1},
+                                   {"sin-cons", SINE, 1, 0, 2},
+                                   {"sin-inc", SINE, 1, 0.1, 2}};
+enum { VARIANTS = sizeof variants / sizeof *variants };
+
+typedef struct block {
+  int k;
+  const variant *kind;
+  int index[LARGEST];
+  sunrealtype start[LARGEST], slope[LARGEST];
+} block;
+
+/* f_m^(q)(t), m = 1 .. k. */
+static sunrealtype force(enum forcing kind, int m, int q, sunrealtype t)
+{
+  if (kind == ZERO) return 0;
+  const sunrealtype phase = kind == COSINE ? t + m : m * t;
+  const sunrealtype wave[] = {cos(phase), -sin(phase), -cos(phase), sin(phase)};
+  return kind == COSINE ? wave[q % 4] : pow(m, q) * wave[(q + 3) % 4];
+}
+
+/* Derivative q of component m of the smooth part. */
+static sunrealtype smooth(const block *b, int m, int q, sunrealtype t)
+{
+  sunrealtype sum = 0;
+  for (int i = b->k - m; i >= 0; i--)
+    sum += (i % 2 ? -1 : 1) * force(b->kind->forcing, m + i, q + i, t);
+  return sum;
+}
+
+static int g(sunrealtype t, int derivative, N_Vector out, void *user)
+{
+  const block *b = user;
+  sunrealtype *value = N_VGetArrayPointer(out);
+  if (derivative < 0) return -1;
+  for (int m = 1; m <= b->k; m++) value[m - 1] = force(b->kind->forcing, m, derivative, t);
+  return 0;
+}
+
+static int E(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
+{
+  static const sunrealtype one[] = {1};
+  (void)t, (void)y, (void)yp, (void)user;
+  return stf_collection_toeplitz(M, 1, 1, one);
+}
+
+static int A(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
+{
+  static const sunrealtype minus[] = {-1};
+  (void)t, (void)y, (void)yp, (void)user;
+  return stf_collection_toeplitz(M, 0, 0, minus);
+}
+
+static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  const block *b = user;
+  for (int m = 1; m <= b->k; m++) {
+    N_VGetArrayPointer(y)[m - 1] = smooth(b, m, 0, t);
+    if (yp) N_VGetArrayPointer(yp)[m - 1] = smooth(b, m, 1, t);
+  }
+  return 0;
+}
+
+static int choose(steif_context *ctx, const steif_spec *spec, const variant **kind)
+{
+  const char *word = stf_spec_word(spec, "case");
+  *kind = variants;
+  if (!word) return STEIF_OK;
+  for (*kind = variants; *kind < variants + VARIANTS; ++*kind)
+    if (!strcmp((*kind)->name, word)) return STEIF_OK;
+  return STEIF_FAIL(
+    ctx, STEIF_UNKNOWN_NAME,
+    "case=%s of '%s' is not known; the nearest of H-inc, N-inc, N-cons, sin-inc "
+    "and sin-cons is %s",
+    word, spec->name, stf_nearest(word, variants, VARIANTS, sizeof *variants));
+}
+
+static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self)
+{
+  int k;
+  const variant *kind;
+  STEIF_TRY(stf_spec_only(ctx, spec, (const char *const[]){"k", "case", "storage", NULL}));
+  STEIF_TRY(stf_spec_int(ctx, spec, "k", 1, LARGEST, 3, &k));
+  STEIF_TRY(choose(ctx, spec, &kind));
+  STEIF_TRY(stf_collection_storage(ctx, spec, self));
+  block *b = stf_collection_allocate(ctx, self, sizeof *b, 0);
+  if (!b) return STEIF_NO_MEMORY;
+  b->k = k;
+  b->kind = kind;
+  for (int m = 1; m <= k; m++) {
+    b->index[m - 1] = k - m < 2 ? k - m + 1 : 3;
+    b->start[m - 1] = kind->smooth * smooth(b, m, 0, 0) + kind->ramp * m;
+    b->slope[m - 1] = smooth(b, m, 1, 0);
+  }
+  self->n = self->dae_index = k;
+  self->index = b->index;
+  self->y0 = b->start;
+  self->yp0 = kind->ramp > 0 ? NULL : b->slope;
+  self->t1 = kind->t1;
+  self->upper = k > 1;
+  self->nnz = k;
+  self->nnz_E = stf_collection_count(k, 1, 1);
+  return STEIF_OK;
+}
+
+const steif_problem steif_problem_jordan = {
+  .about =
+    "N x' + x = f, N nilpotent of index k=3, case=N-cons; S. L. Campbell, Distributional "
+    "convergence of BDF approximations to solutions of descriptor systems, 1989",
+  .E = E,
+  .A = A,
+  .g = g,
+  .linear = 1,
+  .exact = exact,
+  .build = build,
+  .destroy = stf_collection_release,
+};

@@ -1,0 +1,112 @@
+/* rober.c: Robertson's autocatalytic reaction, as an ODE or with the conservation law
+ * y1 + y2 + y3 = 1 in place of the third equation (M = diag(1, 1, 0), index 1).
+ * H. H. Robertson, in J. Walsh (ed.), Numerical Analysis, an Introduction (1966) 178-182.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "published.h"
+#include <string.h>
+
+static const sunrealtype K1 = 0.04, K2 = 3e7, K3 = 1e4;
+
+static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  const sunrealtype *u = NV_DATA_S(y);
+  const sunrealtype slow = K1 * u[0], fast = K2 * u[1] * u[1], back = K3 * u[1] * u[2];
+  sunrealtype *d = NV_DATA_S(ydot);
+  (void)t, (void)user;
+  d[0] = back - slow;
+  d[1] = slow - back - fast;
+  d[2] = fast;
+  return 0;
+}
+
+static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector tmp1,
+               N_Vector tmp2, N_Vector tmp3)
+{
+  const sunrealtype *u = NV_DATA_S(y);
+  (void)t, (void)fy, (void)user, (void)tmp1, (void)tmp2, (void)tmp3;
+  SM_ELEMENT_D(J, 0, 0) = -K1;
+  SM_ELEMENT_D(J, 1, 0) = K1;
+  SM_ELEMENT_D(J, 2, 0) = 0;
+  SM_ELEMENT_D(J, 0, 1) = K3 * u[2];
+  SM_ELEMENT_D(J, 1, 1) = -K3 * u[2] - 2 * K2 * u[1];
+  SM_ELEMENT_D(J, 2, 1) = 2 * K2 * u[1];
+  SM_ELEMENT_D(J, 0, 2) = K3 * u[1];
+  SM_ELEMENT_D(J, 1, 2) = -K3 * u[1];
+  SM_ELEMENT_D(J, 2, 2) = 0;
+  return 0;
+}
+
+static int sum(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
+{
+  const sunrealtype *u = NV_DATA_S(y);
+  (void)t, (void)user;
+  *value = u[0] + u[1] + u[2];
+  return 0;
+}
+
+static int f_mass(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  const sunrealtype *u = NV_DATA_S(y);
+  const int code = f(t, y, ydot, user);
+  NV_Ith_S(ydot, 2) = u[0] + u[1] + u[2] - 1;
+  return code;
+}
+
+static int jac_mass(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user,
+                    N_Vector tmp1, N_Vector tmp2, N_Vector tmp3)
+{
+  const int code = jac(t, y, fy, J, user, tmp1, tmp2, tmp3);
+  for (sunindextype j = 0; j < 3; j++) SM_ELEMENT_D(J, 2, j) = 1;
+  return code;
+}
+
+static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  SM_ELEMENT_D(E, 0, 0) = SM_ELEMENT_D(E, 1, 1) = 1;
+  return 0;
+}
+
+static const sunrealtype y0[] = {1, 0, 0}, yp0[] = {-0.04, 0.04, 0};
+static const int index_mass[] = {1, 1, 1};
+
+/* rober:form=ode or rober:form=mass */
+static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self)
+{
+  static const char *const keys[] = {"form", NULL};
+  const char *form = stf_spec_word(spec, "form");
+  STEIF_TRY(stf_spec_only(ctx, spec, keys));
+  if (!form || strcmp(form, "ode") == 0) return STEIF_OK;
+  STEIF_CHECK(strcmp(form, "mass") == 0, ctx, STEIF_BAD_INPUT,
+              "rober has form=ode or form=mass, not form=%s", form);
+  self->f = f_mass;
+  self->jac = jac_mass;
+  self->E = mass;
+  self->yp0 = yp0;
+  self->index = index_mass;
+  self->dae_index = 1;
+  return STEIF_OK;
+}
+
+static const sunrealtype end[] = {2.083340149701255e-08, 8.3333607703347131e-14,
+                                  0.99999997916650496};
+static const steif_reference reference = {
+  .t = 1e11, .value = end, .digits = 12, .source = IVP_TEST_SET "rober"};
+
+const steif_problem steif_problem_rober = {
+  .name = "rober",
+  .about = "Autocatalytic reaction of three species over eleven decades of time. "
+           "H. H. Robertson (1966); IVP Test Set II-10; " HAIRER_WANNER " IV.10.",
+  .n = 3,
+  .t1 = 1e11,
+  .y0 = y0,
+  .f = f,
+  .jac = jac,
+  .autonomous = 1,
+  .reference = &reference,
+  .invariants = 1,
+  .invariant = sum,
+  .rtol_scale = 1e-6,
+  .build = build,
+};

@@ -1,0 +1,23 @@
+/* contour.h: the structure of a sparse pencil by circles, and the algorithm that they make.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_CONTOUR_H
+#define STF_CONTOUR_H
+
+#include "analysis_steps.h"
+
+extern const stf_algorithm stf_contour_algorithm;
+
+/* The circle that the structure is from. */
+typedef struct stf_contour_circle {
+  sunrealtype radius;
+  bool given;    /* by the caller */
+  bool complete; /* it holds as many eigenvalues as the pattern allows */
+} stf_contour_circle;
+
+/* E and F: CSC. Everything of *structure but the certificate and the sentence of a regular pencil. */
+int stf_contour_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                     const steif_analysis *analysis, steif_structure *structure,
+                     stf_contour_circle *circle);
+void stf_contour_say(const stf_contour_circle *circle, steif_structure *structure);
+
+#endif

@@ -1,0 +1,291 @@
+/* contour_algorithm.c: structure, x(0+) and impulses of a sparse system by circles. With
+ *   X(s) = (s E + F)^{-1} (E x(0-) + sum_j f^(j)(0+) s^{-j-1})
+ * the coefficient of s^i at infinity is c_i for i >= 0 and x(0+) for i = -1: one complex solve for
+ * each point. A second circle of twice the radius gives the error: too small a circle shows aliasing,
+ * too large a one rounding of the size eps (R nu)^{k-1}, and the pair that agrees best is taken.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "circle.h"
+#include "contour.h"
+#include "prime_field.h"
+#include "structural.h"
+#include "units.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct answer {
+  sunrealtype *x; /* x(0+), c_0, c_1, ..., n each */
+} answer;
+
+typedef struct residue {
+  steif_context *ctx;
+  stf_units units;
+  stf_contour_circle found; /* of the structure */
+  const sunrealtype *x0;    /* in these units */
+  stf_sources sources;
+  steif_impulse *impulse;
+  stf_circle *circle;
+  bool borrowed; /* it is the structure's */
+  steif_pencil_stats before;
+  sunrealtype R; /* of at[0]; 2 R of at[1] */
+  answer at[3];
+} residue;
+
+/* -- structure ------------------------------------------------------------------------------ */
+
+static int scale(stf_descriptor *d)
+{
+  residue *w = d->state = stf_pool_array(d->pool, 1, sizeof *w);
+  if (!w) return STEIF_NO_MEMORY;
+  w->ctx = d->ctx;
+  return stf_units_open(d->ctx, d->pool, d->E, d->F, &w->units);
+}
+
+static int structure(stf_descriptor *d)
+{
+  residue *w = d->state;
+  return stf_contour_find(d->ctx, w->units.E, w->units.F, &d->options, d->structure, &w->found);
+}
+
+/* Circles find no s where s E + F is regular: is there none, for the numbers as given? What the
+ * pattern alone raises the index by is not to blame. */
+static int singular(stf_descriptor *d)
+{
+  residue *w = d->state;
+  steif_structure *s = d->structure;
+  bool exactly = s->degree < 0;
+  if (s->degree >= 0) {
+    SUNMatrix E = w->units.E, F = w->units.F;
+    s->equations_count = s->unknowns_count = 0;
+    STEIF_TRY(stf_field_singular(d->ctx, E, F, &exactly));
+    if (exactly) STEIF_TRY(stf_structural_dependent(d->ctx, E, F, s));
+    snprintf(
+      s->message, sizeof s->message,
+      "singular pencil%s (reciprocal condition %.1e at best) although its pattern is not; "
+      "look for an equation that follows from others%s",
+      exactly ? ": det(s E + F) = 0 for all s exactly"
+              : " to rounding: s E + F is so at every s tried",
+      s->rcond, exactly ? "" : " but for rounding");
+  }
+  s->certified = exactly;
+  return STEIF_OK;
+}
+
+/* -- one circle ----------------------------------------------------------------------------- */
+
+static int draw(residue *w, sunrealtype R, answer *out)
+{
+  const stf_circle *c = w->circle;
+  const sunindextype n = c->scaled.n;
+  const size_t size = (size_t)n * (size_t)(w->impulse->count + 1);
+  if (!out->x && !(out->x = stf_allocate(w->ctx, size, sizeof *out->x))) return STEIF_NO_MEMORY;
+  const int terms = w->sources.f ? w->impulse->index : 0;
+  const stf_polynomial g = {terms, w->sources.Ex0, w->sources.f, c->scaled.row};
+  STEIF_TRY(stf_circle_run(w->circle, R, &g));
+  const int *unknown = c->sequence->unknown;
+  for (int k = 0; k <= w->impulse->count; k++) {
+    const sunrealtype power = pow(R, 1 - k), *sum = c->sum + k * n;
+    for (sunindextype i = 0; i < n; i++)
+      out->x[k * n + unknown[i]] = power * c->scaled.column[unknown[i]] * sum[i];
+  }
+  return STEIF_OK;
+}
+
+static sunrealtype difference(const residue *w, const answer *a, const answer *b)
+{
+  sunrealtype off = 0, size = 0;
+  for (sunindextype i = 0; i < w->impulse->n; i++) {
+    const sunrealtype d = a->x[i] - b->x[i];
+    off += d * d;
+    size += a->x[i] * a->x[i];
+  }
+  if (off == 0) return 0;
+  return isfinite(off) && size > 0 ? sqrt(off / size) : INFINITY;
+}
+
+static void swap(answer *a, answer *b)
+{
+  const answer keep = *a;
+  *a = *b;
+  *b = keep;
+}
+
+/* The circles of the structure serve again if they are of these matrices. */
+static int open_circle(stf_descriptor *d, residue *w)
+{
+  stf_circle *kept = stf_circle_kept(d->structure);
+  const int room = d->impulse->count + 1;
+  w->borrowed = stf_circle_adopt(kept, w->units.E, w->units.F, &d->options, room);
+  if (w->borrowed)
+    w->circle = kept;
+  else
+    STEIF_TRY(stf_circle_open(d->ctx, w->units.E, w->units.F, &d->options, room, &w->circle));
+  w->before = *steif_pencil_statistics(w->circle->scaled.pencil);
+  return STEIF_OK;
+}
+
+static int open_start(stf_descriptor *d, residue *w)
+{
+  const steif_structure *s = d->structure;
+  const int index = s->index < 0 ? s->index_least : s->index;
+  STEIF_CHECK(index <= STF_INDEX_MOST, d->ctx, STEIF_UNSUPPORTED,
+              "index %d: circles give impulses up to index %d", index, (int)STF_INDEX_MOST);
+  w->impulse = d->impulse;
+  w->x0 = d->x0;
+  w->sources = d->sources;
+  STEIF_TRY(stf_units_enter(d->pool, &w->units, &w->x0, &w->sources));
+  STEIF_TRY(stf_impulse_allocate(d->ctx, w->sources.n, index, w->impulse));
+  w->impulse->method = "contour";
+  w->R = stf_radius(w->units.E, w->units.F, &d->options, s);
+  return open_circle(d, w);
+}
+
+/* The structure is certified by circles already: without x(0-) nothing is solved. */
+static int solve(stf_descriptor *d, int way)
+{
+  residue *w = d->state;
+  if (!d->x0) return STEIF_OK;
+  if (!way) STEIF_TRY(open_start(d, w));
+  return draw(w, way ? 2 * w->R : w->R, &w->at[way]);
+}
+
+/* -- comparison ----------------------------------------------------------------------------- */
+
+/* at[0] and at[1] belong to R and 2 R and differ by `estimate`. Go on in factors of two, down or up,
+ * while neighbours agree better. */
+static int walk(residue *w, bool up)
+{
+  answer *at = w->at;
+  sunrealtype *estimate = &w->impulse->estimate;
+  for (int step = 0; step < (up ? STF_RADIUS_UP : STF_RADIUS_DOWN); step++) {
+    STEIF_TRY(draw(w, up ? 4 * w->R : w->R / 2, &at[2]));
+    const sunrealtype next = up ? difference(w, &at[1], &at[2]) : difference(w, &at[2], &at[0]);
+    if (!(next < *estimate)) break;
+    *estimate = next;
+    w->R *= up ? 2 : 0.5;
+    if (up) {
+      swap(&at[0], &at[1]);
+      swap(&at[1], &at[2]);
+    } else {
+      swap(&at[1], &at[0]);
+      swap(&at[0], &at[2]);
+    }
+    if (next <= STF_CIRCLES_AGREE) break;
+  }
+  return STEIF_OK;
+}
+
+/* Where plain solves do not agree, refined ones may. */
+static int refine(residue *w)
+{
+  w->circle->careful = true;
+  STEIF_TRY(draw(w, w->R, &w->at[0]));
+  STEIF_TRY(draw(w, 2 * w->R, &w->at[1]));
+  w->impulse->estimate = difference(w, &w->at[0], &w->at[1]);
+  return STEIF_OK;
+}
+
+static int agree(residue *w, bool fixed)
+{
+  const sunrealtype *estimate = &w->impulse->estimate, first = w->R;
+  w->impulse->estimate = difference(w, &w->at[0], &w->at[1]);
+  if (*estimate > STF_CIRCLES_AGREE && !w->circle->careful) STEIF_TRY(refine(w));
+  if (fixed || *estimate <= STF_CIRCLES_AGREE) return STEIF_OK;
+  STEIF_TRY(walk(w, false));
+  return w->R < first || *estimate <= STF_CIRCLES_AGREE ? STEIF_OK : walk(w, true);
+}
+
+static steif_pencil_stats spent(const steif_pencil_stats *before, const steif_pencil_stats *now)
+{
+  return (steif_pencil_stats){.analyses = now->analyses - before->analyses,
+                              .factors = now->factors - before->factors,
+                              .refactors = now->refactors - before->refactors,
+                              .fallbacks = now->fallbacks - before->fallbacks,
+                              .solves = now->solves - before->solves,
+                              .fill = now->fill};
+}
+
+static int compare(stf_descriptor *d)
+{
+  residue *w = d->state;
+  steif_impulse *out = w->impulse;
+  if (!d->x0) return STEIF_OK;
+  STEIF_TRY(agree(w, d->options.radius > 0));
+  const size_t n = (size_t)out->n, count = (size_t)out->count;
+  memcpy(out->x_plus, w->at[0].x, n * sizeof *out->x_plus);
+  if (count) memcpy(out->c, w->at[0].x + n, n * count * sizeof *out->c);
+  stf_units_leave(&w->units, out);
+  out->radius = w->R;
+  out->resolution = d->structure->resolution;
+  out->cost = spent(&w->before, steif_pencil_statistics(w->circle->scaled.pencil));
+  return STEIF_OK;
+}
+
+/* -- certificate and sentence --------------------------------------------------------------- */
+
+static int certify(stf_descriptor *d)
+{
+  const residue *w = d->state;
+  steif_structure *s = d->structure;
+  if (!d->structure_known) s->certified = w->found.complete && s->index >= 0;
+  if (d->x0)
+    d->impulse->certified = s->certified && d->impulse->estimate <= STF_CIRCLES_CERTIFY;
+  return STEIF_OK;
+}
+
+static void say_start(const steif_structure *s, steif_impulse *out)
+{
+  const sunrealtype R = out->radius;
+  const size_t room = sizeof out->message;
+  const long long relaxed = s->degree - s->finite;
+  if (out->certified)
+    snprintf(
+      out->message, room,
+      "%d impulse coefficients with R = %.3g: circles of R and 2R differ by %.1e, and the "
+      "count of finite eigenvalues equals the structural degree",
+      out->count, R, out->estimate);
+  else if (s->certified)
+    snprintf(
+      out->message, room,
+      "not certified: circles of R = %.3g and 2R differ by %.1e, above %.0e; fast and slow "
+      "parts lie too far apart for this radius: scale time, or use a dense algorithm",
+      R, out->estimate, STF_CIRCLES_CERTIFY);
+  else if (s->finite >= 0 && relaxed > 0)
+    snprintf(out->message, room,
+             "not certified: x(0+), c_i valid for time scales >= 1/R = %.3g; up to %lld faster "
+             "modes relaxed (circles of R = %.3g and 2R differ by %.1e)",
+             1 / R, relaxed, R, out->estimate);
+  else
+    snprintf(out->message, room,
+             "not certified, as the structure is not (index %d%s): circles of R = %.3g and 2R "
+             "differ by %.1e",
+             out->index, s->index < 0 ? " assumed" : "", R, out->estimate);
+}
+
+static int say(stf_descriptor *d)
+{
+  const residue *w = d->state;
+  if (d->x0)
+    say_start(d->structure, d->impulse);
+  else
+    stf_contour_say(&w->found, d->structure);
+  return STEIF_OK;
+}
+
+static void close(stf_descriptor *d)
+{
+  residue *w = d->state;
+  if (!w) return;
+  for (int k = 0; k < 3; k++) stf_release(d->ctx, w->at[k].x);
+  if (!w->borrowed) stf_circle_close(d->ctx, &w->circle);
+}
+
+const stf_algorithm stf_contour_algorithm = {.scale = scale,
+                                             .structure = structure,
+                                             .singular = singular,
+                                             .solve = solve,
+                                             .compare = compare,
+                                             .certify = certify,
+                                             .say = say,
+                                             .close = close};

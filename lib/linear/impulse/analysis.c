@@ -1,0 +1,205 @@
+/* analysis.c: structure and start of a descriptor system, E x' + F x = f from x(0-), on one page. Dense
+ * pencils and small ones by staircase and generalised Schur form; large sparse ones by circles.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "analysis_options.h"
+#include "contour.h"
+#include "demand.h"
+#include "dense_algorithm.h"
+#include "pencil.h"
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+enum { SMALL = 400 }; /* sparse pencils up to this order are treated as dense */
+
+/* The forcing, of which only derivatives that matter are asked for. */
+typedef struct forcing {
+  stf_demand demand;
+  steif_forcing f; /* NULL: 0 */
+  sunrealtype t;
+} forcing;
+
+static int collect_sources(stf_descriptor *d, forcing *f);
+static int no_start(stf_descriptor *d);
+
+/* One pencil from its entries to the sentence; f NULL: the structure alone. */
+static int analyse(const stf_algorithm *by, stf_descriptor *d, forcing *f)
+{
+  STEIF_TRY(by->scale(d));
+  if (!d->structure_known) STEIF_TRY(by->structure(d));
+  if (!d->structure->regular) {
+    if (!d->structure_known) STEIF_TRY(by->singular(d));
+    return f ? no_start(d) : STEIF_OK;
+  }
+  if (f) STEIF_TRY(collect_sources(d, f));
+  STEIF_TRY(by->solve(d, 0));
+  STEIF_TRY(by->solve(d, 1));
+  STEIF_TRY(by->compare(d));
+  STEIF_TRY(by->certify(d));
+  return by->say(d);
+}
+
+/* -- right-hand sides ----------------------------------------------------------------------- */
+
+/* The index to work with: of an undecided one the number of deflations made, or the lower
+ * bound. */
+static int working_index(const steif_structure *s)
+{
+  if (s->index >= 0) return s->index;
+  if (s->weyr_count > 0) return s->weyr_count;
+  return s->index_least > 1 ? s->index_least : 1;
+}
+
+/* E x(0-) and as many derivatives of f as the index asks for. */
+static int collect_sources(stf_descriptor *d, forcing *f)
+{
+  const int index = working_index(d->structure);
+  const size_t n = (size_t)d->structure->n, rows = f->f ? (size_t)index : 0;
+  sunrealtype *all = stf_pool_array(d->pool, n * (rows + 1), sizeof *all);
+  if (!all) return STEIF_NO_MEMORY;
+  f->demand.finite = d->structure->finite;
+  stf_sources_product(d->E, d->x0, all);
+  d->sources = (stf_sources){(sunindextype)n, index - 1, all, rows ? all + n : NULL};
+  if (!rows) return STEIF_OK;
+  N_Vector like = N_VNewEmpty_Serial((sunindextype)n, steif_sundials(d->ctx)), g;
+  STEIF_CHECK(like, d->ctx, STEIF_NO_MEMORY, "no memory for a vector of %zu values", n);
+  g = stf_pool_vector(d->pool, like);
+  N_VDestroy(like);
+  return g ? stf_sources_force(d->ctx, f->f, &f->demand, f->t, index - 1, g, all + n)
+           : STEIF_NO_MEMORY;
+}
+
+static int no_start(stf_descriptor *d)
+{
+  return STEIF_FAIL(d->ctx, STEIF_SINGULAR, "x(0+) does not exist or is not unique: %s",
+                    d->structure->message);
+}
+
+/* -- the algorithm -------------------------------------------------------------------------- */
+
+static bool is_dense(SUNMatrix M) { return M && SUNMatGetID(M) == SUNMATRIX_DENSE; }
+
+static bool is_small(SUNMatrix M)
+{
+  if (is_dense(M)) return SM_COLUMNS_D(M) <= SMALL;
+  return M && SUNMatGetID(M) == SUNMATRIX_SPARSE && SM_COLUMNS_S(M) <= SMALL;
+}
+
+steif_analysis stf_analysis_resolved(SUNMatrix E, SUNMatrix F, const steif_analysis *analysis)
+{
+  steif_analysis a = analysis ? *analysis : (steif_analysis){0};
+  const bool dense = (is_dense(E) && is_dense(F)) || is_small(E);
+  if (a.algorithm == STEIF_AUTOMATIC) a.algorithm = dense ? STEIF_STAIRCASE : STEIF_CONTOUR;
+  return a;
+}
+
+bool stf_analysis_dense(const steif_analysis *a)
+{
+  return a->algorithm == STEIF_STAIRCASE || a->algorithm == STEIF_QZ;
+}
+
+static const stf_algorithm *algorithm_of(const steif_analysis *a)
+{
+  return stf_analysis_dense(a) ? &stf_dense_algorithm : &stf_contour_algorithm;
+}
+
+int stf_analysis_check(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                       const steif_analysis *analysis)
+{
+  STEIF_TRY(stf_structure_check(ctx, E, F));
+  STEIF_CHECK((int)analysis->algorithm >= STEIF_AUTOMATIC &&
+                analysis->algorithm <= STEIF_CONTOUR,
+              ctx, STEIF_BAD_INPUT, "algorithm %d does not exist: choose 0 .. %d",
+              (int)analysis->algorithm, STEIF_CONTOUR);
+  STEIF_CHECK(!(analysis->radius < 0) && isfinite(analysis->radius), ctx, STEIF_BAD_INPUT,
+              "the radius %g of the circle must be positive, or 0 to have it found",
+              analysis->radius);
+  return STEIF_OK;
+}
+
+static int run(stf_descriptor *d, forcing *f)
+{
+  const stf_algorithm *by = algorithm_of(&d->options);
+  d->pool = stf_pool_new(d->ctx);
+  if (!d->pool) return STEIF_NO_MEMORY;
+  const int code = analyse(by, d, f);
+  by->close(d);
+  return code;
+}
+
+/* -- structure ------------------------------------------------------------------------------ */
+
+int steif_structure_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                         const steif_analysis *analysis, steif_structure *structure)
+{
+  STEIF_CHECK(structure, ctx, STEIF_BAD_INPUT, "no place for the structure: it is NULL");
+  *structure = (steif_structure){.count = NAN, .degree = -1};
+  stf_descriptor d = {.ctx = ctx, .E = E, .F = F, .structure = structure};
+  d.options = stf_analysis_resolved(E, F, analysis);
+  STEIF_TRY(stf_analysis_check(ctx, E, F, &d.options));
+  const int code = run(&d, NULL);
+  stf_pool_free(&d.pool);
+  if (code != STEIF_OK) steif_structure_clear(ctx, structure);
+  return code;
+}
+
+/* -- start ---------------------------------------------------------------------------------- */
+
+/* Does the structure given say what is needed? */
+static bool is_known(const steif_structure *s, const steif_analysis *a)
+{
+  if (!s || !s->method || (!s->regular && !*s->message)) return false;
+  return s->index >= 0 || s->weyr_count || !stf_analysis_dense(a);
+}
+
+/* The structure given without its lists, which stay the caller's, as do its factors. */
+static steif_structure borrowed(const steif_structure *given)
+{
+  steif_structure s = *given;
+  s.weyr = s.equations = s.unknowns = NULL;
+  s.equations_count = s.unknowns_count = 0;
+  return s;
+}
+
+static int find_start(stf_descriptor *d, forcing *f, const steif_structure *given)
+{
+  const sunindextype n = is_dense(d->E) ? SM_COLUMNS_D(d->E) : SM_COLUMNS_S(d->E);
+  STEIF_CHECK(stf_all_finite(d->x0, (size_t)n), d->ctx, STEIF_NOT_FINITE,
+              "x(0-) is not finite: all %lld values must be", (long long)n);
+  STEIF_CHECK(!given || given->n == n, d->ctx, STEIF_BAD_INPUT,
+              "the structure is of order %lld, E of order %lld: give that of this pencil",
+              (long long)given->n, (long long)n);
+  steif_structure s = {.count = NAN, .degree = -1};
+  d->structure_known = is_known(given, &d->options);
+  if (d->structure_known) s = borrowed(given);
+  d->structure = &s;
+  int code = run(d, f);
+  if (code == STEIF_OK)
+    stf_impulse_residuals(d->E, d->F, d->x0, d->impulse);
+  else
+    steif_impulse_clear(d->ctx, d->impulse);
+  if (d->structure_known) s.kept = NULL;
+  steif_structure_clear(d->ctx, &s);
+  return code;
+}
+
+int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F, const sunrealtype *x0,
+                       sunrealtype t, steif_forcing f, void *user,
+                       const steif_analysis *analysis, const steif_structure *structure,
+                       steif_impulse *impulse)
+{
+  STEIF_CHECK(impulse, ctx, STEIF_BAD_INPUT, "no place for the impulse: it is NULL");
+  *impulse = (steif_impulse){0};
+  STEIF_CHECK(x0, ctx, STEIF_BAD_INPUT, "x(0-) is missing");
+  stf_descriptor d = {.ctx = ctx, .E = E, .F = F, .x0 = x0, .impulse = impulse};
+  d.options = stf_analysis_resolved(E, F, analysis);
+  STEIF_TRY(stf_analysis_check(ctx, E, F, &d.options));
+  forcing wanted = {.f = f ? stf_demand_value : NULL, .t = t};
+  wanted.demand = stf_demand_of(ctx, &(steif_linear){E, F, f, user}, &d.options);
+  const int code = find_start(&d, &wanted, structure);
+  stf_pool_free(&d.pool);
+  stf_demand_close(&wanted.demand);
+  return code;
+}

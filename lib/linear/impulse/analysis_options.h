@@ -1,0 +1,15 @@
+/* analysis_options.h: the options of an analysis with the algorithm that they lead to.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_ANALYSIS_OPTIONS_H
+#define STF_ANALYSIS_OPTIONS_H
+
+#include "linear_system.h"
+
+/* STEIF_AUTOMATIC resolved; analysis NULL: {0}. */
+steif_analysis stf_analysis_resolved(SUNMatrix E, SUNMatrix F, const steif_analysis *analysis);
+int stf_analysis_check(steif_context *ctx, SUNMatrix E, SUNMatrix F,
+                       const steif_analysis *analysis);
+/* By staircase and generalised Schur form? */
+bool stf_analysis_dense(const steif_analysis *analysis);
+
+#endif

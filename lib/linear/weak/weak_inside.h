@@ -1,0 +1,61 @@
+/* weak_inside.h: the descriptor room inside: one Jordan block, its exact solution, recorded runs.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_WEAK_INSIDE_H
+#define STF_WEAK_INSIDE_H
+
+#include "apart.h"
+#include "base.h"
+#include <steif/collection.h>
+#include <steif/runs.h>
+#include <steif/weak.h>
+#include <steif/table.h>
+
+/* N x' + x = f on t > 0 with x(0-) = x0; f given by `forcing` with its derivatives, NULL: 0. */
+typedef struct stf_block {
+  steif_context *ctx;
+  int k;
+  steif_forcing forcing;
+  void *user;
+  const sunrealtype *x0;
+  N_Vector g;     /* room for one value of f */
+  sunrealtype *c; /* impulse coefficients, (k-1) x k by rows */
+  sunrealtype *x; /* scratch, k */
+} stf_block;
+
+int stf_block_open(stf_block *block, steif_context *ctx, int k, steif_forcing forcing,
+                   void *user, const sunrealtype *x0);
+void stf_block_close(stf_block *block);
+/* x = sum_n w_n (-1)^n N^n f^(n+j)(t): w_n = 1 gives x_s^(j), w_n = n + 1 gives v^(j-1) with v the
+ * smooth solution of N v' + v = x_s'. */
+int stf_block_series(stf_block *block, sunrealtype t, int j, bool weighted, sunrealtype *x);
+/* <x_m, g^(j)> of the distributional solution, m = 0 .. k-1. */
+int stf_block_pair(stf_block *block, int m, int j, sunrealtype *value);
+/* E_1 of backward Euler, <x_h - x, g> = h E_1 + O(h^2), in convention P or R. */
+int stf_block_first(stf_block *block, int m, enum steif_convention convention,
+                    sunrealtype *value);
+
+/* Gauss's rule with 8 points on [-1, 1]. */
+enum { STF_RULE = 8 };
+extern const sunrealtype stf_rule_node[STF_RULE], stf_rule_weight[STF_RULE];
+
+/* steif_pair together with sum |x_i| w_i, the size that rounding is relative to. */
+sunrealtype stf_pair_sized(enum steif_convention convention, size_t m, const sunrealtype *t,
+                           const sunrealtype *x, sunrealtype *size);
+
+/* What to record of a run with equal steps, and the record. */
+typedef struct stf_trace {
+  int first, count; /* components first .. first + count - 1 */
+  bool stages;      /* pair the stages of component `first` with the test function */
+  size_t steps;
+  sunrealtype *t, *x; /* steps + 1 times; as many rows of `count` values */
+  long double stage, stage_size;
+  stf_apart *apart; /* run in its coordinates; NULL: in those of the problem */
+} stf_trace;
+
+/* Run `steps` equal steps h of the method; t and x are the caller's. */
+int stf_trace_run(steif_context *ctx, const steif_problem *problem, const char *method,
+                  const char *start, sunrealtype h, stf_trace *trace);
+/* The trace starts with the value of convolution quadrature at t0 instead of x(0-). */
+bool stf_trace_is_cq(steif_context *ctx, const char *method, const char *start);
+
+#endif

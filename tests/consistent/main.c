@@ -1,0 +1,8 @@
+/* main.c: the tests of consistent start values.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_drift[], tests_of_starts[];
+
+SUITE_MAIN({.pName = "drift", .pTests = tests_of_drift},
+           {.pName = "starts", .pTests = tests_of_starts})

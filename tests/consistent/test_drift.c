@@ -1,0 +1,135 @@
+/* test_drift.c: what index does to the errors of equal steps, and what a consistent point at the end gives
+ * back: E. Hairer, C. Lubich, M. Roche, The Numerical Solution of Differential-Algebraic Systems by
+ * Runge-Kutta Methods, Springer 1989.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+#include <nvector/nvector_serial.h>
+#include <stdbool.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
+#include <steif/steif.h>
+#include <string.h>
+
+enum { N = 5 };
+static const double end = 20;
+
+static void run(const char *problem, const char *method, const steif_options *o, double *y)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, problem, &p));
+  steif_solver *s = steif_solver_new(ctx, &p, method, o);
+  CHECK(s && !steif_solve_to(s, end));
+  memcpy(y, N_VGetArrayPointer(steif_solution(s)), N * sizeof *y);
+  steif_solver_free(&s);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* Errors of positions, velocities and the multiplier. */
+static void errors(const double *y, const double *exact, double *error)
+{
+  error[0] = hypot(y[0] - exact[0], y[1] - exact[1]);
+  error[1] = hypot(y[2] - exact[2], y[3] - exact[3]);
+  error[2] = fabs(y[4] - exact[4]);
+}
+
+/* The consistent point next to y at index 3. */
+static void settle(double *y)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_start start;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, "pendulum3", &p));
+  const steif_point at = {.y = y, .t = end};
+  CHECK(!steif_consistent(ctx, &p, &at, NULL, &start));
+  memcpy(y, start.y, N * sizeof *y);
+  steif_start_clear(&start);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* Radau IIA with three stages: 2s - 1, s, s - 2 at index 3; 2s - 1, 2s - 1, s at index 2. Velocities of
+ * index 3 lie between s and s + 1 at these steps. The multiplier of a consistent point is a function of
+ * positions and velocities, and as good as they are projected. */
+static void orders_fall_with_the_index(void)
+{
+  static const struct {
+    const char *problem;
+    bool settled;
+    double order[3];
+  } rows[] = {{"pendulum3:index=3", false, {5, 3.3, 2}},
+              {"pendulum3:index=2", false, {5, 5, 3}},
+              {"pendulum3:index=1", false, {5, 5, 5}},
+              {"pendulum3:index=3", true, {5, 5, 5}}};
+  double exact[N];
+  run("pendulum3:index=1", "radau:s=7", &(steif_options){.rtol = 1e-13, .t1 = end}, exact);
+  settle(exact);
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    double error[2][3];
+    for (int k = 0; k < 2; k++) {
+      double y[N];
+      run(rows[i].problem, "radau:s=3", &(steif_options){.h = k ? 0.025 : 0.05, .t1 = end}, y);
+      if (rows[i].settled) settle(y);
+      errors(y, exact, error[k]);
+    }
+    for (int part = 0; part < 3; part++) {
+      const double order = log2(error[0][part] / error[1][part]);
+      CLOSE_FLOOR(order, rows[i].order[part], 0.4, 1);
+    }
+  }
+}
+
+/* One step of backward Euler of 1e-6 and 1e-8 seconds, index 3: rounding in the accelerations and
+ * multipliers is of the size 1e-16 / h^2, which the weights of the index leave out; two corrections do. */
+static void tiny_steps_at_index_three_converge(void)
+{
+  static const double h[] = {1e-6, 1e-8};
+  for (int k = 0; k < 2; k++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_problem p;
+    CU_ASSERT_FATAL(!steif_problem_find(ctx, "andrews", &p));
+    const steif_options o = {.h = h[k], .t1 = h[k]};
+    steif_solver *s = steif_solver_new(ctx, &p, "be", &o);
+    CHECK(s && !steif_solve_to(s, h[k]));
+    CHECK(steif_statistics(s)->newton <=
+          3); /* the last one sees that the one before was enough */
+    const double *y = N_VGetArrayPointer(steif_solution(s));
+    double moved = 0;
+    for (int j = 7; j < 14; j++) moved = fmax(moved, fabs(y[j] - p.y0[j]));
+    CHECK(moved > 0 && moved < 2e4 * h[k]); /* velocities, by accelerations of 14222 at most */
+    steif_solver_free(&s);
+    p.index = NULL; /* in plain weights that rounding never falls below a tolerance */
+    s = steif_solver_new(ctx, &p, "be", &o);
+    const int plain = s ? steif_solve_to(s, h[k]) : steif_status(ctx);
+    CHECK(plain == STEIF_NO_CONVERGENCE);
+    steif_solver_free(&s);
+    steif_problem_clear(ctx, &p);
+    steif_context_free(&ctx);
+  }
+}
+
+/* The slopes at the start of the amplifier: closed, from its resistances and capacities. The values that go
+ * round with it, 51.338775, -24.9757667, -10.00564453, are off by 1e-5 to 5e-4. */
+static void the_amplifier_has_its_slopes(void)
+{
+  static const double slope[] = {
+    51.3392765171807206,  51.3392765171807206,  -166.666666666666667, -24.9703285154063289,
+    -24.9703285154063289, -83.3333333333333333, -10.0002764024563387, -10.0002764024563387};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_start start;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, "transamp", &p));
+  CHECK(!steif_consistent(ctx, &p, NULL, NULL, &start));
+  for (int j = 0; j < 8; j++) CLOSE(start.yp[j], slope[j], 1e-9);
+  steif_start_clear(&start);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+CU_TestInfo tests_of_drift[] = {
+  {"orders fall with the index", orders_fall_with_the_index},
+  {"tiny steps at index three converge", tiny_steps_at_index_three_converge},
+  {"the amplifier has its slopes", the_amplifier_has_its_slopes},
+  CU_TEST_INFO_NULL};

@@ -1,0 +1,220 @@
+/* test_energy.c: drift of the energy on the oscillator, the pendulum and Kepler's problem:
+ * bands, lines, closed forms. Figures: recomputation of the book chapter's experiments
+ * (numpy, mpmath), and the closed forms named with them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+#include <nvector/nvector_serial.h>
+#include <steif/analysis.h>
+#include <steif/data.h>
+#include <steif/linear.h>
+#include <steif/steif.h>
+#include <string.h>
+
+#define TWO_PI 6.28318530717958647692
+
+typedef struct run {
+  steif_drift drift[4];
+  steif_energy energy;
+  double y[4]; /* at the end */
+} run;
+
+static int keep(steif_solver *s, sunrealtype t, N_Vector y, void *user)
+{
+  (void)s, (void)t;
+  memcpy(user, NV_DATA_S(y),
+         (size_t)(NV_LENGTH_S(y) < 4 ? NV_LENGTH_S(y) : 4) * sizeof(double));
+  return 0;
+}
+
+/* `steps` steps of length h. */
+static run measured(steif_context *ctx, const steif_problem *p, const char *method, double h,
+                    long steps)
+{
+  run r = {.energy = {.period = TWO_PI}};
+  steif_options o = steif_defaults();
+  o.h = h, o.t1 = h * (double)steps, o.observe = keep, o.observer = r.y;
+  o.newton = 1e-6, o.max_steps = 1000000000;
+  r.energy.drift = r.drift;
+  const int code = steif_energy_measure(ctx, p, method, &o, &r.energy);
+  if (code) printf("\n  %s: %s", method, steif_message(ctx));
+  CHECK(code == STEIF_OK);
+  CU_ASSERT_EQUAL(r.energy.steps, steps);
+  return r;
+}
+
+static run named(const char *problem, const char *method, double h, long steps)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, problem, &p) == STEIF_OK);
+  const run r = measured(ctx, &p, method, h, steps);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+  return r;
+}
+
+/* Per period it is h^5: a factor of 32 for half the step. */
+static void rk4_loses_less_by_32_for_half_the_step(void)
+{
+  static const double loss[] = {-4.3769e-04, -1.3893e-05, -4.3579e-07, -1.3631e-08};
+  for (int i = 0; i < 4; i++) {
+    const double h = ldexp(0.4, -i);
+    const run r = named("harmonic", "rk4", h, lround(20 * TWO_PI / h));
+    CLOSE(r.drift[0].per_period, loss[i], 1e-2);
+    CHECK(fabs(r.drift[0].slope) > 1e3 * r.drift[0].slope_error);
+  }
+}
+
+/* -- what is kept exactly ------------------------------------------------------------------------ */
+
+/* user: coefficients of q^2, q p, p^2. */
+static int quadratic(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
+{
+  const sunrealtype *x = NV_DATA_S(y), *c = user;
+  (void)t;
+  *value = c[0] * x[0] * x[0] + c[1] * x[0] * x[1] + c[2] * x[1] * x[1];
+  return 0;
+}
+
+static void modified_energies_are_kept(void)
+{
+  static const double h = 0.3;
+  static const struct {
+    const char *method;
+    double c[3];
+  } rows[] = {{"verlet:first=kick", {1 - 0.09 / 4, 0, 1}},
+              {"verlet:first=drift", {1, 0, 1 - 0.09 / 4}},
+              {"symeuler:first=p", {1, -0.3, 1}},
+              {"symeuler:first=q", {1, 0.3, 1}},
+              {"gauss:s=1", {0.5, 0, 0.5}},
+              {"gauss:s=2", {0.5, 0, 0.5}},
+              {"dirk:cranknicolson", {0.5, 0, 0.5}}};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "harmonic", &p) == STEIF_OK);
+  p.invariant = quadratic;
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    p.user = (void *)rows[i].c;
+    const steif_drift d = measured(ctx, &p, rows[i].method, h, 20944).drift[0];
+    CHECK(d.max - d.min < 1e-12 * d.start);
+    CHECK(fabs(d.start) > 0.49);
+  }
+  steif_context_free(&ctx);
+}
+
+/* From (1, 0): Verlet kick first in [-h^2/8, 0], drift first in [0, h^2/8/(1 - h^2/4)],
+ * Euler in [0.5/(1 + h/2) - 0.5, 0.5/(1 - h/2) - 0.5]. */
+static void bands_are_the_closed_ones(void)
+{
+  static const double steps[] = {0.05, 0.3};
+  for (int i = 0; i < 2; i++) {
+    const double h = steps[i], band = h * h / 8;
+    const long count = i ? 20944 : 12566;
+    const steif_drift kick = named("harmonic", "verlet", h, count).drift[0],
+                      drift = named("harmonic", "verlet:first=drift", h, count).drift[0],
+                      euler = named("harmonic", "symeuler", h, count).drift[0];
+    CLOSE(kick.min, -band, 1e-7);
+    CHECK(kick.min >= -band - 1e-14 && kick.max <= 1e-14);
+    CLOSE(kick.mean, -band / 2, 1e-3);
+    CLOSE(drift.max, band / (1 - h * h / 4), 1e-7);
+    CHECK(drift.min >= -1e-14);
+    CLOSE(euler.max, 0.5 / (1 - h / 2) - 0.5, 1e-6);
+    CLOSE(euler.min, 0.5 / (1 + h / 2) - 0.5, 1e-6);
+  }
+}
+
+/* Brouwer: rounding that is not biased grows like the root of the number of steps; with
+ * coefficients rounded once and for all it grows along a line, to 2e-14 here. */
+static void compensated_gauss_keeps_the_energy_to_rounding(void)
+{
+  static const char *const methods[] = {"gauss:s=1,compensated=1", "gauss:s=2,compensated=1",
+                                        "gauss:s=4,compensated=1"};
+  for (int i = 0; i < 3; i++) {
+    const steif_drift d = named("harmonic", methods[i], 0.05, 12566).drift[0];
+    CHECK(d.max < 2e-15 && d.min > -2e-15);
+  }
+  for (int i = 0; i < 2; i++) {
+    const steif_drift d = named("harmonic", methods[i], 0.05, 125664).drift[0];
+    CHECK(d.max < 6e-15 && d.min > -6e-15 && !d.drifts);
+  }
+}
+
+/* Kahan and Li's method at a step where its own error is below rounding: root mean square
+ * over an ensemble of starts. */
+static double rounding(const char *method)
+{
+  enum { MEMBERS = 12 };
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  double sum = 0, y0[2] = {0, 0};
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "pendulum", &p) == STEIF_OK);
+  p.y0 = y0;
+  for (int i = 0; i < MEMBERS; i++) {
+    y0[0] = 1 + 0.0137 * i;
+    const double off = measured(ctx, &p, method, 0.05, 10000).drift[0].final;
+    sum += off * off;
+  }
+  steif_context_free(&ctx);
+  return sqrt(sum / MEMBERS);
+}
+
+static void compensated_sums_round_less(void)
+{
+  const double plain = rounding("kahanli8:compensated=0"),
+               less = rounding("kahanli8:compensated=1");
+  CHECK(plain < 1e-13 && less < 2e-14 && less < plain / 1.3);
+}
+
+/* -- pendulum ------------------------------------------------------------------------------------ */
+
+static void verlet_keeps_a_band_on_the_pendulum(void)
+{
+  const steif_drift d = named("pendulum", "verlet", 0.05, 5000).drift[0];
+  CLOSE(d.min, -2.65300181554e-04, 1e-8);
+  CHECK(d.max <= 0 && !d.drifts);
+}
+
+/* Orbits shrink, the sooner the nearer to the separatrix; nothing escapes. */
+static void rk4_sinks_on_the_pendulum(void)
+{
+  static const struct {
+    double q0, h, final;
+    int digits;
+  } rows[] = {{1, 0.05, -9.0141499e-06, 8}, {1, 0.1, -2.8803505e-04, 8},
+              {1, 0.3, -6.5282145e-02, 8},  {1, 0.6, -4.5864804e-01, 8},
+              {3, 0.1, -4.857662e-04, 7},   {3, 0.2, -1.637801e-02, 7},
+              {3, 0.3, -1.447830e-01, 7},   {3, 0.5, -1.495, 4}};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "pendulum", &p) == STEIF_OK);
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    const double y0[] = {rows[i].q0, 0};
+    p.y0 = y0;
+    const steif_drift d =
+      measured(ctx, &p, "rk4", rows[i].h, lround(1000 * TWO_PI / rows[i].h)).drift[0];
+    CLOSE(d.final, rows[i].final, 6 * pow(10, -rows[i].digits));
+    CHECK(d.max < 1e-5 && d.slope < 0 && d.drifts);
+  }
+  steif_context_free(&ctx);
+}
+
+/* Not symplectic, but conjugate to what is: bounded. */
+static void the_trapezoidal_rule_stays_in_a_band(void)
+{
+  const steif_drift d = named("pendulum", "dirk:cranknicolson", 0.1, 20000).drift[0];
+  CLOSE(d.min, -1.757e-04, 3e-4);
+  CHECK(d.max < 1e-9 && !d.drifts);
+}
+
+CU_TestInfo tests_of_energy[] = {
+  {"RK4 loses 32 times less per period for half the step",
+   rk4_loses_less_by_32_for_half_the_step},
+  {"modified energies are kept to rounding", modified_energies_are_kept},
+  {"bands are the closed ones", bands_are_the_closed_ones},
+  {"compensated Gauss keeps the energy to rounding",
+   compensated_gauss_keeps_the_energy_to_rounding},
+  {"compensated sums round less", compensated_sums_round_less},
+  {"Verlet keeps a band on the pendulum", verlet_keeps_a_band_on_the_pendulum},
+  {"RK4 sinks on the pendulum", rk4_sinks_on_the_pendulum},
+  {"the trapezoidal rule stays in a band", the_trapezoidal_rule_stays_in_a_band},
+  CU_TEST_INFO_NULL};

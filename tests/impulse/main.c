@@ -1,0 +1,17 @@
+/* main.c: the tests of structure and impulses of linear systems.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_circle[], tests_of_contour[], tests_of_demand[],
+  tests_of_families[], tests_of_hidden[], tests_of_impulse_dense[], tests_of_regular[],
+  tests_of_structure[], tests_of_units[];
+
+SUITE_MAIN({.pName = "circle", .pTests = tests_of_circle},
+           {.pName = "contour", .pTests = tests_of_contour},
+           {.pName = "demand", .pTests = tests_of_demand},
+           {.pName = "families", .pTests = tests_of_families},
+           {.pName = "hidden", .pTests = tests_of_hidden},
+           {.pName = "impulse dense", .pTests = tests_of_impulse_dense},
+           {.pName = "regular", .pTests = tests_of_regular},
+           {.pName = "structure", .pTests = tests_of_structure},
+           {.pName = "units", .pTests = tests_of_units})
