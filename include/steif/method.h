@@ -21,6 +21,23 @@
  * L and small n, else rational or polynomial Krylov spaces and Taylor series with an error below that
  * of the step: any vector serves.
  *
+ * Baselines, with the settings of their own packages:
+ *   cvode:order=1..5,stald=0|1,newton=C    BDF; stald: stability limit detection; newton: coefficient of
+ *                   the convergence test; lmm=adams with order=1..12: fixed-point iteration, no matrix
+ *   arkode:order=2..5,newton=C             DIRK; table=NAME instead of the order: a table of steif
+ *   ida:suppress=0|1,id=E|index|ones,ic=0|1|2,order=1..5,newton=C
+ * suppress=1 leaves components with id_j = 0 out of IDA's error test (IDASetSuppressAlg). id_j = 1 where
+ * column j of E = dF/dy' is not 0 (E, the default), where the perturbation index of component j is 1
+ * (index: problem.index, else steif_diagnose), or everywhere (ones). ic=1, 2: IDACalcIC with YA_YDP_INIT, Y_INIT
+ * first. What IDA can do, with the right setting for each:
+ *   index 1   by default from consistent starts; from others with suppress=1 or ic=1
+ *   index 2   suppress=1; the default crawls or fails
+ *   index 3, 4  from consistent starts with suppress=1,id=index: no error of a component of higher index
+ *             is tested, and it may be 100 to 50 000 times rtol
+ *   starts that are not consistent, index above 1: with ic=2 it may run and return success, but x(0+) is
+ *             wrong wherever the jump is more than a projection of algebraic components, and what remembers
+ *             the jump stays wrong. No setting gives impulses.
+ *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_METHOD_H
 #define STEIF_METHOD_H

@@ -68,7 +68,8 @@ typedef struct steif_options {
   const char *start;      /* starting procedure of multistep methods: exact, ramp, constant, cq;
                                NULL: that of the spec, else ramp */
   int suppress_algebraic; /* IDA: leave algebraic components out of the error test */
-  int consistent;         /* IDA: 1 IDACalcIC(YA_YDP_INIT), 2 IDACalcIC(Y_INIT) first */
+  int consistent; /* IDA: 1 IDACalcIC(YA_YDP_INIT), 2 IDACalcIC(Y_INIT) first; suppress= and
+                               ic= of its spec (method.h) go before both */
   /* Called after every accepted step with the step just made; nonzero stops the run: with the code
    * and sentence of a function of the library that has failed in it, else STEIF_CALLBACK. Before
    * an event is handled, t is the event and y the side before it; when the integration restarts

@@ -3,7 +3,7 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_engines[], tests_of_forms[], tests_of_index[], tests_of_failures[],
-  tests_of_tables[], tests_of_public[], tests_of_linear[];
+  tests_of_tables[], tests_of_public[], tests_of_linear[], tests_of_settings[];
 
 SUITE_MAIN({.pName = "engines", .pTests = tests_of_engines},
            {.pName = "forms", .pTests = tests_of_forms},
@@ -11,4 +11,5 @@ SUITE_MAIN({.pName = "engines", .pTests = tests_of_engines},
            {.pName = "failures", .pTests = tests_of_failures},
            {.pName = "tables", .pTests = tests_of_tables},
            {.pName = "public", .pTests = tests_of_public},
-           {.pName = "linear", .pTests = tests_of_linear})
+           {.pName = "linear", .pTests = tests_of_linear},
+           {.pName = "settings", .pTests = tests_of_settings})

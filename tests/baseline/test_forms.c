@@ -156,7 +156,7 @@ static void algebraic_components_are_found(void)
     for (int way = 0; way < 2; way++) { /* from the Jacobian, from differences */
       N_VConst(7, id);
       if (way) implicit.idajac = NULL, ((stf_baseline *)r.state)->E = NULL;
-      CHECK(stf_start_id(r.state, id) == STEIF_OK);
+      CHECK(stf_start_id(r.state, "E", id) == STEIF_OK);
       CHECK(NV_Ith_S(id, 0) == 1 && NV_Ith_S(id, 1) == 1 && NV_Ith_S(id, 2) == 0);
     }
     N_VDestroy(id);

@@ -173,7 +173,9 @@ int stf_lower_mass(stf_baseline *base);
 int stf_start_mass(stf_baseline *base);
 /* y' at the start from E y' = f where the problem leaves it open. */
 int stf_start_slopes(stf_baseline *base);
-/* id_j = 0 where column j of dF/dy' is zero (an algebraic component), else 1. */
-int stf_start_id(stf_baseline *base, N_Vector id);
+/* id_j = 1 for what IDA takes for a differential component, else 0, by `which`: "E": column j of dF/dy'
+ * is not zero; "index": the perturbation index of component j is 1, by problem.index or else by
+ * steif_diagnose; "ones": all. */
+int stf_start_id(stf_baseline *base, const char *which, N_Vector id);
 
 #endif

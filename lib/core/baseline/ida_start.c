@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "baseline.h"
 #include <math.h>
+#include <steif/index.h>
+#include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
 /* --- E of an implicit problem --- */
@@ -137,8 +139,7 @@ static int probe_columns(stf_baseline *base, sunrealtype *large)
   const bool residual = run->form == STEIF_IMPLICIT;
   STEIF_CHECK(
     x, run->ctx, STEIF_UNSUPPORTED,
-    "algebraic components are found with host arrays only; set suppress_algebraic and "
-    "consistent to 0");
+    "algebraic components are found with host arrays only; leave suppress and ic at 0");
   if (residual) N_VScale(1, run->yp, moved);
   int seen = residual ? stf_lower_residual(run->t, run->y, run->yp, r0, base) : 0;
   for (sunindextype j = 0; !seen && j < p->n; j++) {
@@ -158,24 +159,50 @@ static int probe_columns(stf_baseline *base, sunrealtype *large)
   return STEIF_OK;
 }
 
-int stf_start_id(stf_baseline *base, N_Vector id)
+static int by_columns(stf_baseline *base, sunrealtype *large)
 {
-  const steif_problem *p = base->run->problem;
-  sunrealtype *large = N_VGetArrayPointer(id);
-  if (base->run->form == STEIF_ODE ||
-      (!base->E && !p->Ev && base->run->form != STEIF_IMPLICIT)) {
-    N_VConst(1, id);
-    return STEIF_OK;
-  }
-  STEIF_CHECK(
-    large, base->run->ctx, STEIF_UNSUPPORTED,
-    "algebraic components are found with host arrays only; set suppress_algebraic and "
-    "consistent to 0");
   STEIF_TRY(stf_start_mass(base));
   if (base->E)
     stf_matrix_columns(base->E, large);
   else
     STEIF_TRY(probe_columns(base, large));
-  for (sunindextype j = 0; j < p->n; j++) large[j] = large[j] > 0;
+  for (sunindextype j = 0; j < base->run->problem->n; j++) large[j] = large[j] > 0;
   return STEIF_OK;
+}
+
+static int by_index(stf_baseline *base, sunrealtype *id)
+{
+  stf_run *run = base->run;
+  const steif_problem *p = run->problem;
+  steif_diagnosis d = {.index = -1};
+  if (!p->index) STEIF_TRY(steif_diagnose(run->ctx, p, NULL, &d));
+  const int *index = p->index ? p->index : d.number;
+  const bool known = p->index || d.index >= 0;
+  for (sunindextype j = 0; known && j < p->n; j++) id[j] = index[j] <= 1;
+  steif_diagnosis_clear(&d);
+  STEIF_CHECK(known, run->ctx, STEIF_BAD_INPUT,
+              "id=index needs the index of each component, and the index of '%s' is undecided: "
+              "declare problem.index, or take id=E",
+              p->name ? p->name : "the problem");
+  return STEIF_OK;
+}
+
+int stf_start_id(stf_baseline *base, const char *which, N_Vector id)
+{
+  steif_context *ctx = base->run->ctx;
+  const bool columns = !strcmp(which, "E"), ones = !strcmp(which, "ones");
+  sunrealtype *x = N_VGetArrayPointer(id);
+  STEIF_CHECK(columns || ones || !strcmp(which, "index"), ctx, STEIF_BAD_INPUT,
+              "id=%s is not known to ida: E (columns of dF/dy' that are not 0), index "
+              "(components of index 1) or ones",
+              which);
+  if (base->run->form == STEIF_ODE || ones ||
+      (!base->E && !base->run->problem->Ev && base->run->form != STEIF_IMPLICIT)) {
+    N_VConst(1, id);
+    return STEIF_OK;
+  }
+  STEIF_CHECK(
+    x, ctx, STEIF_UNSUPPORTED,
+    "algebraic components are found with host arrays only; leave suppress and ic at 0");
+  return columns ? by_columns(base, x) : by_index(base, x);
 }

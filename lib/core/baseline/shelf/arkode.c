@@ -286,7 +286,7 @@ static void close(stf_run *run, void *state)
 const steif_engine steif_engine_arkode = {
   .about =
     "ARKODE: diagonally implicit Runge-Kutta methods of orders 2 to 5 (Reynolds, Gardner, "
-    "Woodward, Chinomona, ACM TOMS 49, 2023; SUNDIALS)",
+    "Woodward, Chinomona, ACM TOMS 49, 2023; SUNDIALS); order=2..5 or table=NAME, newton=C",
   .forms = STEIF_ODE | STEIF_MASS,
   .size = sizeof(arkode),
   .open = open,

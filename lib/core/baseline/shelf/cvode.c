@@ -3,10 +3,16 @@
 #include "baseline.h"
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
+#include <string.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 typedef struct cvode {
   stf_baseline base;
   void *memory;
+  int order, stald;
+  bool adams; /* with fixed-point iteration: no matrix */
+  SUNNonlinearSolver iteration;
+  sunrealtype newton; /* coefficient of its convergence test; 0: its default */
 } cvode;
 
 static const stf_flag flags[] = {
@@ -61,6 +67,7 @@ static int attach(cvode *s)
 {
   stf_baseline *b = &s->base;
   const steif_problem *p = b->run->problem;
+  if (s->adams) return CVodeSetNonlinearSolver(s->memory, s->iteration);
   int flag = CVodeSetLinearSolver(s->memory, b->solver, b->J);
   if (b->J && stf_baseline_has_jac(b))
     STF_CALL(flag, CVodeSetJacFn(s->memory, stf_baseline_jac));
@@ -71,7 +78,7 @@ static int attach(cvode *s)
   return flag;
 }
 
-static int configure(cvode *s, int order)
+static int configure(cvode *s)
 {
   stf_run *run = s->base.run;
   const steif_options *o = run->options;
@@ -82,7 +89,9 @@ static int configure(cvode *s, int order)
   STF_CALL(flag, o->ewt         ? CVodeWFtolerances(m, stf_baseline_weights)
                  : s->base.atol ? CVodeSVtolerances(m, o->rtol, s->base.atol)
                                 : CVodeSStolerances(m, o->rtol, o->atol));
-  STF_CALL(flag, CVodeSetMaxOrd(m, order));
+  STF_CALL(flag, CVodeSetMaxOrd(m, s->order));
+  if (s->newton > 0) STF_CALL(flag, CVodeSetNonlinConvCoef(m, s->newton));
+  if (s->stald) STF_CALL(flag, CVodeSetStabLimDet(m, 1));
   if (s->base.constraint) STF_CALL(flag, CVodeSetConstraints(m, s->base.constraint));
   STF_CALL(flag, CVodeSetMaxHnilWarns(m, -1));
   if (o->h0 > 0) STF_CALL(flag, CVodeSetInitStep(m, o->h0));
@@ -91,22 +100,53 @@ static int configure(cvode *s, int order)
   return flag;
 }
 
+static int settings(stf_run *run, const steif_spec *spec, cvode *s)
+{
+  static const char *const keys[] = {"lmm", "order", "stald", "newton", NULL};
+  const char *lmm = stf_spec_word(spec, "lmm");
+  STEIF_TRY(stf_spec_only(run->ctx, spec, keys));
+  STEIF_CHECK(!lmm || !strcmp(lmm, "bdf") || !strcmp(lmm, "adams"), run->ctx, STEIF_BAD_INPUT,
+              "lmm=%s is not known to cvode: bdf or adams", lmm);
+  s->adams = lmm && !strcmp(lmm, "adams");
+  const int most = s->adams ? 12 : 5;
+  STEIF_TRY(stf_spec_int(run->ctx, spec, "order", 1, most, most, &s->order));
+  STEIF_TRY(stf_spec_int(run->ctx, spec, "stald", 0, 1, 0, &s->stald));
+  STEIF_TRY(stf_spec_real(run->ctx, spec, "newton", 1e-12, 1, 0, &s->newton));
+  STEIF_CHECK(!s->adams || !s->stald, run->ctx, STEIF_BAD_INPUT,
+              "stald=1, stability limit detection, is for lmm=bdf");
+  return STEIF_OK;
+}
+
+static void free_iteration(void *iteration) { SUNNonlinSolFree(iteration); }
+
+static int open_iteration(cvode *s)
+{
+  stf_run *run = s->base.run;
+  s->iteration = SUNNonlinSol_FixedPoint(run->y, 0, steif_sundials(run->ctx));
+  STEIF_CHECK(s->iteration, run->ctx, STEIF_NO_MEMORY, "no memory for a fixed-point iteration");
+  return stf_pool_adopt(run->pool, s->iteration, free_iteration);
+}
+
+static int open_newton(stf_baseline *b)
+{
+  const bool exact = stf_baseline_has_jac(b);
+  STEIF_TRY(stf_baseline_near(b));
+  STEIF_TRY(stf_baseline_linear(b, exact));
+  return b->J && b->storage != b->run->problem->storage && exact ? stf_baseline_native(b)
+                                                                 : STEIF_OK;
+}
+
 static int open(stf_run *run, void *state, const steif_spec *spec)
 {
   cvode *s = state;
   stf_baseline *b = &s->base;
-  int order;
-  STEIF_TRY(stf_spec_only(run->ctx, spec, (const char *const[]){"order", NULL}));
-  STEIF_TRY(stf_spec_int(run->ctx, spec, "order", 1, 5, 5, &order));
+  STEIF_TRY(settings(run, spec, s));
   STEIF_TRY(stf_baseline_open(b, run, "CVODE", flags));
   STEIF_TRY(stf_baseline_adaptive(b));
-  STEIF_TRY(stf_baseline_near(b));
-  STEIF_TRY(stf_baseline_linear(b, stf_baseline_has_jac(b)));
-  if (b->J && b->storage != run->problem->storage && stf_baseline_has_jac(b))
-    STEIF_TRY(stf_baseline_native(b));
+  STEIF_TRY(s->adams ? open_iteration(s) : open_newton(b));
   stf_baseline_enter(b, run);
-  s->memory = CVodeCreate(CV_BDF, steif_sundials(run->ctx));
-  return verdict(s, s->memory ? configure(s, order) : CV_MEM_FAIL);
+  s->memory = CVodeCreate(s->adams ? CV_ADAMS : CV_BDF, steif_sundials(run->ctx));
+  return verdict(s, s->memory ? configure(s) : CV_MEM_FAIL);
 }
 
 static void collect(cvode *s)
@@ -117,13 +157,15 @@ static void collect(cvode *s)
   CVodeGetNumSteps(m, &n.steps);
   CVodeGetNumErrTestFails(m, &n.rejected);
   CVodeGetNumRhsEvals(m, &n.nfe);
-  CVodeGetNumLinRhsEvals(m, &more);
+  if (!s->adams) {
+    CVodeGetNumLinRhsEvals(m, &more);
+    CVodeGetNumJacEvals(m, &n.nje);
+    CVodeGetNumLinIters(m, &n.nli);
+  }
   n.nfe += more;
-  CVodeGetNumJacEvals(m, &n.nje);
   CVodeGetNumLinSolvSetups(m, &n.nlu);
   CVodeGetNumNonlinSolvIters(m, &n.newton);
   CVodeGetNumStepSolveFails(m, &n.newton_fails);
-  CVodeGetNumLinIters(m, &n.nli);
   CVodeGetLastStep(m, &n.h_last);
   stf_baseline_count(&s->base, &n);
 }
@@ -157,8 +199,10 @@ static void close(stf_run *run, void *state)
 }
 
 const steif_engine steif_engine_cvode = {
-  .about = "CVODE: variable-order, variable-coefficient BDF in fixed-leading-coefficient form "
-           "(Cohen, Hindmarsh, Computers in Physics 10, 1996; SUNDIALS)",
+  .about =
+    "CVODE: variable-order, variable-coefficient BDF in fixed-leading-coefficient form "
+    "(Cohen, Hindmarsh, Computers in Physics 10, 1996; SUNDIALS); order=1..5, stald=0|1; "
+    "lmm=adams: Adams methods for what is not stiff",
   .forms = STEIF_ODE,
   .size = sizeof(cvode),
   .open = open,

@@ -9,6 +9,9 @@
 typedef struct ida {
   stf_baseline base;
   void *memory;
+  int order, suppress, ic; /* ic: 0 none, 1 YA_YDP_INIT, 2 Y_INIT */
+  const char *id;          /* of the spec, "E" when absent */
+  sunrealtype newton;      /* coefficient of its convergence test; 0: its default */
 } ida;
 
 #define INDEX "The system may have an index above 1, or its start values are inconsistent: "
@@ -18,10 +21,12 @@ static const stf_flag flags[] = {
            "Raise max_steps or loosen the tolerances"),
   STF_FLAG(IDA_TOO_MUCH_ACC, STEIF_BASELINE, "more accuracy was asked for than the machine has",
            "Loosen rtol, or raise atol where a component is near zero"),
-  STF_FLAG(IDA_ERR_FAIL, STEIF_BASELINE,
-           "the error test failed repeatedly or the step reached its minimum",
-           INDEX
-           "give yp0, set consistent = 1 or suppress_algebraic = 1, or use a steif method"),
+  STF_FLAG(
+    IDA_ERR_FAIL, STEIF_BASELINE,
+    "the error test failed repeatedly or the step reached its minimum",
+    INDEX
+    "give yp0; try ida:suppress=1, ida:suppress=1,ic=2, or ida:suppress=1,id=index, which "
+    "tests the error of components of index 1 only; or use a steif method"),
   STF_FLAG(IDA_CONV_FAIL, STEIF_BASELINE,
            "Newton's iteration failed repeatedly or the step reached its minimum",
            INDEX "check dF/dy + c dF/dy' against differences, or use a steif method"),
@@ -114,7 +119,7 @@ static int attach(ida *s)
   return flag;
 }
 
-static int configure(ida *s, int order)
+static int configure(ida *s)
 {
   stf_run *run = s->base.run;
   const steif_options *o = run->options;
@@ -125,7 +130,8 @@ static int configure(ida *s, int order)
   STF_CALL(flag, o->ewt         ? IDAWFtolerances(m, stf_baseline_weights)
                  : s->base.atol ? IDASVtolerances(m, o->rtol, s->base.atol)
                                 : IDASStolerances(m, o->rtol, o->atol));
-  STF_CALL(flag, IDASetMaxOrd(m, order));
+  STF_CALL(flag, IDASetMaxOrd(m, s->order));
+  if (s->newton > 0) STF_CALL(flag, IDASetNonlinConvCoef(m, s->newton));
   if (s->base.constraint) STF_CALL(flag, IDASetConstraints(m, s->base.constraint));
   if (o->h0 > 0) STF_CALL(flag, IDASetInitStep(m, o->h0));
   if (o->h_max > 0) STF_CALL(flag, IDASetMaxStep(m, o->h_max));
@@ -137,46 +143,58 @@ static int configure(ida *s, int order)
 static int consistent(ida *s)
 {
   stf_run *run = s->base.run;
-  const steif_options *o = run->options;
-  if (!o->consistent) return 0;
-  int flag = IDACalcIC(s->memory, o->consistent == 1 ? IDA_YA_YDP_INIT : IDA_Y_INIT, o->t1);
+  if (!s->ic) return 0;
+  int flag = IDACalcIC(s->memory, s->ic == 1 ? IDA_YA_YDP_INIT : IDA_Y_INIT, run->options->t1);
   STF_CALL(flag, IDAGetConsistentIC(s->memory, run->y, run->yp));
   return flag;
 }
 
-static int check(stf_run *run, const steif_spec *spec, int *order)
+/* What the spec leaves open is taken from the options. */
+static int settings(stf_run *run, const steif_spec *spec, ida *s)
 {
-  const int c = run->options->consistent;
-  STEIF_TRY(stf_spec_only(run->ctx, spec, (const char *const[]){"order", NULL}));
-  STEIF_TRY(stf_spec_int(run->ctx, spec, "order", 1, 5, 5, order));
-  STEIF_CHECK(c >= 0 && c <= 2, run->ctx, STEIF_BAD_INPUT,
+  const steif_options *o = run->options;
+  static const char *const keys[] = {"order", "suppress", "ic", "id", "newton", NULL};
+  STEIF_CHECK(o->consistent >= 0 && o->consistent <= 2, run->ctx, STEIF_BAD_INPUT,
               "options.consistent = %d must be 0, 1 (IDACalcIC with YA_YDP_INIT) or 2 (Y_INIT)",
-              c);
+              o->consistent);
+  STEIF_TRY(stf_spec_only(run->ctx, spec, keys));
+  STEIF_TRY(stf_spec_int(run->ctx, spec, "order", 1, 5, 5, &s->order));
+  STEIF_TRY(
+    stf_spec_int(run->ctx, spec, "suppress", 0, 1, o->suppress_algebraic != 0, &s->suppress));
+  STEIF_TRY(stf_spec_int(run->ctx, spec, "ic", 0, 2, o->consistent, &s->ic));
+  STEIF_TRY(stf_spec_real(run->ctx, spec, "newton", 1e-12, 1, 0, &s->newton));
+  s->id = stf_spec_word(spec, "id");
+  STEIF_CHECK(!s->id || s->suppress || s->ic == 1, run->ctx, STEIF_BAD_INPUT,
+              "id=%s has no effect in IDA unless suppress=1 or ic=1: add one of them", s->id);
+  if (!s->id) s->id = "E";
   return STEIF_OK;
+}
+
+static int identify(ida *s, N_Vector *id)
+{
+  stf_run *run = s->base.run;
+  if (!s->suppress && s->ic != 1) return STEIF_OK;
+  *id = stf_pool_vector(run->pool, run->like);
+  return *id ? stf_start_id(&s->base, s->id, *id) : STEIF_NO_MEMORY;
 }
 
 static int open(stf_run *run, void *state, const steif_spec *spec)
 {
   ida *s = state;
   stf_baseline *b = &s->base;
-  const steif_options *o = run->options;
-  int order;
-  STEIF_TRY(check(run, spec, &order));
+  N_Vector id = NULL;
+  STEIF_TRY(settings(run, spec, s));
   STEIF_TRY(stf_baseline_open(b, run, "IDA", flags));
   STEIF_TRY(stf_baseline_adaptive(b));
   if (!(b->start = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
-  N_Vector id = NULL;
   STEIF_TRY(stf_lower_open(b));
   STEIF_TRY(stf_start_slopes(b));
-  if (o->suppress_algebraic || o->consistent == 1) {
-    if (!(id = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
-    STEIF_TRY(stf_start_id(b, id));
-  }
+  STEIF_TRY(identify(s, &id));
   stf_baseline_enter(b, run);
   s->memory = IDACreate(steif_sundials(run->ctx));
-  int flag = s->memory ? configure(s, order) : IDA_MEM_FAIL;
+  int flag = s->memory ? configure(s) : IDA_MEM_FAIL;
   if (id) STF_CALL(flag, IDASetId(s->memory, id));
-  if (o->suppress_algebraic) STF_CALL(flag, IDASetSuppressAlg(s->memory, 1));
+  if (s->suppress) STF_CALL(flag, IDASetSuppressAlg(s->memory, 1));
   STF_CALL(flag, consistent(s));
   return verdict(s, flag);
 }
@@ -239,8 +257,11 @@ static void close(stf_run *run, void *state)
 
 const steif_engine steif_engine_ida = {
   .about =
-    "IDA: variable-order, variable-coefficient BDF for DAEs of index 1 and some of index 2 "
-    "(Hindmarsh et al., ACM TOMS 31, 2005; SUNDIALS)",
+    "IDA: variable-order, variable-coefficient BDF for DAEs (Hindmarsh et al., ACM TOMS 31, "
+    "2005; SUNDIALS); suppress=0|1, id=E|index|ones, ic=0|1|2, order=1..5: by default for "
+    "index "
+    "0 and 1, with suppress=1 for index 2, with id=index for index 3 and 4 from consistent "
+    "starts",
   .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
   .size = sizeof(ida),
   .open = open,
