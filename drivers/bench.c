@@ -7,9 +7,9 @@ static const struct {
   const char *name;
   int (*run)(struct call *call);
 } benchmarks[] = {{"step", bench_step},         {"books", bench_cost_accounting},
-                  {"workprec", bench_workprec}, {"impulse", bench_impulse},
-                  {"phi", bench_phi},           {"lyapunov", bench_lyapunov},
-                  {"lorenz", bench_lorenz}};
+                  {"workprec", bench_workprec}, {"success", bench_success},
+                  {"impulse", bench_impulse},   {"phi", bench_phi},
+                  {"lyapunov", bench_lyapunov}, {"lorenz", bench_lorenz}};
 enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
 static const char *name_at(const void *list, size_t i)
@@ -28,20 +28,25 @@ static int run(struct call *call)
 }
 
 static const struct option options[] = {
-  {"--problems", WORD, "a,b,c", "workprec: instead of the usual ones; impulse: one", NULL},
-  {"--methods", WORD, "a,b,c", "workprec: instead of the usual ones; baselines among them",
-   NULL},
-  {"--rtols", REALS, "a,b,c", "workprec: relative tolerances",
+  {"--problems", WORD, "a,b,c",
+   "workprec: instead of the usual ones; impulse: one; success: a prefix", NULL},
+  {"--methods", WORD, "a,b,c",
+   "workprec, success: instead of the usual ones; baselines among them", NULL},
+  {"--rtols", REALS, "a,b,c", "workprec, success: relative tolerances",
    "1e-1,1e-2,1e-3,1e-4,1e-5,1e-6,1e-7,1e-8,1e-9,1e-10,1e-11"},
-  {"--longest", POSITIVE, "S", "a solve ends after S processor seconds (default: 2; phi: 10)",
+  {"--longest", POSITIVE, "S",
+   "a solve ends after S processor seconds (default: 2; phi: 10; --quick: 0.1)", NULL},
+  {"--runs", FLAG, NULL,
+   "workprec, success: every run as well, not the best, or the worst, alone", NULL},
+  {"--quick", FLAG, NULL, "success: a part of the campaign, in a minute", NULL},
+  {"--seeds", COUNT, "N", "success: random problems of each kind (default: 12; --quick: 2)",
    NULL},
-  {"--runs", FLAG, NULL, "workprec: every run as well, not the best ones alone", NULL},
   OPTIONS_END};
 
 const struct verb verb_bench = {
   .name = "bench",
   .about = "Measure steps against their kernels, solves against CVODE, IDA, ARKODE",
-  .usage = "[step|books|workprec|impulse|phi|lyapunov|lorenz]",
+  .usage = "[step|books|workprec|success|impulse|phi|lyapunov|lorenz]",
   .most = 1,
   .picture = true,
   .option = options,

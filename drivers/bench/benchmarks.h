@@ -12,6 +12,7 @@ int bench_step(struct call *call);
 int bench_cost_accounting(struct call *call);
 int bench_lyapunov(struct call *call);
 int bench_workprec(struct call *call);
+int bench_success(struct call *call);
 int bench_impulse(struct call *call);
 int bench_phi(struct call *call);
 int bench_lorenz(struct call *call);

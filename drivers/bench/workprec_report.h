@@ -12,6 +12,9 @@ typedef struct plan_list {
   size_t count;
   char item[PLAN_MOST][STEIF_SPEC_WORD];
 } plan_list;
+/* Items of a list as it was given, or where `text` is NULL of the usual plan. A parameter "key=value"
+ * without ':' belongs to the item before it: "heat:n=400,storage=sparse". */
+void work_split(plan_list *l, const char *text, const char *(*usual_at)(size_t i));
 
 typedef struct workprec {
   plan_list problems, methods;

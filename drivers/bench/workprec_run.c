@@ -3,9 +3,7 @@
 #include "workprec_report.h"
 #include <string.h>
 
-/* Items of a list as it was given, or of the usual plan. A parameter "key=value" without ':' belongs
- * to the item before it: "heat:n=400,storage=sparse". */
-static void split(plan_list *l, const char *text, const char *(*usual_at)(size_t i))
+void work_split(plan_list *l, const char *text, const char *(*usual_at)(size_t i))
 {
   for (size_t i = 0; !text && l->count < PLAN_MOST && usual_at(i); i++)
     snprintf(l->item[l->count++], STEIF_SPEC_WORD, "%s", usual_at(i));
@@ -24,8 +22,8 @@ static void split(plan_list *l, const char *text, const char *(*usual_at)(size_t
 static int open(struct call *call, workprec *w)
 {
   steif_method_info m;
-  split(&w->problems, word_of(call, "--problems"), steif_bench_problem);
-  split(&w->methods, word_of(call, "--methods"), steif_bench_method);
+  work_split(&w->problems, word_of(call, "--problems"), steif_bench_problem);
+  work_split(&w->methods, word_of(call, "--methods"), steif_bench_method);
   w->rtols = reals_of(call, "--rtols", w->rtol);
   w->longest = real_or(call, "--longest", 2);
   for (size_t k = 0; k < w->methods.count; k++)

@@ -2,8 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_phi[], tests_of_lyapunov[], tests_of_growth[], tests_of_step[];
+extern CU_TestInfo tests_of_phi[], tests_of_lyapunov[], tests_of_growth[], tests_of_step[],
+  tests_of_made[];
 
 SUITE_MAIN({.pName = "phi", .pTests = tests_of_phi}, {.pName = "step", .pTests = tests_of_step},
+           {.pName = "made", .pTests = tests_of_made},
            {.pName = "growth", .pTests = tests_of_growth},
            {.pName = "lyapunov", .pTests = tests_of_lyapunov})
