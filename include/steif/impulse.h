@@ -38,11 +38,14 @@ enum steif_algorithm {
 
 typedef struct steif_analysis {
   enum steif_algorithm algorithm;
-  sunrealtype radius;       /* of the circle; 0: raised until the count equals the degree */
-  int points;               /* of the quadrature; 0: 16 */
-  int refinements;          /* of each solve, at most, where residuals ask; 0: 2; -1: none */
-  int index_most;           /* largest index looked for; 0: 8 */
-  unsigned seed;            /* of the random directions; 0: 1 */
+  sunrealtype radius; /* of the circle; 0: raised until the count equals the degree */
+  int points;         /* of the quadrature; 0: 16 */
+  int refinements;    /* of each solve, at most, where residuals ask; 0: 2; -1: none */
+  int index_most;     /* largest index looked for; 0: 8 */
+  unsigned seed;      /* of the random directions; 0: 1 */
+  int snap;           /* exact ranks take a diagonal entry of E or F that is within 4 units in
+                               the last place of the negative sum of its row for that sum: what
+                               assembling 0.1 + 0.2 has rounded. 0: entries are what they are */
   const steif_names *names; /* for sentences, which count from 1; NULL: numbers only */
 } steif_analysis;
 
@@ -101,8 +104,12 @@ typedef struct steif_impulse {
                                (the first to max |E| ||c_{k-2}|| or, where larger, max |E|^2 /
                                max |F| times the norm of c_{k-3} or x- - x+) */
   sunrealtype resolution; /* of the structure: valid for time scales from 1 / resolution on */
-  sunrealtype estimate;   /* of the relative error of x_plus: two radii, or two algorithms */
-  sunrealtype radius;     /* of the circle that x_plus and c are from; 0: of none */
+  sunrealtype
+    estimate;         /* of the error of x_plus relative to its norm, or to a thousandth of what
+                               E x(0-) and f stand for where that is larger, so that 0 is as good
+                               as any: two radii, or two algorithms and twice what changes of all
+                               entries in the last place make of x_plus, the larger */
+  sunrealtype radius; /* of the circle that x_plus and c are from; 0: of none */
   int certified;
   const char *method;
   steif_pencil_stats cost; /* of the sparse algorithms */

@@ -60,18 +60,17 @@ static int ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* The table shows one draw of the random numbers: the median of ours stays
- * below ten times it, and none is above 300 times. */
+/* The table shows one draw of the random numbers: the median of ours stays below ten times it. What
+ * single draws are above that is in their data, see below. */
 static void within(const family *p, int a, int what, int seeds, double *error, double known)
 {
   qsort(error, (size_t)seeds, sizeof *error, ascending);
-  const double median = error[seeds / 2], worst = error[seeds - 1];
-  const bool good = median <= 10 * known && worst <= 300 * known;
+  const double median = error[seeds / 2];
+  const bool good = median <= 10 * known;
   CHECK(good);
   if (!good)
-    printf("\n  %s, algorithm %d, quantity %d: median %.1e, worst %.1e, table "
-           "%.1e",
-           p->name, a, what, median, worst, known);
+    printf("\n  %s, algorithm %d, quantity %d: median %.1e, table %.1e", p->name, a, what,
+           median, known);
 }
 
 /* Errors of x(0+), c_0, c_1, ... by staircase and Schur form. */
@@ -137,7 +136,7 @@ static void errors_are_those_of_rounded_matrices(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   for (int r = 0; r < ROWS; r++)
-    for (unsigned seed = 1; seed <= 4 && table[r].family.finite < 100; seed++) {
+    for (unsigned seed = 1; seed <= SEEDS && table[r].family.finite < 100; seed++) {
       double change[DEPTH] = {0};
       sample p;
       sample_open(&p, &table[r].family, seed);
@@ -158,8 +157,8 @@ static void errors_are_those_of_rounded_matrices(void)
   steif_context_free(&ctx);
 }
 
-/* The estimate, the difference of two algorithms, is as large as the error up
- * to a factor 20. */
+/* The estimate, the difference of two algorithms or what other rounding of the entries makes of x(0+), is
+ * as large as the error up to a factor 10. */
 static void estimates_are_honest(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -169,8 +168,8 @@ static void estimates_are_honest(void)
       sample_open(&p, &table[r].family, seed);
       steif_impulse impulse = solve(ctx, &p, STEIF_AUTOMATIC);
       const double error = off(p.n, impulse.x_plus, p.plus);
-      CHECK(error <= 20 * impulse.estimate + 1e-13);
-      if (error > 20 * impulse.estimate + 1e-13)
+      CHECK(error <= 10 * impulse.estimate + 1e-14);
+      if (error > 10 * impulse.estimate + 1e-14)
         printf("\n  %s, seed %u: error %.1e, estimate %.1e", table[r].family.name, seed, error,
                impulse.estimate);
       steif_impulse_clear(ctx, &impulse);

@@ -57,13 +57,14 @@ static void a_kernel_that_grows_no_more_ends_it(void)
 typedef struct pencil {
   steif_context *ctx;
   SUNMatrix E, F;
+  stf_field field;
 } pencil;
 
 static int by_ranks(void *data, int level, sunindextype *dimension)
 {
   const pencil *p = data;
   sunindextype rank;
-  CHECK(!stf_field_rank(p->ctx, p->E, p->F, level, &rank));
+  CHECK(!stf_field_rank(p->ctx, &p->field, level, 1, &rank));
   *dimension = level * SM_COLUMNS_D(p->E) - rank;
   return STEIF_OK;
 }
@@ -72,7 +73,7 @@ static int by_ranks(void *data, int level, sunindextype *dimension)
 static void ranks_give_the_chains_at_infinity(void)
 {
   enum { N = 6 };
-  pencil p = {steif_context_new(NULL), NULL, NULL};
+  pencil p = {.ctx = steif_context_new(NULL)};
   p.E = SUNDenseMatrix(N, N, steif_sundials(p.ctx));
   p.F = SUNDenseMatrix(N, N, steif_sundials(p.ctx));
   for (int i = 0; i < N; i++) SM_ELEMENT_D(p.F, i, i) = i < 5 ? 1 : 7;
@@ -91,16 +92,20 @@ static void ranks_give_the_chains_at_infinity(void)
   sunindextype weyr[N];
   int count;
   bool complete, singular;
+  CHECK(!stf_field_open(p.ctx, p.E, p.F, false, &p.field));
   CHECK(!stf_weyr_find(by_ranks, &p, 5, N, weyr, &count, &complete));
   CHECK(complete && count == 3 && weyr[0] == 2 && weyr[1] == 2 && weyr[2] == 1);
-  CHECK(!stf_field_singular(p.ctx, p.E, p.F, &singular) && !singular);
+  CHECK(!stf_field_chains(p.ctx, &p.field, N, weyr, &count));
+  CHECK(count == 3 && weyr[0] == 2 && weyr[1] == 2 && weyr[2] == 1);
+  CHECK(!stf_field_chains(p.ctx, &p.field, 2, weyr, &count) && count == -1);
+  CHECK(!stf_field_singular(p.ctx, &p.field, &singular) && !singular);
   for (int i = 0; i < N; i++) { /* unknown 2 as unknown 1 times -1 in all equations */
     SM_ELEMENT_D(p.E, i, 1) = -SM_ELEMENT_D(p.E, i, 0);
     SM_ELEMENT_D(p.F, i, 1) = -SM_ELEMENT_D(p.F, i, 0);
   }
   unsigned char in_kernel[N] = {0};
-  CHECK(!stf_field_singular(p.ctx, p.E, p.F, &singular) && singular);
-  CHECK(!stf_field_kernel(p.ctx, p.E, p.F, in_kernel));
+  CHECK(!stf_field_singular(p.ctx, &p.field, &singular) && singular);
+  CHECK(!stf_field_kernel(p.ctx, &p.field, in_kernel));
   for (int j = 0; j < N; j++) CHECK(in_kernel[j] == (j < 2));
   SUNMatDestroy(p.E), SUNMatDestroy(p.F);
   steif_context_free(&p.ctx);

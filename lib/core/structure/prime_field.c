@@ -6,15 +6,10 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "prime_field.h"
+#include "residues.h"
 #include <colamd.h>
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
-#include <sunmatrix/sunmatrix_dense.h>
-#include <sunmatrix/sunmatrix_sparse.h>
-
-/* The two largest primes below 2^31, and points for s. */
-static const uint64_t prime[2] = {2147483647, 2147483629}, point[2] = {1234567891, 987654321};
 
 /* The factors may have GROWTH times as many entries as the matrix, as in prime_field.h; they are
  * allocated in pieces of at least CHUNK. */
@@ -26,16 +21,19 @@ enum { KERNEL_MOST = 64 };
 /* Columns of a triangular factor, with room for more. */
 typedef struct factor {
   sunindextype *start, *row, room, used;
-  uint32_t *value;
+  uint64_t *value;
 } factor;
 
 typedef struct field {
   steif_context *ctx;
   stf_pool *pool;
-  uint64_t p, s;
+  stf_modulus m;
+  uint64_t s;
+  stf_columns given[2];    /* E and F ... */
+  uint64_t *residue[2];    /* ... and their entries modulo p */
   sunindextype n;          /* rows and columns */
   sunindextype *ptr, *row; /* the matrix by columns */
-  uint32_t *value;
+  uint64_t *value;
   sunindextype *weight, *order; /* entries of rows; columns by their number of entries */
   sunindextype *pivot_of;       /* row -> its step; NONE */
   factor L, U;                  /* by steps; of U only what a kernel asks for */
@@ -45,63 +43,30 @@ typedef struct field {
   sunindextype *reach, *stack, *next, *seen;
 } field;
 
-/* ---- numbers ------------------------------------------------------------------------------------ */
-
-static uint64_t power(uint64_t p, uint64_t base, uint64_t exponent)
-{
-  uint64_t result = 1;
-  for (; exponent; exponent >>= 1, base = base * base % p)
-    if (exponent & 1) result = result * base % p;
-  return result;
-}
-
-/* x = m 2^e with a whole m of 53 bits; 2^(p-1) = 1. */
-static uint64_t residue(uint64_t p, sunrealtype x)
-{
-  int e;
-  const int64_t m = (int64_t)ldexp(frexp(x, &e), 53);
-  const uint64_t size = (uint64_t)(m < 0 ? -m : m) % p;
-  const uint64_t twos = power(p, 2, (uint64_t)(e - 53 + (int64_t)(p - 1)));
-  const uint64_t r = size * twos % p;
-  return m < 0 && r ? p - r : r;
-}
-
 /* ---- the matrix ----------------------------------------------------------------------------------- */
 
-static bool dense(SUNMatrix M) { return SUNMatGetID(M) == SUNMATRIX_DENSE; }
-static sunindextype order_of(SUNMatrix M)
-{
-  return dense(M) ? SM_COLUMNS_D(M) : SM_COLUMNS_S(M);
-}
-static sunindextype entries(SUNMatrix M)
-{
-  return dense(M) ? SM_LDATA_D(M) : SM_INDEXPTRS_S(M)[SM_COLUMNS_S(M)];
-}
-
-/* Append column j of `times` M to a column of the matrix, from row `shift` on. */
-static void join(field *f, SUNMatrix M, sunindextype j, sunindextype shift, uint64_t times,
+/* Append column j of `times` E or F to a column of the matrix, from row `shift` on. */
+static void join(field *f, int which, sunindextype j, sunindextype shift, uint64_t times,
                  sunindextype *count)
 {
-  const sunindextype height = order_of(M);
-  const sunindextype from = dense(M) ? j * height : SM_INDEXPTRS_S(M)[j];
-  const sunindextype to = dense(M) ? from + height : SM_INDEXPTRS_S(M)[j + 1];
-  const sunrealtype *a = dense(M) ? SM_DATA_D(M) : SM_DATA_S(M);
-  for (sunindextype k = from; k < to; k++) {
-    if (a[k] == 0) continue;
-    f->row[*count] = shift + (dense(M) ? k - from : SM_INDEXVALS_S(M)[k]);
-    f->value[(*count)++] = (uint32_t)(times * residue(f->p, a[k]) % f->p);
+  const stf_columns *c = &f->given[which];
+  for (sunindextype k = stf_columns_start(c, j); k < stf_columns_start(c, j + 1); k++) {
+    if (!f->residue[which][k]) continue;
+    f->row[*count] = shift + stf_columns_row(c, k);
+    f->value[(*count)++] = stf_modular_product(&f->m, times, f->residue[which][k]);
   }
 }
 
-static void assemble(field *f, SUNMatrix E, SUNMatrix F, int blocks)
+static void assemble(field *f, int blocks)
 {
-  const sunindextype n = order_of(E);
+  const sunindextype n = f->given[0].n;
+  const uint64_t one = f->m.one;
   sunindextype count = 0;
   for (sunindextype j = 0; j < f->n; j++) {
     const sunindextype block = j / n;
-    join(f, E, j % n, block * n, blocks ? 1 : f->s, &count);
+    join(f, 0, j % n, block * n, blocks ? one : f->s, &count);
     if (!blocks || block + 1 < blocks)
-      join(f, F, j % n, blocks ? (block + 1) * n : 0, 1, &count);
+      join(f, 1, j % n, blocks ? (block + 1) * n : 0, one, &count);
     f->ptr[j + 1] = count;
   }
   for (sunindextype k = 0; k < count; k++) f->weight[f->row[k]]++;
@@ -125,11 +90,25 @@ static int arrange(field *f)
   return STEIF_OK;
 }
 
-static int open(field *f, SUNMatrix E, SUNMatrix F, int blocks)
+static int take_residues(field *f, const stf_field *of)
 {
+  for (int which = 0; which < 2; which++) {
+    SUNMatrix M = which ? of->F : of->E;
+    f->given[which] = stf_columns_of(M);
+    const size_t count = (size_t)f->given[which].count;
+    f->residue[which] = stf_pool_array(f->pool, count, sizeof **f->residue);
+    if (!f->residue[which]) return STEIF_NO_MEMORY;
+    STEIF_TRY(stf_residues_find(f->ctx, M, of->snap, &f->m, f->residue[which]));
+  }
+  return STEIF_OK;
+}
+
+static int open(field *f, const stf_field *of, int blocks)
+{
+  STEIF_TRY(take_residues(f, of));
   const size_t size = sizeof(sunindextype), copies = blocks ? (size_t)blocks : 1;
-  const size_t n = (size_t)order_of(E) * copies;
-  const size_t count = ((size_t)entries(E) + (size_t)entries(F)) * copies + 1;
+  const size_t n = (size_t)f->given[0].n * copies;
+  const size_t count = ((size_t)f->given[0].count + (size_t)f->given[1].count) * copies + 1;
   f->n = (sunindextype)n;
   f->ptr = stf_pool_array(f->pool, 11 * n + 5, size);
   f->row = stf_pool_array(f->pool, count, size);
@@ -147,7 +126,7 @@ static int open(field *f, SUNMatrix E, SUNMatrix F, int blocks)
   f->seen = f->next + n;
   f->column_of = f->seen + n;
   f->y = f->x + n;
-  assemble(f, E, F, blocks);
+  assemble(f, blocks);
   for (sunindextype i = 0; i < f->n; i++) f->pivot_of[i] = f->seen[i] = NONE;
   return arrange(f);
 }
@@ -160,7 +139,7 @@ static int widen(const field *f, factor *t)
   if (t->used + f->n <= t->room) return STEIF_OK;
   const sunindextype room = 2 * t->room + f->n + CHUNK;
   sunindextype *row = stf_allocate(f->ctx, (size_t)room, sizeof *row);
-  uint32_t *value = row ? stf_allocate(f->ctx, (size_t)room, sizeof *value) : NULL;
+  uint64_t *value = row ? stf_allocate(f->ctx, (size_t)room, sizeof *value) : NULL;
   if (value && t->used) {
     memcpy(row, t->row, (size_t)t->used * sizeof *row);
     memcpy(value, t->value, (size_t)t->used * sizeof *value);
@@ -177,7 +156,7 @@ static int widen(const field *f, factor *t)
 static void append(factor *t, sunindextype row, uint64_t value)
 {
   t->row[t->used] = row;
-  t->value[t->used++] = (uint32_t)value;
+  t->value[t->used++] = value;
 }
 
 /* Rows that row i leads to through the columns of L, depth first; they stand in `reach` from `top`
@@ -207,6 +186,17 @@ static sunindextype search(field *f, sunindextype i, sunindextype mark, sunindex
   return top;
 }
 
+/* x -= times the entries `from` .. `to` - 1 of a column. */
+static void subtract(const stf_modulus *m, const factor *t, sunindextype from, sunindextype to,
+                     uint64_t times, uint64_t *x)
+{
+  const uint64_t minus = stf_modular_negative(m, times);
+  for (sunindextype q = from; q < to; q++) {
+    uint64_t *at = x + t->row[q];
+    *at = stf_modular_sum(m, *at, stf_modular_product(m, minus, t->value[q]));
+  }
+}
+
 /* x <- L^{-1} column j; its rows stand in `reach` from the value returned on. */
 static sunindextype solve(field *f, sunindextype j)
 {
@@ -215,13 +205,12 @@ static sunindextype solve(field *f, sunindextype j)
     if (f->seen[f->row[k]] != j) top = search(f, f->row[k], j, top);
   for (sunindextype k = top; k < f->n; k++) f->x[f->reach[k]] = 0;
   for (sunindextype k = f->ptr[j]; k < f->ptr[j + 1]; k++)
-    f->x[f->row[k]] = (f->x[f->row[k]] + f->value[k]) % f->p;
+    f->x[f->row[k]] = stf_modular_sum(&f->m, f->x[f->row[k]], f->value[k]);
   for (sunindextype k = top; k < f->n; k++) {
     const sunindextype step = f->pivot_of[f->reach[k]];
     const uint64_t x = f->x[f->reach[k]];
     if (step < 0 || !x) continue;
-    for (sunindextype q = f->L.start[step]; q < f->L.start[step + 1]; q++)
-      f->x[f->L.row[q]] = (f->x[f->L.row[q]] + (f->p - x) * f->L.value[q]) % f->p;
+    subtract(&f->m, &f->L, f->L.start[step], f->L.start[step + 1], x, f->x);
   }
   return top;
 }
@@ -240,11 +229,11 @@ static sunindextype choose(const field *f, sunindextype top)
 
 static void keep(field *f, sunindextype step, sunindextype pivot, sunindextype top)
 {
-  const uint64_t over = power(f->p, f->x[pivot], f->p - 2);
+  const uint64_t over = stf_modular_inverse(&f->m, f->x[pivot]);
   for (sunindextype k = top; k < f->n; k++) {
     const sunindextype i = f->reach[k];
     if (!f->x[i] || i == pivot) continue;
-    if (f->pivot_of[i] < 0) append(&f->L, i, f->x[i] * over % f->p);
+    if (f->pivot_of[i] < 0) append(&f->L, i, stf_modular_product(&f->m, f->x[i], over));
     if (f->pivot_of[i] >= 0 && f->kernel) append(&f->U, f->pivot_of[i], f->x[i]);
   }
   if (f->kernel) append(&f->U, step, over);
@@ -263,9 +252,8 @@ static void mark_kernel(field *f, sunindextype j, sunindextype steps, sunindexty
   for (sunindextype step = steps - 1; step >= 0; step--) {
     if (!y[step]) continue;
     const sunindextype last = f->U.start[step + 1] - 1;
-    y[step] = y[step] * f->U.value[last] % f->p;
-    for (sunindextype q = f->U.start[step]; q < last; q++)
-      y[f->U.row[q]] = (y[f->U.row[q]] + (f->p - y[step]) * f->U.value[q]) % f->p;
+    y[step] = stf_modular_product(&f->m, y[step], f->U.value[last]);
+    subtract(&f->m, &f->U, f->U.start[step], last, y[step], y);
     f->kernel[f->column_of[step]] = 1;
   }
 }
@@ -292,13 +280,14 @@ static int eliminate(field *f, sunindextype *rank)
   return STEIF_OK;
 }
 
-static int rank_of(steif_context *ctx, SUNMatrix E, SUNMatrix F, int blocks, int which,
+static int rank_of(steif_context *ctx, const stf_field *of, int blocks, int which,
                    unsigned char *kernel, sunindextype *rank)
 {
-  field f = {.ctx = ctx, .pool = stf_pool_new(ctx), .p = prime[which], .s = point[which]};
+  field f = {.ctx = ctx, .pool = stf_pool_new(ctx), .kernel = kernel};
   if (!f.pool) return STEIF_NO_MEMORY;
-  f.kernel = kernel;
-  int code = open(&f, E, F, blocks);
+  stf_modulus_set(of->prime[which], &f.m);
+  f.s = stf_modular_whole(&f.m, of->point[which]);
+  int code = open(&f, of, blocks);
   if (!code) code = eliminate(&f, rank);
   stf_release(ctx, f.L.row), stf_release(ctx, f.L.value);
   stf_release(ctx, f.U.row), stf_release(ctx, f.U.value);
@@ -306,24 +295,14 @@ static int rank_of(steif_context *ctx, SUNMatrix E, SUNMatrix F, int blocks, int
   return code;
 }
 
-int stf_field_rank(steif_context *ctx, SUNMatrix E, SUNMatrix F, int blocks, sunindextype *rank)
+int stf_field_rank(steif_context *ctx, const stf_field *of, int blocks, int which,
+                   sunindextype *rank)
 {
-  return rank_of(ctx, E, F, blocks, 0, NULL, rank);
+  return rank_of(ctx, of, blocks, which, NULL, rank);
 }
 
-int stf_field_singular(steif_context *ctx, SUNMatrix E, SUNMatrix F, bool *singular)
-{
-  *singular = true;
-  for (int which = 0; which < 2 && *singular; which++) {
-    sunindextype rank;
-    STEIF_TRY(rank_of(ctx, E, F, 0, which, NULL, &rank));
-    *singular = rank >= 0 && rank < order_of(E);
-  }
-  return STEIF_OK;
-}
-
-int stf_field_kernel(steif_context *ctx, SUNMatrix E, SUNMatrix F, unsigned char *in_kernel)
+int stf_field_kernel(steif_context *ctx, const stf_field *of, unsigned char *in_kernel)
 {
   sunindextype rank;
-  return rank_of(ctx, E, F, 0, 0, in_kernel, &rank);
+  return rank_of(ctx, of, 0, 0, in_kernel, &rank);
 }

@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sunmatrix/sunmatrix_sparse.h>
 
 typedef struct answer {
   sunrealtype *x; /* x(0+), c_0, c_1, ..., n each */
@@ -28,7 +29,8 @@ typedef struct residue {
   stf_circle *circle;
   bool borrowed; /* it is the structure's */
   steif_pencil_stats before;
-  sunrealtype R; /* of at[0]; 2 R of at[1] */
+  sunrealtype R;       /* of at[0]; 2 R of at[1] */
+  sunrealtype norm[2]; /* of E and F, Frobenius */
   answer at[3];
 } residue;
 
@@ -56,10 +58,11 @@ static int singular(stf_descriptor *d)
   steif_structure *s = d->structure;
   bool exactly = s->degree < 0;
   if (s->degree >= 0) {
-    SUNMatrix E = w->units.E, F = w->units.F;
+    stf_field field;
     s->equations_count = s->unknowns_count = 0;
-    STEIF_TRY(stf_field_singular(d->ctx, E, F, &exactly));
-    if (exactly) STEIF_TRY(stf_structural_dependent(d->ctx, E, F, s));
+    STEIF_TRY(stf_field_open(d->ctx, d->E, d->F, d->options.snap, &field));
+    STEIF_TRY(stf_field_singular(d->ctx, &field, &exactly));
+    if (exactly) STEIF_TRY(stf_structural_dependent(d->ctx, w->units.E, w->units.F, s));
     snprintf(
       s->message, sizeof s->message,
       "singular pencil%s (reciprocal condition %.1e at best) although its pattern is not; "
@@ -101,7 +104,8 @@ static sunrealtype difference(const residue *w, const answer *a, const answer *b
     size += a->x[i] * a->x[i];
   }
   if (off == 0) return 0;
-  return isfinite(off) && size > 0 ? sqrt(off / size) : INFINITY;
+  const sunrealtype by = stf_sources_measure(&w->sources, sqrt(size), w->norm[0], w->norm[1]);
+  return isfinite(off) && by > 0 ? sqrt(off) / by : INFINITY;
 }
 
 static void swap(answer *a, answer *b)
@@ -109,6 +113,14 @@ static void swap(answer *a, answer *b)
   const answer keep = *a;
   *a = *b;
   *b = keep;
+}
+
+static sunrealtype frobenius(SUNMatrix M)
+{
+  sunrealtype square = 0;
+  for (sunindextype k = 0; k < SM_INDEXPTRS_S(M)[SM_COLUMNS_S(M)]; k++)
+    square += SM_DATA_S(M)[k] * SM_DATA_S(M)[k];
+  return sqrt(square);
 }
 
 /* The circles of the structure serve again if they are of these matrices. */
@@ -137,6 +149,8 @@ static int open_start(stf_descriptor *d, residue *w)
   STEIF_TRY(stf_units_enter(d->pool, &w->units, &w->x0, &w->sources));
   STEIF_TRY(stf_impulse_allocate(d->ctx, w->sources.n, index, w->impulse));
   w->impulse->method = "contour";
+  w->norm[0] = frobenius(w->units.E);
+  w->norm[1] = frobenius(w->units.F);
   w->R = stf_radius(w->units.E, w->units.F, &d->options, s);
   return open_circle(d, w);
 }

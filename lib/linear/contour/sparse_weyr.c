@@ -14,7 +14,7 @@ enum { CHAIN_MOST = 64 };
 
 typedef struct pencil {
   steif_context *ctx;
-  SUNMatrix E, F;
+  stf_field field;
   sunindextype n, rank_E;
 } pencil;
 
@@ -22,7 +22,7 @@ static int kernel(void *data, int level, sunindextype *dimension)
 {
   const pencil *p = data;
   sunindextype rank = p->rank_E;
-  if (level > 1) STEIF_TRY(stf_field_rank(p->ctx, p->E, p->F, level, &rank));
+  if (level > 1) STEIF_TRY(stf_field_rank(p->ctx, &p->field, level, 0, &rank));
   *dimension = rank < 0 ? -1 : level * p->n - rank;
   return STEIF_OK;
 }
@@ -36,9 +36,11 @@ int steif_structure_ranks(steif_context *ctx, SUNMatrix E, SUNMatrix F, steif_st
               "the structure of the pencil is needed: call steif_structure_find before");
   STEIF_TRY(stf_structure_check(ctx, E, F));
   if (s->rank_E >= 0) return STEIF_OK;
-  STEIF_TRY(stf_field_rank(ctx, E, F, 1, &s->rank_E));
+  pencil p = {.ctx = ctx, .n = s->n};
+  STEIF_TRY(stf_field_open(ctx, E, F, false, &p.field));
+  STEIF_TRY(stf_field_rank(ctx, &p.field, 1, 0, &s->rank_E));
   if (s->rank_E < 0 || !s->regular || s->index < 1 || s->index > CHAIN_MOST) return STEIF_OK;
-  pencil p = {ctx, E, F, s->n, s->rank_E};
+  p.rank_E = s->rank_E;
   STEIF_TRY(stf_weyr_find(kernel, &p, s->infinite, s->index, weyr, &count, &complete));
   if (!complete || count != s->index) return STEIF_OK;
   STEIF_TRY(stf_structure_list(ctx, count, &s->weyr));

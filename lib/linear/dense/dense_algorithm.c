@@ -5,6 +5,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "dense_algorithm.h"
+#include "dense_agreement.h"
 #include "dense_algebra.h"
 #include "dense_thresholds.h"
 #include "dense_units.h"
@@ -89,6 +90,25 @@ static int staircase(stf_descriptor *d, dense *p, steif_structure *found, bool s
                        &p->answer[STAIRCASE], NULL);
 }
 
+/* Whatever rounding makes of them, entries whose det(s E + F) is 0 for all s are those of a singular
+ * pencil; a rank that is full at one s modulo one prime proves that they are not. */
+static int look_exactly(stf_descriptor *d)
+{
+  steif_structure *s = d->structure;
+  stf_field field;
+  bool singular;
+  if (!s->regular) return STEIF_OK;
+  STEIF_TRY(stf_field_open(d->ctx, d->E, d->F, d->options.snap, &field));
+  STEIF_TRY(stf_field_singular(d->ctx, &field, &singular));
+  if (!singular) return STEIF_OK;
+  s->regular = 0;
+  s->index = -1;
+  s->index_least = 0;
+  s->finite = s->infinite = -1;
+  s->weyr_count = 0;
+  return STEIF_OK;
+}
+
 /* Without x(0-) the start of the first way comes with the structure. */
 static int structure(stf_descriptor *d)
 {
@@ -97,7 +117,7 @@ static int structure(stf_descriptor *d)
   STEIF_TRY(staircase(d, p, d->structure, !d->x0));
   d->structure->count = NAN;
   d->structure->degree = -1;
-  return STEIF_OK;
+  return look_exactly(d);
 }
 
 static int solve(stf_descriptor *d, int way)
@@ -123,42 +143,32 @@ static int solve(stf_descriptor *d, int way)
 
 /* -- comparison ----------------------------------------------------------------------------- */
 
-static sunrealtype distance(dense *p, const sunrealtype *a, const sunrealtype *b)
+static stf_two_starts starts(const stf_descriptor *d, dense *p)
 {
-  for (int i = 0; i < p->units.n; i++) p->difference[i] = a[i] - b[i];
-  return stf_length(p->units.n, p->difference);
+  return (stf_two_starts){.ctx = d->ctx,
+                          .pool = d->pool,
+                          .units = &p->units,
+                          .analysis = &d->options,
+                          .sources = &p->sources,
+                          .one = &p->answer[STAIRCASE],
+                          .two = &p->answer[SCHUR],
+                          .difference = p->difference};
 }
 
-/* Relative difference of x(0+). */
-static sunrealtype apart(dense *p)
+/* Without x(0-) no answer is given whose error would matter: then both ways may differ by what rounding
+ * of the entries makes of any answer. */
+static int compare_starts(stf_descriptor *d, dense *p)
 {
-  const steif_impulse *one = &p->answer[STAIRCASE], *two = &p->answer[SCHUR];
-  const sunrealtype size = stf_length(p->units.n, one->x_plus);
-  const sunrealtype off = distance(p, one->x_plus, two->x_plus);
-  return off > 0 ? off / size : 0;
-}
-
-/* Both x(0+) and all c_i: nearly equal, or negligible in F c_0 = -E (x(0+) - x(0-)) and
- * F c_i = -E c_{i-1}. */
-static bool agree(dense *p)
-{
-  const int n = p->units.n;
-  const steif_impulse *one = &p->answer[STAIRCASE], *two = &p->answer[SCHUR];
-  const sunrealtype plus = stf_length(n, one->x_plus), before = stf_length(n, p->x0);
-  const sunrealtype E = stf_frobenius(n, n, p->units.E, n);
-  const sunrealtype F = stf_frobenius(n, n, p->units.F, n);
-  sunrealtype scale = E * (plus + before);
-  if (!(distance(p, one->x_plus, two->x_plus) <=
-        STF_AGREEMENT * (plus + STF_AGREEMENT * before)))
-    return false;
-  for (int i = 0; i < one->count && i < two->count; i++) {
-    const size_t at = (size_t)i * (size_t)n;
-    const sunrealtype size = stf_length(n, one->c + at);
-    const sunrealtype off = distance(p, one->c + at, two->c + at);
-    if (!(off <= STF_AGREEMENT * size || F * off <= STF_NEGLIGIBLE * scale)) return false;
-    scale = fmax(E * size, scale * E / F);
-  }
-  return true;
+  const stf_two_starts both = starts(d, p);
+  sunrealtype moved = 0;
+  p->both.off = stf_starts_apart(&both);
+  p->both.agreed = stf_starts_agree(&both, STF_AGREEMENT);
+  if (d->x0 || !p->both.agreed) STEIF_TRY(stf_start_moves(&both, &moved));
+  if (d->x0)
+    p->both.moved = moved;
+  else if (!p->both.agreed)
+    p->both.agreed = stf_starts_agree(&both, fmin(STF_LEAST_AGREEMENT, STF_EXPLAINED * moved));
+  return STEIF_OK;
 }
 
 /* What the pattern alone says: the structural degree, and who raises the index or is left over. */
@@ -182,8 +192,7 @@ static int compare(stf_descriptor *d)
   if (p->schur.index >= 0) {
     STEIF_TRY(stf_jensen(d->pool, p->units.n, p->units.E, p->units.F, p->schur.radius,
                          p->schur.resolution, &p->found->count));
-    p->both.off = apart(p);
-    p->both.agreed = agree(p);
+    STEIF_TRY(compare_starts(d, p));
   }
   return find_pattern(d, p);
 }
@@ -247,7 +256,7 @@ static void certify_start(stf_descriptor *d, dense *p)
   unscale(&p->units, &p->answer[STAIRCASE]);
   if (both) unscale(&p->units, &p->answer[SCHUR]);
   *d->impulse = *from;
-  d->impulse->estimate = both ? apart(p) : INFINITY;
+  d->impulse->estimate = both ? fmax(p->both.off, STF_DRAW_FACTOR * p->both.moved) : INFINITY;
   d->impulse->method = qz ? "qz" : "staircase";
   d->impulse->certified = !p->objection;
   d->impulse->resolution = p->both.resolution;
@@ -310,12 +319,15 @@ static int singular(stf_descriptor *d)
 {
   dense *p = d->state;
   bool exactly;
+  stf_field field;
   stf_units u;
   steif_structure *s = d->structure;
-  STEIF_TRY(stf_field_singular(d->ctx, d->E, d->F, &exactly));
+  STEIF_TRY(stf_field_open(d->ctx, d->E, d->F, d->options.snap, &field));
+  STEIF_TRY(stf_field_singular(d->ctx, &field, &exactly));
   s->certified = exactly;
-  stf_dense_message(s, NULL, NULL);
   STEIF_TRY(stf_units_open(d->ctx, d->pool, d->E, d->F, &u));
+  if (exactly) STEIF_TRY(stf_structural_dependent(d->ctx, u.E, u.F, s));
+  stf_dense_message(s, NULL, NULL);
   STEIF_TRY(stf_structural_rank(d->ctx, u.E, u.F, &p->pattern_rank, &p->pattern));
   s->degree = p->pattern.degree;
   return say_pattern(d, p);

@@ -15,6 +15,7 @@ typedef struct stf_both_ways {
   sunindextype carried;   /* finite eigenvalues in entries that are rounding */
   sunrealtype resolution; /* smallest eigenvalue that would pass for infinite */
   sunrealtype off;        /* relative difference of both x(0+) */
+  sunrealtype moved;      /* of one x(0+) when entries are rounded otherwise */
   bool agreed;            /* x(0+) and all impulses */
 } stf_both_ways;
 

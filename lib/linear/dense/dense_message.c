@@ -1,11 +1,13 @@
 /* dense_message.c: the sentences on what the dense algorithms have found of a pencil.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "dense_algorithm.h"
+#include "dense_thresholds.h"
 #include "weyr.h"
 #include <math.h>
 #include <stdio.h>
 
-const char *stf_dense_objection(const stf_both_ways *p, char *text, size_t length)
+/* The index itself is open. */
+static const char *open_index(const stf_both_ways *p, char *text, size_t length)
 {
   const steif_structure *a = p->staircase, *b = p->schur;
   if (p->other_index >= 0)
@@ -17,20 +19,30 @@ const char *stf_dense_objection(const stf_both_ways *p, char *text, size_t lengt
       "%.80s; rounding of the entries alone brings eigenvalues of a chain of %d from infinity "
       "down to some eps^(-1/%d) = %.1e",
       b->message, a->index, a->index, pow(STF_EPS, -1.0 / a->index));
-  if (b->index < 0) return a->index > 1 ? text : b->message;
-  if (p->carried > 0) {
+  else if (b->index < 0)
+    return b->message;
+  else if (p->carried > 0)
     snprintf(
       text, length,
       "entries that are rounding beside the largest carry %lld more finite eigenvalue%s: "
       "set those to 0 that are rounding",
       (long long)p->carried, p->carried == 1 ? "" : "s");
-    return text;
-  }
-  if (a->index < 0) return "the singular values of the staircase leave the index open";
-  if (a->index != b->index)
+  else if (a->index < 0)
+    return "the singular values of the staircase leave the index open";
+  else if (a->index != b->index)
     snprintf(text, length, "the staircase finds index %d, the generalised Schur form %d",
              a->index, b->index);
-  else if (fabs(a->count - (sunrealtype)a->finite) > 0.5)
+  else
+    return NULL;
+  return text;
+}
+
+const char *stf_dense_objection(const stf_both_ways *p, char *text, size_t length)
+{
+  const steif_structure *a = p->staircase, *b = p->schur;
+  const char *first = open_index(p, text, length);
+  if (first) return first;
+  if (!(fabs(a->count - (sunrealtype)a->finite) <= STF_COUNT_OFF))
     snprintf(text, length,
              "%lld finite eigenvalues by staircase and generalised Schur form, but %.3f by "
              "Jensen's formula",
@@ -45,6 +57,11 @@ const char *stf_dense_objection(const stf_both_ways *p, char *text, size_t lengt
     snprintf(text, length,
              "staircase and generalised Schur form give x(0+) apart by %.1e or other impulses",
              p->off);
+  else if (!isfinite(p->moved))
+    return "a change of the entries in the last place alone changes the index";
+  else if (p->moved > STF_AGREEMENT)
+    snprintf(text, length,
+             "a change of the entries in the last place alone moves x(0+) by %.1e", p->moved);
   else
     return NULL;
   return text;

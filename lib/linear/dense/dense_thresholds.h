@@ -26,6 +26,14 @@
 #define STF_AGREEMENT 1e-3
 /* Impulses this small beside E (x(0+) - x(0-)) are 0, three digits below the agreement asked for. */
 #define STF_NEGLIGIBLE 1e-6
+/* For a structure alone both ways may differ by STF_EXPLAINED times what other rounding of the entries
+ * changes, up to one digit: a wrong part of the pencil taken for infinite differs in all digits. */
+#define STF_EXPLAINED 10
+#define STF_LEAST_AGREEMENT 0.1
+/* Draws of rounded entries. Where one direction dominates, the rounding that is in the entries moves
+ * x(0+) by more than STF_DRAW_FACTOR times the largest of three draws once in 1e5 cases. */
+enum { STF_DRAWS = 3 };
+#define STF_DRAW_FACTOR 2
 /* A count of eigenvalues by Jensen's formula that is further off belongs to another number. */
 #define STF_COUNT_OFF 0.5
 

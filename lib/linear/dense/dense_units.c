@@ -75,7 +75,11 @@ static int compare(steif_context *ctx, SUNMatrix E, SUNMatrix F, const steif_str
                    const steif_structure *two, bool *second, int *other_index)
 {
   bool singular = true;
-  if (!one->regular && two->regular) STEIF_TRY(stf_field_singular(ctx, E, F, &singular));
+  stf_field field;
+  if (!one->regular && two->regular) {
+    STEIF_TRY(stf_field_open(ctx, E, F, false, &field));
+    STEIF_TRY(stf_field_singular(ctx, &field, &singular));
+  }
   *second = !singular;
   const bool differ = one->index != two->index || one->infinite != two->infinite;
   if (decided(one) && decided(two) && differ)

@@ -21,6 +21,12 @@ void stf_sources_product(SUNMatrix E, const sunrealtype *x, sunrealtype *y);
 int stf_sources_force(steif_context *ctx, steif_forcing f, void *user, sunrealtype t,
                       int derivatives, N_Vector g, sunrealtype *rows);
 
+/* What errors of an x(0+) of size `plus` are relative to: that, or a thousandth of what E x(0-), f, f',
+ * ... stand for in units of the unknowns, where it is smaller: x(0+) = 0 is as good as any. E and F:
+ * Frobenius norms. */
+sunrealtype stf_sources_measure(const stf_sources *sources, sunrealtype plus, sunrealtype E,
+                                sunrealtype F);
+
 /* Square, of one order, dense or CSC, finite; or a sentence. */
 int stf_structure_check(steif_context *ctx, SUNMatrix E, SUNMatrix F);
 /* Allocate lists in a structure (one that is there is released) and an impulse, whose x_plus has 2 n

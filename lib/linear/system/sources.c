@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "pencil.h"
 #include "linear_system.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -46,4 +47,23 @@ int stf_sources_force(steif_context *ctx, steif_forcing f, void *user, sunrealty
     memcpy(rows + (size_t)j * n, value, n * sizeof *rows);
   }
   return STEIF_OK;
+}
+
+static sunrealtype length(sunindextype n, const sunrealtype *x)
+{
+  sunrealtype sum = 0;
+  for (sunindextype i = 0; i < n; i++) sum += x[i] * x[i];
+  return sqrt(sum);
+}
+
+sunrealtype stf_sources_measure(const stf_sources *s, sunrealtype plus, sunrealtype E,
+                                sunrealtype F)
+{
+  static const sunrealtype part = 1e-3;
+  sunrealtype scale = 0;
+  if (E > 0) scale = length(s->n, s->Ex0) / E;
+  sunrealtype over = F > 0 ? 1 / F : 0; /* F^-1 (E / F)^j: what f^(j) is multiplied by */
+  for (int j = 0; s->f && j <= s->derivatives; j++, over *= E / F)
+    scale = fmax(scale, over * length(s->n, s->f + j * s->n));
+  return fmax(plus, part * scale);
 }

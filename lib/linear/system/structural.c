@@ -127,9 +127,11 @@ static int dependent(steif_context *ctx, SUNMatrix E, SUNMatrix F, sunindextype 
                      sunindextype **out)
 {
   const sunindextype n = SM_COLUMNS_S(E);
+  stf_field field;
+  STEIF_TRY(stf_field_open(ctx, E, F, false, &field));
   unsigned char *in_kernel = stf_allocate(ctx, (size_t)n, sizeof *in_kernel);
   if (!in_kernel) return STEIF_NO_MEMORY;
-  int code = stf_field_kernel(ctx, E, F, in_kernel);
+  int code = stf_field_kernel(ctx, &field, in_kernel);
   if (!code) code = list(ctx, n, in_kernel, count, out);
   stf_release(ctx, in_kernel);
   return code;

@@ -1,0 +1,88 @@
+/* dense_agreement.c: two starts of one dense system beside each other, and one beside those of systems
+ * whose entries are rounded otherwise.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "dense_agreement.h"
+#include "dense_algebra.h"
+#include "dense_thresholds.h"
+#include "staircase.h"
+#include <math.h>
+
+static sunrealtype distance(const stf_two_starts *p, const sunrealtype *a, const sunrealtype *b)
+{
+  for (int i = 0; i < p->units->n; i++) p->difference[i] = a[i] - b[i];
+  return stf_length(p->units->n, p->difference);
+}
+
+static sunrealtype norm(const stf_two_starts *p, const sunrealtype *A)
+{
+  return stf_frobenius(p->units->n, p->units->n, A, p->units->n);
+}
+
+static sunrealtype measure(const stf_two_starts *p)
+{
+  return stf_sources_measure(p->sources, stf_length(p->units->n, p->one->x_plus),
+                             norm(p, p->units->E), norm(p, p->units->F));
+}
+
+static sunrealtype relative(const stf_two_starts *p, const sunrealtype *x_plus)
+{
+  const sunrealtype off = distance(p, p->one->x_plus, x_plus);
+  return off > 0 ? off / measure(p) : off;
+}
+
+sunrealtype stf_starts_apart(const stf_two_starts *p) { return relative(p, p->two->x_plus); }
+
+bool stf_starts_agree(const stf_two_starts *p, sunrealtype tolerance)
+{
+  const int n = p->units->n;
+  const sunrealtype E = norm(p, p->units->E), F = norm(p, p->units->F);
+  sunrealtype scale = E * stf_length(n, p->one->x_plus) + stf_length(n, p->sources->Ex0);
+  if (!(stf_starts_apart(p) <= tolerance)) return false;
+  for (int i = 0; i < p->one->count && i < p->two->count; i++) {
+    const size_t at = (size_t)i * (size_t)n;
+    const sunrealtype size = stf_length(n, p->one->c + at);
+    const sunrealtype off = distance(p, p->one->c + at, p->two->c + at);
+    if (!(off <= tolerance * size || F * off <= STF_NEGLIGIBLE * scale)) return false;
+    scale = fmax(E * size, scale * E / F);
+  }
+  return true;
+}
+
+/* -- rounding of the entries -------------------------------------------------------------------- */
+
+static void shake(size_t count, const sunrealtype *A, uint64_t *state, sunrealtype *out)
+{
+  for (size_t k = 0; k < count; k++) out[k] = A[k] * (1 + STF_EPS * stf_draw(state));
+}
+
+static int move(const stf_two_starts *p, uint64_t *state, sunrealtype *E, sunrealtype *F,
+                sunrealtype *moved)
+{
+  const stf_dense_units *u = p->units;
+  const size_t count = (size_t)u->n * (size_t)u->n;
+  steif_structure found = {0};
+  steif_impulse other = {0};
+  shake(count, u->E, state, E);
+  shake(count, u->F, state, F);
+  const int code =
+    stf_staircase(p->ctx, u->n, E, F, p->analysis, p->sources, &found, &other, NULL);
+  if (!code && (!found.regular || other.index != p->one->index))
+    *moved = INFINITY;
+  else if (!code)
+    *moved = fmax(*moved, relative(p, other.x_plus));
+  steif_structure_clear(p->ctx, &found);
+  steif_impulse_clear(p->ctx, &other);
+  return code;
+}
+
+int stf_start_moves(const stf_two_starts *p, sunrealtype *moved)
+{
+  uint64_t state = p->analysis->seed ? p->analysis->seed : 1;
+  sunrealtype *E = stf_pool_square(p->pool, p->units->n);
+  sunrealtype *F = stf_pool_square(p->pool, p->units->n);
+  *moved = 0;
+  if (!E || !F) return STEIF_NO_MEMORY;
+  for (int k = 0; k < STF_DRAWS && isfinite(*moved); k++)
+    STEIF_TRY(move(p, &state, E, F, moved));
+  return STEIF_OK;
+}
