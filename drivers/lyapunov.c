@@ -28,7 +28,8 @@ static int measure(struct call *call, const steif_problem *p, struct lyapunov_an
 static int find(struct call *call, const steif_problem *p)
 {
   const long count = whole_or(call, "--count", (long)p->n);
-  struct lyapunov_answer a = {.count = (size_t)count};
+  struct lyapunov_answer a = {
+    .count = (size_t)count, .t0 = p->t0, .t1 = real_or(call, "--t1", p->t1)};
   if (count > (long)p->n)
     return bad_usage(call, "--count is %ld and '%s' has %ld exponents", count, call->word[0],
                      (long)p->n);

@@ -5,6 +5,7 @@
 struct answer {
   steif_method_info method;
   size_t count;
+  struct steps_made made; /* by the first row */
   steif_order_row row[HALVINGS];
 };
 
@@ -14,6 +15,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_text(r, "method", call->word[0]);
   steif_report_text(r, "problem", word_of(call, "--problem"));
   if (a->method.order) steif_report_whole(r, "claimed", a->method.order);
+  report_steps(r, &a->made);
   for (size_t i = 0; i < a->count; i++) {
     steif_report_row(r, "rows");
     steif_report_real(r, "rows.h", a->row[i].h);
@@ -30,6 +32,14 @@ static int draw(const struct call *call, const struct answer *a)
   return errors_plot(call, &errors, call->plot);
 }
 
+static int present_rows(const struct call *call, const steif_problem *p, struct answer *a)
+{
+  const double h = a->row[0].h, end = a->row[0].end;
+  a->made = (struct steps_made){
+    .t0 = p->t0, .h = h, .end = end, .last_h = h, .asked = real_or(call, "--t1", p->t1)};
+  return present_result(call, fill, a);
+}
+
 static int run(struct call *call)
 {
   const char *name = word_of(call, "--problem"), *method = call->word[0];
@@ -39,10 +49,11 @@ static int run(struct call *call)
   if (steif_method_find(call->ctx, method, &a.method) != STEIF_OK) return fail(call);
   if (steif_problem_find(call->ctx, name, &p) != STEIF_OK) return fail(call);
   progress(call, "%s on %s", method, name);
-  const int code = steif_order_measure(call->ctx, &p, method, &o, real_of(call, "--h"), a.count,
-                                       a.row) == STEIF_OK
-                     ? present_result(call, fill, &a)
-                     : fail(call);
+  int code = EXIT_OK;
+  if (steif_order_measure(call->ctx, &p, method, &o, real_of(call, "--h"), a.count, a.row))
+    code = fail(call);
+  else
+    code = present_rows(call, &p, &a);
   steif_problem_clear(call->ctx, &p);
   return code ? code : draw(call, &a);
 }

@@ -37,6 +37,7 @@ int energy_present(struct call *call, const struct energy_answer *a);
 
 struct lyapunov_answer {
   size_t count;
+  double t0, t1; /* t1: as asked for */
   double *exponent, *interval, *error;
   steif_lyapunov_facts facts;
   steif_growth_facts growth;

@@ -1,6 +1,7 @@
 /* energy_answer.c: what a method keeps of the invariants of a problem, as a report and a picture.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
+#include "integration.h"
 #include "members.h"
 #include <stdlib.h>
 
@@ -37,6 +38,13 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
   steif_report_whole(r, "steps", e->steps);
+  if (e->h > 0)
+    report_steps(r, &(struct steps_made){.t0 = a->problem->t0,
+                                         .h = e->h,
+                                         .end = e->end,
+                                         .last_h = e->h,
+                                         .asked = real_or(call, "--t1", a->problem->t1),
+                                         .steps = e->steps});
   for (size_t i = 0; i < e->rows; i++) {
     steif_report_row(r, "rows");
     steif_report_real(r, "rows.t", e->row[i * a->columns]);

@@ -1,6 +1,7 @@
 /* lyapunov_answer.c: Lyapunov exponents, their checks and measures of one solution, as a report.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
+#include "integration.h"
 #include "members.h"
 
 static void checks(steif_report *r, const struct lyapunov_answer *a)
@@ -50,9 +51,9 @@ static void diagnostics(steif_report *r, const steif_growth_facts *g)
 static void fill(steif_report *r, const struct call *call, const void *result)
 {
   static const struct member members[] = {
-    MEMBER(steif_lyapunov_facts, sum, A_REAL),     MEMBER(steif_lyapunov_facts, trace, A_REAL),
-    MEMBER(steif_lyapunov_facts, linear, A_TRUTH), MEMBER(steif_lyapunov_facts, h, A_REAL),
-    MEMBER(steif_lyapunov_facts, steps, A_LONG),   MEMBERS_END};
+    MEMBER(steif_lyapunov_facts, sum, A_REAL), MEMBER(steif_lyapunov_facts, trace, A_REAL),
+    MEMBER(steif_lyapunov_facts, linear, A_TRUTH), MEMBER(steif_lyapunov_facts, steps, A_LONG),
+    MEMBERS_END};
   const struct lyapunov_answer *a = result;
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
@@ -65,6 +66,10 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   report_maybe(r, "", "lte_max", a->measured, a->growth.lte_max);
   report_maybe(r, "", "tau_max", a->measured, a->growth.tau_max);
   report_members(r, "", members, &a->facts);
+  report_steps(
+    r,
+    &(struct steps_made){
+      .t0 = a->t0, .h = a->facts.h, .end = a->facts.end, .last_h = a->facts.h, .asked = a->t1});
   checks(r, a);
   if (a->measured) diagnostics(r, &a->growth);
 }

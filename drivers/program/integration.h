@@ -44,6 +44,14 @@ bool interrupted(void);
 /* atol/rtol of a run: how much of the size of a component counts as nothing. */
 double tolerance_ratio(const steif_problem *problem, const steif_options *options);
 
+/* Constant steps h from t0, the last one last_h long, to `end`; the end asked for. Reported as h, end, last_h
+ * and, where h does not divide the interval, a sentence: grid. */
+struct steps_made {
+  double t0, h, end, last_h, asked;
+  long steps; /* 0: those that end at `end` */
+};
+void report_steps(steif_report *r, const struct steps_made *m);
+
 /* Under `prefix` ("rows." or ""): scd, mescd; status, message; the counts. */
 void report_digits(steif_report *r, const char *prefix, const outcome *o);
 void report_status(steif_report *r, const char *prefix, const outcome *o);

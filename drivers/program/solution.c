@@ -13,6 +13,21 @@ static void fill_drift(steif_report *r, steif_solver *s)
     steif_report_list(r, "drift", (size_t)count, drift);
 }
 
+/* Constant steps that reached the end, with nothing on the way that begins steps of its own. */
+static void fill_steps(steif_report *r, const outcome *o, const trajectory *tr)
+{
+  const steif_problem *p = tr->problem;
+  if (!(tr->h > 0) || o->code != STEIF_OK || p->handle_event) return;
+  const struct steps_made made = {.t0 = p->t0,
+                                  .h = tr->h,
+                                  .end = o->t,
+                                  .asked = o->t,
+                                  .last_h = o->stats.h_last,
+                                  .steps = o->stats.steps};
+  steif_report_whole(r, "steps", made.steps);
+  report_steps(r, &made);
+}
+
 static void fill(steif_report *r, const char *const *word, const outcome *o, steif_solver *s,
                  const trajectory *tr)
 {
@@ -23,6 +38,7 @@ static void fill(steif_report *r, const char *const *word, const outcome *o, ste
   report_status(r, "", o);
   if (o->why[0]) steif_report_text(r, "failure", o->why);
   steif_report_real(r, "t", o->t);
+  fill_steps(r, o, tr);
   steif_report_list(r, "y", s ? tr->n : 0, s ? N_VGetArrayPointer(steif_solution(s)) : NULL);
   report_digits(r, "", o);
   report_stats(r, "stats.", o);

@@ -131,6 +131,7 @@ int trajectory_open(struct call *call, const steif_problem *problem, steif_optio
   *tr = (trajectory){.call = call,
                      .problem = problem,
                      .n = (size_t)problem->n,
+                     .h = options->mesh ? 0 : options->h,
                      .t0 = problem->t0,
                      .t1 = options->t1 > 0 ? options->t1 : problem->t1,
                      .live = !call->quiet && isatty(STDERR_FILENO)};

@@ -28,7 +28,8 @@ typedef struct steif_drift {
   sunrealtype max, min, final, mean;
   sunrealtype slope, slope_error; /* per unit of time, and its standard error */
   sunrealtype per_period;         /* slope times the period; NaN where there is none */
-  int drifts;                     /* 1: above 5 standard errors, and one way */
+  int drifts; /* 1: above 5 standard errors, or the last mean is above 8 times the
+                                     middle one, and one way */
 } steif_drift;
 
 typedef struct steif_energy {
@@ -40,10 +41,12 @@ typedef struct steif_energy {
   sunrealtype
     *row;     /* rows of 1 + invariants numbers: t and the drifts, of steps at even distances */
   long steps; /* out */
+  sunrealtype h,
+    end; /* out: the constant step, 0: other steps; the end of the last one: t0 + N h */
 } steif_energy;
 
-/* Integrate to options.t1 (0: the problem's) and measure the drifts. options.observe is called as in
- * any run. */
+/* Integrate to options.t1 (0: the problem's), with a constant step to the last whole step that is not
+ * after it, and measure the drifts. options.observe is called as in any run. */
 STEIF_EXPORT int steif_energy_measure(steif_context *ctx, const steif_problem *problem,
                                       const char *method, const steif_options *options,
                                       steif_energy *energy);

@@ -36,7 +36,8 @@ extern "C" {
 #endif
 
 typedef struct steif_lyapunov_options {
-  sunrealtype h;         /* the step; lowered so that a whole number fills [t0, t1] */
+  sunrealtype h;         /* the constant step, used as it is: the run ends at t0 + N h, the last
+                            whole step that is not after t1 */
   sunrealtype t1;        /* end; 0: the problem's */
   sunrealtype transient; /* time before the averages begin */
   sunrealtype
@@ -55,7 +56,8 @@ typedef struct steif_lyapunov_options {
 typedef struct steif_lyapunov_facts {
   long steps;          /* averaged */
   int linear;          /* was J taken as free of y? */
-  sunrealtype h, time; /* step in use, time averaged over */
+  sunrealtype h, time; /* step, time averaged over */
+  sunrealtype end;     /* of the last step: t1, or less where h does not divide the run */
   sunrealtype sum; /* of the exponents; with all n it equals, to the order of the method, ... */
   sunrealtype trace; /* ... the mean of trace J; NaN for a DAE */
   sunrealtype mu;    /* largest running average of the first exponent in the second half */

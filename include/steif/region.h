@@ -37,11 +37,13 @@ STEIF_EXPORT int steif_region_boundary(steif_context *ctx, const char *method, i
 STEIF_EXPORT int steif_spectral_radius(steif_context *ctx, const char *method,
                                        const sunrealtype z[2], sunrealtype *radius);
 
-/* Errors at t1 with steps h, h/2, ... against the exact solution of the problem (or its reference),
+/* Errors with steps h, h/2, ... at `end` = t0 + N h, the last whole step that is not after t1, against the exact solution of the problem (or its reference),
  * in the maximum norm over components; order[i] = log2(error[i-1]/error[i]), order[0] = NaN. h = 0:
- * 1/16; 1/4 for methods of order 3 to 5 and 1/2 above, which reach rounding errors soon. */
+ * the largest step that divides the interval up to 1/16; 1/4 for methods of order 3 to 5 and 1/2 above,
+ * which reach rounding errors soon. A reference has one time: STEIF_BAD_INPUT where h does not divide
+ * the way to it. */
 typedef struct steif_order_row {
-  sunrealtype h, error, order;
+  sunrealtype h, error, order, end;
 } steif_order_row;
 STEIF_EXPORT int steif_order_measure(steif_context *ctx, const steif_problem *problem,
                                      const char *method, const steif_options *options,

@@ -8,8 +8,11 @@
  *
  * Steps. One of three rules decides them, looked at in this order:
  *   mesh      the given times, in order;
- *   h > 0     constant step size; h is lowered, never raised, so that a whole number of them fills
- *             [t0, t1] (t1 from the options or the problem);
+ *   h > 0     constant step size, used exactly as it is, never lowered or raised (t1 from the options or the
+ *             problem). N = floor((t1 - t0)/h) steps, within 4 rounding errors; where a rest is left,
+ *             one-step methods make one shorter step of that length, h_last; BDF and general linear
+ *             methods make step N + 1 across t1, where the solution is their interpolant. STEIF_BAD_INPUT
+ *             for h > t1 - t0 and for more than 1e9 steps;
  *   otherwise the error estimate of the method, kept below rtol |y| + atol. Methods without an
  *             estimate refuse this.
  * A stage that Newton's iteration cannot solve is never accepted: with prescribed steps the run stops

@@ -53,6 +53,48 @@ static run named(const char *problem, const char *method, double h, long steps)
   return r;
 }
 
+/* From q = 1, p = 0. Verlet from kick to kick has the map with trace 2 - h^2, so beyond h = 2 the energy
+ * grows by powers of its root, 1.877328 at h = 2.1; at h = 2 the root -1 is double: from drift to drift
+ * E_n / E_0 = 1 + (2 n)^2. RK4 at 3 i: |R|^2 = 1 - 3^6/72 + 3^8/576 = 145/64. */
+static void steps_beyond_the_border_are_not_lowered(void)
+{
+  static const struct {
+    const char *method;
+    double h, t1;
+    long steps;
+    double ratio;
+    int drifts;
+  } rows[] = {{"verlet", 2.1, 20, 9, 23123.3131, 1},
+              {"verlet", 2.1, 21.5, 10, 81493.7605, 1},
+              {"verlet:first=drift", 2.1, 20, 9, 225584.542, 1},
+              {"verlet:first=drift", 2.1, 21.5, 10, 795052.322, 1},
+              {"verlet", 2, 20, 10, 1, 0},
+              {"verlet:first=drift", 2, 20, 10, 401, 1},
+              {"rk4", 3, 20, 6, 135.247165, 1},
+              {"rk4", 20.0 / 7, 20, 7, 2.728648844, 1},
+              {"rk4", 2.8, 20, 7, 0.3656976948, 1}};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "harmonic", &p) == STEIF_OK);
+  for (int i = 0; i < 9; i++) {
+    steif_drift drift;
+    steif_energy e = {.drift = &drift};
+    const steif_options o = {.h = rows[i].h, .t1 = rows[i].t1};
+    CHECK(steif_energy_measure(ctx, &p, rows[i].method, &o, &e) == STEIF_OK);
+    CHECK(e.h == rows[i].h && e.steps == rows[i].steps);
+    CLOSE(e.end, (double)rows[i].steps * rows[i].h, 1e-15);
+    CLOSE(1 + drift.final / drift.start, rows[i].ratio, 1e-8);
+    CHECK(drift.drifts == rows[i].drifts);
+  }
+  const steif_options long_step = {.h = 2.1, .t1 = 2};
+  steif_drift drift;
+  CHECK(steif_energy_measure(ctx, &p, "verlet", &long_step, &(steif_energy){.drift = &drift}) ==
+        STEIF_BAD_INPUT);
+  CHECK(strstr(steif_message(ctx), "take h = 2 or less, or end at 2.1 or later") != NULL);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
 /* Per period it is h^5: a factor of 32 for half the step. */
 static void rk4_loses_less_by_32_for_half_the_step(void)
 {
@@ -207,6 +249,7 @@ static void the_trapezoidal_rule_stays_in_a_band(void)
 }
 
 CU_TestInfo tests_of_energy[] = {
+  {"steps beyond the border are not lowered", steps_beyond_the_border_are_not_lowered},
   {"RK4 loses 32 times less per period for half the step",
    rk4_loses_less_by_32_for_half_the_step},
   {"modified energies are kept to rounding", modified_energies_are_kept},

@@ -105,7 +105,7 @@ static void problems_of_the_collection(void)
 /* E/h - A of ltvb is singular for every h, though the index is 2 and the solution unique. */
 static void no_step_of_ltvb_can_be_solved(void)
 {
-  static const double h[] = {.1, 1e-3, 1e-5};
+  static const double h[] = {0x1p-3, 0x1p-10, 0x1p-17};
   const steif_problem from = model_problem(model_find("ltvb"), 1);
   for (int k = 0; k < 3; k++) {
     steif_context *ctx = steif_context_new(NULL);

@@ -3,24 +3,83 @@
 #include "smooth.h"
 #include <sunmatrix/sunmatrix_dense.h>
 
-static void equal_steps_are_lowered_to_fit(void)
+/* The interval is [0.25, 2]. */
+static void a_step_is_used_as_it_is(void)
 {
   static const struct {
     double h;
     long steps;
-  } rows[] = {{0.3, 6}, {0.25, 7}, {0.175, 10}, {1.75 / 3, 3}, {5, 1}, {1.75, 1}, {1.7499, 2}};
+    double last;
+  } rows[] = {{0.3, 6, 0.25},          {0.25, 7, 0.25},     {0.175, 10, 0.175},
+              {1.75 / 3, 3, 1.75 / 3}, {1.7499, 2, 0.0001}, {1.75, 1, 1.75}};
   steif_context *ctx = steif_context_new(NULL);
-  for (int i = 0; i < 7; i++) {
+  for (int i = 0; i < 6; i++) {
     steif_options o = steif_defaults();
     o.h = rows[i].h;
-    steif_solver *s = smooth_open(ctx, &smooth, "be", &o);
-    CHECK(!steif_solve_to(s, 2));
-    const steif_stats *n = steif_statistics(s);
-    CHECK(n->steps == rows[i].steps);
-    CLOSE(n->h_last, 1.75 / (double)rows[i].steps, 1e-15);
-    CHECK(n->h_last <= rows[i].h * (1 + 1e-12));
-    CHECK(steif_time(s) == 2);
+    steif_solver *s = smooth_open(ctx, &smooth, "radau:s=2", &o);
+    for (long k = 1; k < rows[i].steps; k++) {
+      CHECK(!steif_solve_step(s) && steif_statistics(s)->h_last == rows[i].h);
+      CLOSE(steif_time(s), 0.25 + (double)k * rows[i].h, 1e-15);
+    }
+    CHECK(!steif_solve_step(s) && steif_time(s) == 2);
+    CLOSE(steif_statistics(s)->h_last, rows[i].last, 1e-11);
+    CHECK(steif_solve_step(s) == STEIF_BAD_INPUT);
     steif_solver_free(&s);
+  }
+  steif_context_free(&ctx);
+}
+
+static void any_step_is_used_as_it_is(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  unsigned bits = 7;
+  for (int i = 0; i < 100; i++) {
+    bits =
+      1664525 * bits + 1013904223; /* D. E. Knuth, The Art of Computer Programming 2, 3.3.4 */
+    const double h = 0.002 + 1.7 * pow(bits / 4294967296.0, 3);
+    steif_options o = steif_defaults();
+    o.h = h;
+    steif_solver *s = smooth_open(ctx, &smooth, "rk4", &o);
+    const long whole = (long)floor(1.75 / h);
+    long made = 0;
+    for (; steif_time(s) < 2; made++) {
+      CHECK(!steif_solve_step(s));
+      if (made < whole) CHECK(steif_statistics(s)->h_last == h);
+    }
+    CHECK(made == whole + (1.75 - (double)whole * h > 2e-15) && steif_time(s) == 2);
+    steif_solver_free(&s);
+  }
+  steif_context_free(&ctx);
+}
+
+/* A multistep method steps across the end and has its own order there; a run to the next point of its
+ * grid, where nothing is interpolated, has the same error within the variation of the solution. */
+static void multistep_methods_step_across_the_end(void)
+{
+  static const struct {
+    const char *method;
+    double order;
+  } rows[] = {
+    {"be", 1}, {"bdf:p=2,start=exact", 2}, {"bdf:p=4,start=exact", 4}, {"glm:irks,p=3", 3}};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int i = 0; i < 4; i++) {
+    double error[2];
+    for (int k = 0; k < 2; k++) {
+      steif_options o = steif_defaults();
+      o.h = ldexp(1.75 / 30.4, -k); /* 31 steps of which the last is used to 0.4; 61 and 0.8 */
+      steif_solver *s = smooth_open(ctx, &smooth, rows[i].method, &o);
+      CHECK(!steif_solve_to(s, 2) && steif_time(s) == 2);
+      CHECK(steif_statistics(s)->steps == (k ? 61 : 31) && steif_statistics(s)->h_last == o.h);
+      CHECK(steif_solve_step(s) == STEIF_BAD_INPUT);
+      CHECK(!steif_solve_to(s, 2));
+      error[k] = smooth_error(2, steif_solution(s));
+      CHECK(!steif_solve_to(s, 2 - 0.2 * o.h));
+      CHECK(smooth_error(2 - 0.2 * o.h, steif_solution(s)) < 2 * error[k]);
+      steif_solver_free(&s);
+    }
+    const int good = fabs(log2(error[0] / error[1]) - rows[i].order) < 0.5;
+    if (!good) printf("\n  %s: order %.2f", rows[i].method, log2(error[0] / error[1]));
+    CHECK(good);
   }
   steif_context_free(&ctx);
 }
@@ -101,13 +160,20 @@ static void bad_meshes_are_refused(void)
   }
 }
 
-static void steps_below_the_clock_are_refused(void)
+static void steps_that_cannot_fit_are_rejected(void)
 {
-  static const double tiny[] = {1e-300, 1e-17};
-  for (int i = 0; i < 2; i++) {
+  static const struct {
+    double h;
+    const char *words;
+  } rows[] = {{1e-300, "take a larger h"},
+              {1e-17, "take a larger h"},
+              {1.7e-9, "steps of the interval of length 1.75, more than 1000000000"},
+              {1.76, "no step of h = 1.76 fits between t = 0.25 and 2: take h = 1.75 or less"},
+              {-0.1, "h = -0.1"}};
+  for (int i = 0; i < 5; i++) {
     steif_options o = steif_defaults();
-    o.h = tiny[i];
-    smooth_refused(&smooth, "be", &o, STEIF_BAD_INPUT, "than a clock can tell apart");
+    o.h = rows[i].h;
+    smooth_refused(&smooth, "be", &o, STEIF_BAD_INPUT, rows[i].words);
   }
 }
 
@@ -192,12 +258,14 @@ static void first_steps_without_slopes(void)
 }
 
 CU_TestInfo tests_of_steps[] = {
-  {"equal steps are lowered to fit", equal_steps_are_lowered_to_fit},
+  {"a step is used as it is", a_step_is_used_as_it_is},
+  {"any step is used as it is", any_step_is_used_as_it_is},
+  {"multistep methods step across the end", multistep_methods_step_across_the_end},
   {"the clock does not drift over 1e5 steps", the_clock_does_not_drift},
   {"meshes are followed", meshes_are_followed},
   {"a mesh may end at zero", a_mesh_may_end_at_zero},
   {"bad meshes are refused", bad_meshes_are_refused},
-  {"steps below the clock are refused", steps_below_the_clock_are_refused},
+  {"steps that cannot fit are rejected", steps_that_cannot_fit_are_rejected},
   {"bdf without slopes starts with steps as long", first_steps_without_slopes},
   {"fixed steps reach their order", fixed_steps_reach_their_order},
   CU_TEST_INFO_NULL};

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "base.h"
 #include "hamiltonian_thresholds.h"
+#include "integrator.h"
 #include <math.h>
 #include <steif/energy.h>
 
@@ -130,7 +131,9 @@ static void line(const record *w, int i, steif_drift *d)
     yy += off * off;
   }
   d->slope_error = n > 2 ? sqrt(yy / (n - 2) / xx) : NAN;
-  d->drifts = fabs(d->slope) > STF_DRIFT_ERRORS * d->slope_error && one_way(n, y);
+  const bool steep = fabs(d->slope) > STF_DRIFT_ERRORS * d->slope_error;
+  const bool away = fabs(y[n - 1]) > STF_DRIFT_RUNS_AWAY * fabs(y[n / 2]);
+  d->drifts = (steep || away) && one_way(n, y);
 }
 
 static void finish(record *w)
@@ -164,6 +167,20 @@ static int run(record *w, const char *method)
   return code;
 }
 
+/* Constant steps end where the last whole one does: a shorter one would not be symplectic. */
+static int whole_steps(record *w)
+{
+  const steif_options *o = w->options;
+  stf_constant c;
+  w->energy->h = !o->mesh && o->h > 0 ? o->h : 0;
+  if (w->energy->h > 0) {
+    STEIF_TRY(stf_constant_steps(w->ctx, o->h, w->problem->t0, w->t1, &c));
+    w->t1 = c.end;
+  }
+  w->energy->end = w->t1;
+  return STEIF_OK;
+}
+
 int steif_energy_measure(steif_context *ctx, const steif_problem *problem, const char *method,
                          const steif_options *options, steif_energy *energy)
 {
@@ -183,6 +200,7 @@ int steif_energy_measure(steif_context *ctx, const steif_problem *problem, const
   const sunrealtype mesh_end =
     w.options->mesh && w.options->mesh_size ? w.options->mesh[w.options->mesh_size - 1] : 0;
   w.t1 = mesh_end != 0 ? mesh_end : w.options->t1 != 0 ? w.options->t1 : problem->t1;
+  STEIF_TRY(whole_steps(&w));
   w.room = energy->row ? energy->rows : 0;
   energy->rows = 0;
   for (int i = 0; i < count; i++) energy->drift[i] = (steif_drift){0};

@@ -10,6 +10,9 @@
 #define STF_DRIFT_ERRORS 5
 /* ... if this share of the way that the means go leads one way. */
 #define STF_DRIFT_ONE_WAY 0.9
+/* Or if the last mean is this many times the middle one: growth as of t^3 or faster, where a line fits
+ * badly. */
+#define STF_DRIFT_RUNS_AWAY 8
 /* Rows at even distances: a step that ends this part of a row early fills it. */
 #define STF_ROW_ROUNDING 1e-9
 /* Solutions of A^T P + P A = 0 are drawn at random up to this often, until one has this condition. */

@@ -10,6 +10,7 @@ enum { PARTS = 16 };
 
 typedef struct spectrum {
   stf_variation v;
+  stf_constant constant;
   long steps, transient, window; /* averaged; before; of an interval */
   sunrealtype *w, *R;
   sunrealtype *sum, *rest; /* of ln R_ii, compensated */
@@ -23,26 +24,25 @@ typedef struct spectrum {
   sunrealtype *y, first, last; /* y before a step, |h y'| of the first and the last step */
 } spectrum;
 
+/* The constant steps that fit, and how many of them come before the averages. */
 static int plan(steif_context *ctx, const steif_problem *p, const steif_lyapunov_options *o,
-                spectrum *s, sunrealtype *h)
+                spectrum *s)
 {
-  long all;
-  const sunrealtype t1 = o->t1 != 0 ? o->t1 : p->t1, span = t1 - p->t0;
-  STEIF_TRY(stf_constant_steps(ctx, o->h, span, &all));
-  *h = span / (sunrealtype)all;
+  STEIF_TRY(stf_constant_steps(ctx, o->h, p->t0, o->t1 != 0 ? o->t1 : p->t1, &s->constant));
+  const sunrealtype h = s->constant.h, span = s->constant.end - p->t0;
   STEIF_CHECK(o->transient >= 0 && o->transient < span, ctx, STEIF_BAD_INPUT,
               "the transient of %g must be shorter than the run of %g", o->transient, span);
-  s->transient = (long)ceil(o->transient / *h * (1 - STF_STEP_ROUNDING));
-  s->steps = all - s->transient;
+  s->transient = (long)ceil(o->transient / h * (1 - STF_STEP_ROUNDING));
+  s->steps = s->constant.whole - s->transient;
   STEIF_CHECK(s->steps >= 1, ctx, STEIF_BAD_INPUT,
-              "no step of h = %g is left after the transient of %g", *h, o->transient);
-  const sunrealtype averaged = (sunrealtype)s->steps * *h;
+              "no step of h = %g is left after the transient of %g", h, o->transient);
+  const sunrealtype averaged = (sunrealtype)s->steps * h;
   STEIF_CHECK(
     o->window >= 0 && o->window <= averaged * (1 + STF_STEP_ROUNDING), ctx, STEIF_BAD_INPUT,
     "a window of %g is longer than the %g that are averaged: shorten it or end the run "
     "later",
     o->window, averaged);
-  s->window = o->window > 0 ? lround(o->window / *h) : s->steps / 10;
+  s->window = o->window > 0 ? lround(o->window / h) : s->steps / 10;
   if (s->window < 1) s->window = 1;
   return STEIF_OK;
 }
@@ -179,6 +179,7 @@ static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype
 {
   steif_lyapunov_facts out = {.steps = s->steps, .linear = s->v.linear, .h = s->v.h};
   out.time = (sunrealtype)s->steps * s->v.h;
+  out.end = s->constant.end;
   out.trace = s->trace;
   out.mu = s->mu;
   out.flow =
@@ -200,10 +201,9 @@ static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype
 static int run(stf_pool *pool, steif_context *ctx, const steif_problem *p, const char *method,
                const steif_lyapunov_options *o, spectrum *s)
 {
-  sunrealtype h;
-  STEIF_TRY(plan(ctx, p, o, s, &h));
+  STEIF_TRY(plan(ctx, p, o, s));
   const int count = o->count != 0 ? o->count : (int)p->n;
-  STEIF_TRY(stf_variation_open(pool, ctx, p, method, h, o->t1 != 0 ? o->t1 : p->t1, count,
+  STEIF_TRY(stf_variation_open(pool, ctx, p, method, s->constant.h, s->constant.end, count,
                                o->linear, &s->v));
   STEIF_TRY(room(pool, s));
   stf_variation_scatter(&s->v);

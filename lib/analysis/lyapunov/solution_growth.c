@@ -214,12 +214,13 @@ static int follow(column *c)
 static int open(stf_pool *pool, steif_context *ctx, const steif_problem *p, const char *method,
                 const steif_lyapunov_options *o, column *c)
 {
-  const sunrealtype t1 = o->t1 != 0 ? o->t1 : p->t1, span = t1 - p->t0;
+  stf_constant steps;
   STEIF_CHECK(p->n <= STF_DENSE_MOST, ctx, STEIF_UNSUPPORTED,
               "'%s' with n = %lld: exact flows cost too much above n = %d", p->name,
               (long long)p->n, STF_DENSE_MOST);
-  STEIF_TRY(stf_constant_steps(ctx, o->h, span, &c->out.steps));
-  const sunrealtype h = span / (sunrealtype)c->out.steps;
+  STEIF_TRY(stf_constant_steps(ctx, o->h, p->t0, o->t1 != 0 ? o->t1 : p->t1, &steps));
+  const sunrealtype h = steps.h, t1 = steps.end;
+  c->out.steps = steps.whole;
   STEIF_TRY(stf_variation_open(pool, ctx, p, method, h, t1, 1, o->linear, &c->v));
   STEIF_CHECK(c->v.linear, ctx, STEIF_UNSUPPORTED,
               "the Jacobian of '%s' depends on y: the defects of one solution are measured on "

@@ -9,6 +9,7 @@
 
 #include "base.h"
 #include "general.h"
+#include "integrator.h"
 #include "jacobian.h"
 #include <steif/lyapunov.h>
 #include <steif/method.h>
@@ -93,9 +94,6 @@ int stf_period_map(stf_pool *pool, steif_context *ctx, const steif_problem *prob
  * h |J| is below 1/2, as long as 64 do: its error is then that of rounding. */
 sunrealtype stf_variation_size(const stf_variation *v);
 int stf_variation_substeps(const stf_variation *v, sunrealtype h);
-
-/* Number of steps of one size, at most h, in [t0, t1]; nonsense is rejected. */
-int stf_constant_steps(steif_context *ctx, sunrealtype h, sunrealtype span, long *steps);
 
 /* LU of A (n x n by rows) in place, rows exchanged; false when a pivot is 0 or NaN. B := A^{-1} B by
  * rows, n x m. */

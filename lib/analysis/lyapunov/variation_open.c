@@ -8,19 +8,6 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
-int stf_constant_steps(steif_context *ctx, sunrealtype h, sunrealtype span, long *steps)
-{
-  STEIF_CHECK(span > 0 && isfinite(span), ctx, STEIF_BAD_INPUT,
-              "the run is %g long: its end must lie after its start", span);
-  STEIF_CHECK(h > 0 && h <= span * (1 + STF_STEP_ROUNDING), ctx, STEIF_BAD_INPUT,
-              "the step h = %g must be positive and at most the length of the run, %g", h,
-              span);
-  STEIF_CHECK(span / h < STF_STEPS_MOST, ctx, STEIF_BAD_INPUT,
-              "%g steps of h = %g fill the run: take a larger h", span / h, h);
-  *steps = (long)ceil(span / h * (1 - STF_STEP_ROUNDING));
-  return STEIF_OK;
-}
-
 static int suits(steif_context *ctx, const steif_problem *p)
 {
   const int form = steif_problem_form(ctx, p);

@@ -61,12 +61,13 @@ static int run(steif_context *ctx, const steif_problem *problem, const char *met
   return code;
 }
 
-/* High orders reach rounding errors soon: they begin with longer steps. */
-static int usual_step(steif_context *ctx, const char *method, sunrealtype *h)
+/* High orders reach rounding errors soon: they begin with longer steps. These divide the interval. */
+static int usual_step(steif_context *ctx, const char *method, sunrealtype span, sunrealtype *h)
 {
   steif_method_info m;
   STEIF_TRY(steif_method_find(ctx, method, &m));
-  *h = m.order > 5 ? 0.5 : m.order > 2 ? 0.25 : 0.0625;
+  const sunrealtype most = m.order > 5 ? 0.5 : m.order > 2 ? 0.25 : 0.0625;
+  *h = span / ceil(span / most * (1 - STF_TIME_ROUNDING));
   return STEIF_OK;
 }
 
@@ -77,17 +78,22 @@ int steif_order_measure(steif_context *ctx, const steif_problem *problem, const 
   steif_options o = options ? *options : steif_defaults();
   STEIF_CHECK(problem && method, ctx, STEIF_BAD_INPUT, "a problem and a method are needed");
   if (o.t1 == 0) o.t1 = problem->t1;
-  const sunrealtype span = o.t1 - problem->t0;
-  if (h == 0) STEIF_TRY(usual_step(ctx, method, &h));
-  STEIF_CHECK(h > 0 && h <= span, ctx, STEIF_BAD_INPUT,
-              "the first step h = %g must be positive and at most the interval, %g", h, span);
+  if (h == 0) STEIF_TRY(usual_step(ctx, method, o.t1 - problem->t0, &h));
   STEIF_CHECK(rows >= 1 && rows <= 40, ctx, STEIF_BAD_INPUT,
               "%zu rows were asked for: give 1 to 40", rows);
-  const sunrealtype first = span / ceil(span / h * (1 - STF_TIME_ROUNDING));
+  stf_constant whole;
+  STEIF_TRY(stf_constant_steps(ctx, h, problem->t0, o.t1, &whole));
+  STEIF_CHECK(
+    problem->exact || !(whole.rest > 0), ctx, STEIF_BAD_INPUT,
+    "%ld steps of h = %.12g end at t = %.12g, and '%s' has its reference at %.12g alone: take "
+    "h = %.12g, which divides the interval",
+    whole.whole, h, whole.end, problem->name, o.t1,
+    (o.t1 - problem->t0) / (sunrealtype)(whole.whole + 1));
+  o.t1 = whole.end;
   o.mesh = NULL;
   o.mesh_size = 0;
   for (size_t i = 0; i < rows; i++) {
-    row[i] = (steif_order_row){ldexp(first, -(int)i), NAN, NAN};
+    row[i] = (steif_order_row){ldexp(h, -(int)i), NAN, NAN, o.t1};
     o.h = row[i].h;
     STEIF_TRY(run(ctx, problem, method, &o, &row[i].error));
     if (i > 0) row[i].order = log2(row[i - 1].error / row[i].error);

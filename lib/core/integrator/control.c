@@ -61,14 +61,22 @@ static int cause(steif_solver *s, int code) { return code > 0 ? steif_status(s->
 
 /* -- constant and prescribed step sizes --------------------------------------------------- */
 
+/* Time k of constant steps, counted from that end of the run which is on the grid. */
+static sunrealtype grid(const steif_solver *s, long k)
+{
+  const stf_constant *c = &s->constant;
+  if (!(c->rest > 0)) return s->t1 - (sunrealtype)(c->whole - k) * c->h;
+  return k <= c->whole || s->final ? s->problem->t0 + (sunrealtype)k * c->h : s->t1;
+}
+
 int stf_fixed_step(steif_solver *s)
 {
   stf_step *step = &s->step;
   const steif_options *o = &s->options;
   const bool mesh = o->mesh != NULL;
-  const sunrealtype t = mesh ? o->mesh[s->mesh_at + 1]
-                             : s->t1 - (sunrealtype)(s->total - s->mesh_at - 1) * step->h_equal;
-  const sunrealtype h = mesh || step->restart ? t - step->t : step->h_equal;
+  const sunrealtype t = mesh ? o->mesh[s->mesh_at + 1] : grid(s, s->mesh_at + 1);
+  const bool own = mesh || step->restart || (s->mesh_at == s->constant.whole && !s->final);
+  const sunrealtype h = own ? t - step->t : step->h_equal;
   if (!(step->method->traits & STF_EXPLICIT)) STEIF_TRY(weigh_levels(s, h));
   const int code = step->method->attempt(step, h);
   if (code) return cause(s, code);

@@ -187,8 +187,9 @@ static int sample(steif_solver *s, sunrealtype from, sunrealtype to)
   for (int k = 1; k < STF_NODES - 1; k++)
     STEIF_TRY(stf_event_value(s, from + point[k] * (to - from), w->node + k * m));
   sunrealtype *last = w->node + (STF_NODES - 1) * m;
-  STEIF_TRY(to < s->end ? stf_event_value(s, to, last)
-                        : stf_event_ask(s, to, s->engine ? s->run.y : s->step.y, last));
+  STEIF_TRY(to < s->end || stf_beyond(s)
+              ? stf_event_value(s, to, last)
+              : stf_event_ask(s, to, s->engine ? s->run.y : s->step.y, last));
   for (int j = 0; j <= STF_FINE; j++) {
     sunrealtype value[STF_NODES], *row = w->fine + j * m;
     stf_interpolate(STF_NODES - 1, point, (sunrealtype)j / STF_FINE, value);

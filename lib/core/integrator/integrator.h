@@ -11,6 +11,14 @@
 typedef struct stf_switching stf_switching;
 typedef struct stf_rounding stf_rounding;
 
+/* Constant steps h from t0: `whole` of them end at `end`, `rest` > 0 before t1, or at t1 with rest 0. */
+typedef struct stf_constant {
+  long whole;
+  sunrealtype h, rest, end;
+} stf_constant;
+int stf_constant_steps(steif_context *ctx, sunrealtype h, sunrealtype t0, sunrealtype t1,
+                       stf_constant *constant);
+
 struct steif_solver {
   steif_context *ctx;
   stf_pool *pool;
@@ -32,8 +40,10 @@ struct steif_solver {
   const steif_engine *engine; /* ... or a baseline */
   void *engine_state;
   stf_run run;
-  long total, rejected; /* equal steps in all; refused attempts */
-  long mesh_at;         /* given steps: intervals of the mesh or grid left behind */
+  stf_constant constant; /* h = 0: other steps */
+  N_Vector final;        /* at t1, where the last step goes beyond; else NULL */
+  long rejected;         /* refused attempts */
+  long mesh_at;          /* given steps: intervals of the mesh or grid left behind */
   int next_break;
   sunrealtype h_next, h_old, h_tried, error_old; /* chosen steps */
   bool after_reject, failed;
@@ -82,6 +92,9 @@ void stf_rounding_count(const steif_solver *s, steif_stats *sum);
 
 /* The invariants at the start. */
 int stf_drift_open(steif_solver *s);
+
+/* Does the last step end after t1? The solution at t1 is then in s->final. */
+bool stf_beyond(const steif_solver *s);
 
 /* Show y at t to the observer; what it wishes is kept. */
 void stf_observe(steif_solver *s, sunrealtype t, N_Vector y);

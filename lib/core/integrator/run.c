@@ -30,10 +30,13 @@ void stf_observe(steif_solver *s, sunrealtype t, N_Vector y)
   s->observer_stopped = true, s->observer_failed = stf_failures(s->ctx) > failures;
 }
 
+bool stf_beyond(const steif_solver *s) { return s->final && s->step.t > s->t1; }
+
 /* The solution at the end of what is known. */
 static N_Vector last(const steif_solver *s)
 {
   if (s->events && stf_event_holds(s)) return s->events->after;
+  if (stf_beyond(s)) return s->final;
   return s->engine ? s->run.y : s->step.y;
 }
 
@@ -46,11 +49,12 @@ static int failed(steif_solver *s, int code)
 
 static int advance(steif_solver *s)
 {
-  const int code =
+  int code =
     s->engine ? s->engine->step(&s->run, s->engine_state, s->t1) : stf_advance(s, s->t1);
   if (code) return failed(s, code);
-  s->end = s->t_shown = stepped(s);
-  s->shown = s->engine ? s->run.y : s->step.y;
+  s->end = s->t_shown = stf_beyond(s) ? s->t1 : stepped(s);
+  if (stf_beyond(s) && (code = stf_dense(s, s->t1, s->final))) return failed(s, code);
+  s->shown = stf_beyond(s) ? s->final : s->engine ? s->run.y : s->step.y;
   return STEIF_OK;
 }
 

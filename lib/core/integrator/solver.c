@@ -67,17 +67,26 @@ static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vect
   return engine->open(&s->run, s->engine_state, spec);
 }
 
-static int equal_steps(steif_solver *s)
+static int constant_steps(steif_solver *s)
 {
-  const sunrealtype span = s->t1 - s->problem->t0,
-                    count = ceil(span / s->options.h * (1 - 1e-12));
-  STEIF_CHECK(
-    count <= 1 / STF_EPS, s->ctx, STEIF_BAD_INPUT,
-    "h = %g divides the interval of length %g into more steps than a clock can tell apart",
-    s->options.h, span);
-  s->total = count < 1 ? 1 : (long)count;
-  s->step.h_equal = span / (sunrealtype)s->total;
+  STEIF_TRY(stf_constant_steps(s->ctx, s->options.h, s->problem->t0, s->t1, &s->constant));
+  s->step.h_equal = s->constant.h;
   return STEIF_OK;
+}
+
+/* Where h does not divide the interval the last step is shorter, or goes beyond it. */
+static int open_rest(steif_solver *s)
+{
+  const stf_constant *c = &s->constant;
+  if (!(c->rest > 0) || s->step.rest == STF_REST_SHORTER) return STEIF_OK;
+  STEIF_CHECK(s->step.rest == STF_REST_ACROSS, s->ctx, STEIF_BAD_INPUT,
+              "t1 = %.12g is not a whole number of steps of h = %.12g, and '%s' has neither a "
+              "step of another length nor dense output of its order: end at %.12g, or take "
+              "h = %.12g",
+              s->t1, c->h, s->method, c->end,
+              (s->t1 - s->problem->t0) / (double)(c->whole + 1));
+  s->final = stf_pool_vector(s->pool, s->step.y);
+  return s->final ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 static void destroy_table(void *step)
@@ -173,7 +182,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   STEIF_CHECK(!step->adaptive || info.adaptive, s->ctx, STEIF_UNSUPPORTED,
               "'%s' has no error estimate to choose steps by: give steps with h", s->method);
   step->absolute = form == STEIF_DESCRIPTOR;
-  if (!step->adaptive && !o->mesh) STEIF_TRY(equal_steps(s));
+  if (!step->adaptive && !o->mesh) STEIF_TRY(constant_steps(s));
   const stf_space *space = &step->system.space;
   stf_space_open(&step->system.space, y);
   STEIF_TRY(stf_system_start(s->ctx, p, form, space, y, yp, &step->yp_known));
@@ -184,6 +193,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   STEIF_TRY(specialise(s));
   STEIF_TRY(step->method->open(step, spec, step->table));
   s->shown = step->y;
+  if (step->h_equal > 0) STEIF_TRY(open_rest(s));
   if (!step->adaptive) return STEIF_OK;
   s->h_next = stf_first_step(s);
   return stf_rounding_open(s);
@@ -219,6 +229,7 @@ static int open(steif_solver *s, const char *method)
   s->engine = stf_engine_find(spec.name);
   STEIF_TRY(s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp));
   if (s->engine) STEIF_TRY(check_ewt(s, y));
+  if (s->engine && s->options.h > 0 && !s->options.mesh) STEIF_TRY(constant_steps(s));
   if (automatic) STEIF_TRY(stf_switching_open(s, method));
   STEIF_TRY(stf_constraint_open(s));
   STEIF_TRY(stf_drift_open(s));

@@ -15,6 +15,10 @@
 
 typedef struct stf_step stf_step;
 
+/* The rest of an interval that constant steps leave: one shorter step; a whole step across the end, and
+ * dense output of the order of the method; or there is no way. */
+enum stf_rest { STF_REST_SHORTER, STF_REST_ACROSS, STF_REST_NONE };
+
 enum stf_trait {
   STF_ADAPTIVE = 1,    /* fills s->error */
   STF_MULTISTEP = 2,   /* keeps history: steps given at open */
@@ -94,6 +98,7 @@ struct stf_step {
   stf_newton newton;
   sunrealtype t0, t, h; /* start; time of y; length of the last step (0: none yet) */
   sunrealtype h_equal;  /* > 0: all steps have this length */
+  enum stf_rest rest;   /* said by open */
   long count;           /* accepted steps */
   N_Vector y, yp;       /* accepted; yp: slope (start, or last implicit slope) */
   bool yp_known, adaptive, absolute; /* absolute: stages solved for Y, not for Y - y_n */

@@ -215,6 +215,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(find_start(s->ctx, s->options->start ? s->options->start : word, &e->start));
   STEIF_CHECK(e->start != EXACT || s->problem->exact, s->ctx, STEIF_UNSUPPORTED,
               "start=exact needs a closed solution, problem '%s' has none", s->problem->name);
+  s->rest = STF_REST_ACROSS;
   STEIF_TRY(stf_transform_single(s->pool, 1, &transform));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &transform, s->weights, &s->newton));
   e->base = stf_pool_vector(s->pool, s->y);

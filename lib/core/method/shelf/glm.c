@@ -52,6 +52,7 @@ static int rows(stf_step *s, state *e)
     e->dense = e->dense && e->known[j];
   }
   STEIF_TRY(stf_glm_solution(s->ctx, g, e->finish));
+  s->rest = e->dense ? STF_REST_ACROSS : found ? STF_REST_SHORTER : STF_REST_NONE;
   STEIF_CHECK(
     found || s->h_equal > 0, s->ctx, STEIF_UNSUPPORTED,
     "'%s' cannot change its step: X does not determine Nordsieck's vector; give equal "
