@@ -45,7 +45,7 @@ static const struct option options[] = {
   {"--h", POSITIVE, "H", "constant step size", NULL},
   {"--case", WORD, "C", "its start and forcing: H-inc, N-inc, N-cons, sin-inc or sin-cons",
    "N-inc"},
-  {"--component", NATURAL, "I", "show one component only, counted from 0", NULL},
+  {"--component", COUNT, "I", "show one component only, counted from 1", NULL},
   {"--start", CHOICE, "constant|ramp|cq|exact", "starting procedure of multistep methods",
    NULL},
   {"--steps", COUNT, "M", "how many steps", "8"},

@@ -66,7 +66,8 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   const struct layer *l = result;
   const char *other = word_of(call, "--vs");
   const size_t n = given(call, "--component") ? 1 : l->k;
-  const size_t first = (size_t)whole_of(call, "--component");
+  const size_t first =
+    given(call, "--component") ? (size_t)whole_of(call, "--component") - 1 : 0;
   steif_report_whole(r, "index", l->result.index);
   steif_report_real(r, "h", l->h);
   steif_report_whole(r, "layer_steps", l->result.layer_steps);
@@ -93,9 +94,9 @@ int layer_follow(struct call *call, struct layer *l)
     return bad_usage(call,
                      "%zu components with --steps %zu are too many numbers; take fewer steps",
                      l->k, l->steps);
-  if (whole_of(call, "--component") >= (long)l->k)
-    return bad_usage(call, "--component %s is not one of 0 .. %zu",
-                     word_of(call, "--component"), l->k - 1);
+  if (given(call, "--component") && whole_of(call, "--component") > (long)l->k)
+    return bad_usage(call, "--component %s is not one of 1 .. %zu",
+                     word_of(call, "--component"), l->k);
   int code = layer_measure(call->ctx, l, call->word[0], word_of(call, "--start"))
                ? descriptor_fail(call)
                : present_result(call, fill, l);

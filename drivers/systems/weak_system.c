@@ -19,7 +19,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_text(r, "method", q->method);
   steif_report_text(r, "system", call->word[1]);
   steif_report_whole(r, "index", w->result.index);
-  if (q->component >= 0) steif_report_whole(r, "component", q->component);
+  if (q->component >= 0) steif_report_whole(r, "component", q->component + 1);
   steif_report_text(r, "convention", convention_name(q->convention));
   if (lists)
     steif_report_list(r, "exact", a->n, q->exacts);

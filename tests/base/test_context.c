@@ -76,7 +76,7 @@ static void a_failure_keeps_code_values_and_place(void)
   CHECK(passes_on(ctx, -0.375) == STEIF_STEP_SIZE);
   CHECK(steif_status(ctx) == STEIF_STEP_SIZE);
   CHECK(!strcmp(steif_message(ctx),
-                "the step is h = -0.375: give a positive one [step size, fails]"));
+                "the step is h = -0.375: give a positive one [STEIF_STEP_SIZE]"));
   CHECK(passes_on(ctx, 0.375) == STEIF_RETRY);
   CHECK(steif_status(ctx) == STEIF_STEP_SIZE);
   steif_forget(ctx);

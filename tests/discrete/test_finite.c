@@ -122,7 +122,7 @@ static void bad_systems_are_refused(void)
   steif_finite_part part;
   refused(&s, one, STEIF_SINGULAR, "singular");
   refused(&s, zero, STEIF_SINGULAR, "singular");
-  refused(&s, nan, STEIF_NOT_FINITE, "E(1, 0)");
+  refused(&s, nan, STEIF_NOT_FINITE, "E(2, 1)");
   refused(&s, NULL, STEIF_BAD_INPUT, "E is NULL");
   s.n = 0;
   refused(&s, one, STEIF_BAD_INPUT, "0 states");

@@ -38,7 +38,7 @@ static void steps_and_names(void)
   one(4, "bilinear:w=31.5", 0.1, STEIF_BAD_INPUT, "below pi/dt = 31.4159");
   one(4, "bilinear:w=-1", 0.1, STEIF_BAD_INPUT, "w = -1");
   one(4, NULL, 0.1, STEIF_BAD_INPUT, "no scheme");
-  one(NAN, "zoh", 0.1, STEIF_NOT_FINITE, "A(1, 0)");
+  one(NAN, "zoh", 0.1, STEIF_NOT_FINITE, "A(2, 1)");
 }
 
 static void sizes(void)

@@ -192,12 +192,13 @@ static void the_probe_names_what_is_missing(void)
   steif_problem p = chain();
   p.user = &far;
   fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT,
-                  "pattern of problem 'chain' misses entry (17, 4)");
+                  "pattern of problem 'chain' misses the derivative of e18 with respect to y5");
   fixture_refused(&p, STEIF_BAND, STEIF_BAD_INPUT,
-                  "band of problem 'chain' misses entry (17, 4)");
+                  "band of problem 'chain' misses the derivative of e18 with respect to y5");
   fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "derivative of about 0.37");
   p.f = NULL, p.F = F;
-  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "misses entry (17, 4)");
+  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT,
+                  "misses the derivative of e18 with respect to y5");
   far = 0;
   fixture s;
   CHECK(!fixture_open(&s, &p, STEIF_SPARSE));
@@ -224,13 +225,13 @@ static void patterns_are_checked(void)
   p.pattern = NULL, p.nnz = 3 * N;
   fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "no Jacobian callback: give its .pattern");
   p.pattern = &pattern, row[6] = N;
-  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "rows of column 2 must be ascending");
+  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "row indices of column 3 must ascend");
   p.jac = analytic; /* a pattern that nothing needs is looked at too: its size is used */
-  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "rows of column 2 must be ascending");
+  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "row indices of column 3 must ascend");
   p = chain(), p.nnz = 3 * N, row[6] = row[5];
-  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "rows of column 2 must be ascending");
+  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "row indices of column 3 must ascend");
   p = chain(), column[5] = 2;
-  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "they fall at 4");
+  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "they fall at column 5");
   p = chain(), column[0] = 1;
   fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "must rise from 0");
   p = chain(), p.jac = analytic;

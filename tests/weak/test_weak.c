@@ -77,7 +77,7 @@ static void questions_without_sense_are_refused(void)
   q = good, q.h = NAN, refuse(&q, STEIF_BAD_INPUT, "(0, 1]");
   q = good, q.rows = 0, refuse(&q, STEIF_BAD_INPUT, "rows");
   q = good, q.rows = 60, refuse(&q, STEIF_BAD_INPUT, "fewer rows");
-  q = good, q.component = 3, refuse(&q, STEIF_BAD_INPUT, "component 3");
+  q = good, q.component = 3, refuse(&q, STEIF_BAD_INPUT, "component 4");
   q = good, q.method = NULL, refuse(&q, STEIF_BAD_INPUT, "method");
   q = good, q.method = "bdf:p=9", refuse(&q, STEIF_BAD_INPUT, "p=9");
   q = good, q.method = "badau", refuse(&q, STEIF_UNKNOWN_NAME, "radau");

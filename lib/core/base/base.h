@@ -8,9 +8,10 @@
 
 #define STF_EPS 2.2204460492503131e-16
 
-/* Store code and sentence in ctx and return the code. `where` is the calling function. */
-int stf_fail(steif_context *ctx, int code, const char *where, const char *format, ...)
-  STEIF_PRINTF(4, 5);
+/* Store code and sentence in ctx, which ends with the name of the code, and return the code. */
+int stf_fail(steif_context *ctx, int code, const char *format, ...) STEIF_PRINTF(3, 4);
+/* "STEIF_BAD_INPUT" of a code. */
+const char *stf_code_symbol(int code);
 
 #define STEIF_TRY(call)                                                                        \
   do {                                                                                         \
@@ -18,7 +19,7 @@ int stf_fail(steif_context *ctx, int code, const char *where, const char *format
     if (stf_code_ != STEIF_OK) return stf_code_;                                               \
   } while (0)
 
-#define STEIF_FAIL(ctx, code, ...) stf_fail(ctx, code, __func__, __VA_ARGS__)
+#define STEIF_FAIL(ctx, code, ...) stf_fail(ctx, code, __VA_ARGS__)
 
 #define STEIF_CHECK(condition, ctx, code, ...)                                                 \
   do {                                                                                         \
@@ -26,9 +27,8 @@ int stf_fail(steif_context *ctx, int code, const char *where, const char *format
   } while (0)
 
 /* A failure that a smaller step may cure: cause and sentence are stored, STEIF_RETRY is returned. */
-#define STEIF_RECOVER(ctx, cause, ...) stf_recover(ctx, cause, __func__, __VA_ARGS__)
-int stf_recover(steif_context *ctx, int cause, const char *where, const char *format, ...)
-  STEIF_PRINTF(4, 5);
+#define STEIF_RECOVER(ctx, cause, ...) stf_recover(ctx, cause, __VA_ARGS__)
+int stf_recover(steif_context *ctx, int cause, const char *format, ...) STEIF_PRINTF(3, 4);
 
 /* While silent, recoverable failures store their cause but make no sentence: for attempts whose refusal
  * is part of normal work. Returns what it was. */

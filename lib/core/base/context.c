@@ -110,35 +110,33 @@ bool stf_silence(steif_context *ctx, bool silent)
   return before;
 }
 
-static void keep(steif_context *ctx, int code, const char *where, const char *format,
-                 va_list arguments)
+static void keep(steif_context *ctx, int code, const char *format, va_list arguments)
 {
   ctx->code = code;
   const int used = vsnprintf(ctx->message, MESSAGE, format, arguments);
   if (used >= 0 && used < MESSAGE)
-    snprintf(ctx->message + used, (size_t)(MESSAGE - used), " [%s, %s]", steif_code_name(code),
-             where);
+    snprintf(ctx->message + used, (size_t)(MESSAGE - used), " [%s]", stf_code_symbol(code));
 }
 
-int stf_fail(steif_context *ctx, int code, const char *where, const char *format, ...)
+int stf_fail(steif_context *ctx, int code, const char *format, ...)
 {
   if (!ctx) return code;
   ctx->failures++;
   va_list arguments;
   va_start(arguments, format);
-  keep(ctx, code, where, format, arguments);
+  keep(ctx, code, format, arguments);
   va_end(arguments);
   return code;
 }
 
-int stf_recover(steif_context *ctx, int cause, const char *where, const char *format, ...)
+int stf_recover(steif_context *ctx, int cause, const char *format, ...)
 {
   if (!ctx) return STEIF_RETRY;
   ctx->code = cause;
   if (ctx->silent) return STEIF_RETRY;
   va_list arguments;
   va_start(arguments, format);
-  keep(ctx, cause, where, format, arguments);
+  keep(ctx, cause, format, arguments);
   va_end(arguments);
   return STEIF_RETRY;
 }

@@ -156,7 +156,7 @@ int stf_merge_open(stf_run *run, SUNMatrix E, SUNMatrix A, stf_merge *merge)
   STEIF_CHECK(
     proper(E) && proper(A), run->ctx, STEIF_BAD_INPUT,
     "a sparse matrix of '%s' is not filled properly: column pointers must rise from 0 "
-    "to at most the room given (nnz, nnz_E), row indices lie in 0 .. n-1",
+    "to at most the room given (nnz, nnz_E), C row indices lie in 0 .. n-1",
     run->problem->name ? run->problem->name : "the problem");
   const sunindextype n = run->problem->n;
   merge->nnz_E = SM_INDEXPTRS_S(E)[n], merge->nnz_A = SM_INDEXPTRS_S(A)[n];

@@ -49,9 +49,8 @@ int stf_check_matrix(steif_context *ctx, const char *name, int rows, int columns
   if (stf_all_finite(A, count)) return STEIF_OK;
   size_t k = 0;
   while (isfinite(A[k])) k++;
-  return STEIF_FAIL(ctx, STEIF_NOT_FINITE,
-                    "%s(%zu, %zu) = %g (from 0): all entries must be finite", name,
-                    k % (size_t)rows, k / (size_t)rows, A[k]);
+  return STEIF_FAIL(ctx, STEIF_NOT_FINITE, "%s(%zu, %zu) = %g: all entries must be finite",
+                    name, k % (size_t)rows + 1, k / (size_t)rows + 1, A[k]);
 }
 
 int stf_check_result(steif_context *ctx, const char *name, size_t count, const double *X,

@@ -193,8 +193,8 @@ static int prepare_near(steif_pencil *p, double shift)
   p->stats.factors++;
   if (!answer || stf_failures(p->ctx) > failures) return answer;
   return (answer > 0 ? stf_recover : stf_fail)(
-    p->ctx, STEIF_CALLBACK, __func__,
-    "preparing the preconditioner for the shift %.10g returned %d", shift, answer);
+    p->ctx, STEIF_CALLBACK, "preparing the preconditioner for the shift %.10g returned %d",
+    shift, answer);
 }
 
 /* The solver on pairs is made at the first complex shift. */
@@ -238,13 +238,13 @@ static int refused(steif_pencil *p, SUNLinearSolver l, double wanted)
   const steif_shift s = k->s;
   if (k->answer)
     return (k->answer > 0 ? stf_recover : stf_fail)(
-      p->ctx, STEIF_CALLBACK, __func__, "%s of the operator returned %d at s = %.10g%+.10gi",
-      k->culprit, k->answer, s.re, s.im);
+      p->ctx, STEIF_CALLBACK, "%s of the operator returned %d at s = %.10g%+.10gi", k->culprit,
+      k->answer, s.re, s.im);
   const char *const better = p->op.precondition ? "better " : "";
   const double left = SUNLinSolResNorm(l) / wanted;
   const int count = SUNLinSolNumIters(l);
   return (p->weights ? stf_recover : stf_fail)(
-    p->ctx, STEIF_NO_CONVERGENCE, __func__,
+    p->ctx, STEIF_NO_CONVERGENCE,
     "GMRES left a residual %.2e times the wanted one after %d iterations at s = %.10g%+.10gi; "
     "give a %spreconditioner, a larger dimension or more restarts",
     left, count, s.re, s.im, better);
@@ -263,7 +263,7 @@ static int run(steif_pencil *p, bool paired, N_Vector x, N_Vector b)
   if (norm == 0) return STEIF_OK;
   if (!isfinite(norm))
     return (p->weights ? stf_recover : stf_fail)(
-      p->ctx, STEIF_NOT_FINITE, __func__,
+      p->ctx, STEIF_NOT_FINITE,
       "the right-hand side has norm %g: look for the NaN or overflow in it", norm);
   const double wanted = allowed(p, paired, norm, &side, &weights);
   SUNLinSol_SPGMRSetPrecType(l, side);
@@ -300,9 +300,8 @@ static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
   k->answer = 0;
   const int answer = which == 'E' ? times_E(p, x, &out) : times_A(p, x, out);
   if (!answer) return STEIF_OK;
-  return (answer > 0 ? stf_recover : stf_fail)(p->ctx, STEIF_CALLBACK, __func__,
-                                               "%s of the operator returned %d in a product",
-                                               k->culprit, answer);
+  return (answer > 0 ? stf_recover : stf_fail)(
+    p->ctx, STEIF_CALLBACK, "%s of the operator returned %d in a product", k->culprit, answer);
 }
 
 static void finish(steif_pencil *p)

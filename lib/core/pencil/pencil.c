@@ -177,9 +177,9 @@ static int explain(steif_pencil *p, steif_shift s, const stf_outcome *o)
       s.re, s.im, (long long)o->rank, n);
     return STEIF_FAIL(p->ctx, o->code,
                       "s E - A is singular at s = %.10g%+.10gi: the pivot of column %lld "
-                      "(of %lld, from 0) vanished; take another step size, or check that "
+                      "(of %lld) vanished; take another step size, or check that "
                       "det(s E - A) is not identically zero",
-                      s.re, s.im, column, n);
+                      s.re, s.im, column + 1, n);
   case STEIF_NOT_FINITE:
     return STEIF_FAIL(p->ctx, o->code,
                       "s E - A overflows at s = %.10g%+.10gi; scale the equations or take a "

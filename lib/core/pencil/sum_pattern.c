@@ -19,11 +19,13 @@ static int check(steif_pencil *p, const char *name, SUNMatrix M)
       ptr[j] <= ptr[j + 1] && ptr[j + 1] <= SM_NNZ_S(M), p->ctx, STEIF_BAD_INPUT,
       "column %lld of %s holds the entries %lld to %lld of %lld: column pointers must "
       "rise and end within the matrix",
-      (long long)j, name, (long long)ptr[j], (long long)ptr[j + 1], (long long)SM_NNZ_S(M));
+      (long long)j + 1, name, (long long)ptr[j], (long long)ptr[j + 1], (long long)SM_NNZ_S(M));
     for (sunindextype k = ptr[j]; k < ptr[j + 1]; k++)
-      STEIF_CHECK(row[k] >= 0 && row[k] < n, p->ctx, STEIF_BAD_INPUT,
-                  "entry %lld of %s, in column %lld, has row %lld: rows run from 0 to %lld",
-                  (long long)k, name, (long long)j, (long long)row[k], (long long)n - 1);
+      STEIF_CHECK(
+        row[k] >= 0 && row[k] < n, p->ctx, STEIF_BAD_INPUT,
+        "column %lld of %s has an entry with the row index %lld: C indices of rows run "
+        "from 0 to %lld",
+        (long long)j + 1, name, (long long)row[k], (long long)n - 1);
   }
   return STEIF_OK;
 }
@@ -198,8 +200,8 @@ static int finite(steif_pencil *p, const char *name, SUNMatrix M)
   while (stf_all_finite(x + k, 1)) k++;
   while (ptr[j + 1] <= k) j++;
   return STEIF_FAIL(p->ctx, STEIF_NOT_FINITE,
-                    "%s[%lld,%lld] (from 0) is %g: look at the function that fills %s", name,
-                    (long long)SM_INDEXVALS_S(M)[k], (long long)j, x[k], name);
+                    "entry (%lld, %lld) of %s is %g: look at the function that fills it",
+                    (long long)SM_INDEXVALS_S(M)[k] + 1, (long long)j + 1, name, x[k]);
 }
 
 int stf_pattern_update(steif_pencil *p, stf_pattern *u, bool analysed,

@@ -62,16 +62,17 @@ static int check_pattern(const stf_system *s)
               "differences",
               s->problem->name);
   for (sunindextype j = 0; j < n; j++) {
-    STEIF_CHECK(p->column[0] == 0 && p->column[j] <= p->column[j + 1], s->ctx, STEIF_BAD_INPUT,
-                "pattern of problem '%s': column pointers must rise from 0, they fall at %lld",
-                s->problem->name, (long long)j);
+    STEIF_CHECK(
+      p->column[0] == 0 && p->column[j] <= p->column[j + 1], s->ctx, STEIF_BAD_INPUT,
+      "pattern of problem '%s': column pointers must rise from 0, they fall at column %lld",
+      s->problem->name, (long long)j + 1);
     for (sunindextype k = p->column[j]; k < p->column[j + 1]; k++)
       STEIF_CHECK(p->row[k] >= 0 && p->row[k] < n &&
                     (k == p->column[j] || p->row[k] > p->row[k - 1]),
                   s->ctx, STEIF_BAD_INPUT,
-                  "pattern of problem '%s': rows of column %lld must be "
-                  "ascending and within 0 .. %lld",
-                  s->problem->name, (long long)j, (long long)n - 1);
+                  "pattern of problem '%s': row indices of column %lld must "
+                  "ascend within 0 .. %lld",
+                  s->problem->name, (long long)j + 1, (long long)n - 1);
   }
   return STEIF_OK;
 }
@@ -232,6 +233,7 @@ static int name(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector y
                 sunindextype i, sunrealtype wrong)
 {
   const sunrealtype *d = N_VGetArrayPointer(s->work[5]), *v = N_VGetArrayPointer(s->work[2]);
+  char row[STEIF_SPEC_WORD], column[STEIF_SPEC_WORD];
   sunindextype from = 0, to = s->space.n;
   STEIF_TRY(shove(s, which, t, y, yp, from, to, i));
   if (!(fabs(d[i]) > wrong / 2)) return STEIF_OK;
@@ -247,10 +249,11 @@ static int name(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector y
   }
   return STEIF_FAIL(
     s->ctx, STEIF_BAD_INPUT,
-    "the %s of problem '%s' misses entry (%lld, %lld) (row, column, from 0): a probe at "
-    "t = %g found a derivative of about %.3g there; add it",
-    s->storage == STEIF_BAND ? "band" : "pattern", s->problem->name, (long long)i,
-    (long long)from, t, d[i] / v[from]);
+    "the %s of problem '%s' misses the derivative of %s with respect to %s, row %lld, column "
+    "%lld: a probe at t = %g found about %.3g there; add it",
+    s->storage == STEIF_BAND ? "band" : "pattern", s->problem->name,
+    stf_equation(s->problem, i, row), stf_unknown(s->problem, from, column), (long long)i + 1,
+    (long long)from + 1, t, d[i] / v[from]);
 }
 
 /* out = |M| |v|, what the terms of a row may come to. */

@@ -27,18 +27,20 @@ static int reject(const stf_system *s, int column, sunrealtype t, sunrealtype h)
 {
   const sunrealtype *A = SM_DATA_D(s->A);
   const size_t n = (size_t)s->space.n;
+  char row[STEIF_SPEC_WORD], col[STEIF_SPEC_WORD];
   for (size_t k = 0; k < n * n; k++)
     if (!isfinite(A[k]))
       return STEIF_RECOVER(
         s->ctx, STEIF_NOT_FINITE,
-        "entry (%zu, %zu) (from 0) of the Jacobian of problem '%s' is %g in the "
+        "the derivative of %s with respect to %s in the Jacobian of problem '%s' is %g in the "
         "step from t = %.12g: look at the function that fills it",
-        k % n, k / n, s->problem->name, A[k], t);
+        stf_equation(s->problem, (sunindextype)(k % n), row),
+        stf_unknown(s->problem, (sunindextype)(k / n), col), s->problem->name, A[k], t);
   return STEIF_RECOVER(
     s->ctx, STEIF_SINGULAR,
-    "the stage matrix of problem '%s' is singular in column %d (from 0) at "
+    "the stage matrix of problem '%s' is singular in the column of %s at "
     "t = %.12g with h = %.6g: check that det(s E - A) is not identically zero",
-    s->problem->name, column - 1, t, h);
+    s->problem->name, stf_unknown(s->problem, column - 1, col), t, h);
 }
 
 int stf_system_interleave(const stf_system *s, stf_interleaved *L, sunrealtype t, sunrealtype h)

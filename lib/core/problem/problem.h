@@ -83,6 +83,7 @@ int stf_storage_check(steif_context *ctx, const steif_problem *problem,
 
 /* "'lambda'", or "y3" without names; `room` has STEIF_SPEC_WORD characters. */
 const char *stf_unknown(const steif_problem *problem, sunindextype i, char *room);
+const char *stf_equation(const steif_problem *problem, sunindextype i, char *room);
 
 /* The 0-based component that is not finite, or -1. Needs a host array (else -1). */
 sunindextype stf_not_finite(N_Vector v);

@@ -4,13 +4,23 @@
 #include <stdio.h>
 #include <string.h>
 
+static const char *name(const char *const *names, char letter, sunindextype i, char *room)
+{
+  if (names)
+    snprintf(room, STEIF_SPEC_WORD, "'%s'", names[i]);
+  else
+    snprintf(room, STEIF_SPEC_WORD, "%c%lld", letter, (long long)i + 1);
+  return room;
+}
+
 const char *stf_unknown(const steif_problem *p, sunindextype i, char *room)
 {
-  if (p->names && p->names->unknown)
-    snprintf(room, STEIF_SPEC_WORD, "'%s'", p->names->unknown[i]);
-  else
-    snprintf(room, STEIF_SPEC_WORD, "y%lld", (long long)i + 1);
-  return room;
+  return name(p->names ? p->names->unknown : NULL, 'y', i, room);
+}
+
+const char *stf_equation(const steif_problem *p, sunindextype i, char *room)
+{
+  return name(p->names ? p->names->equation : NULL, 'e', i, room);
 }
 
 static int start_values(steif_context *ctx, const steif_problem *p, N_Vector y, N_Vector yp)

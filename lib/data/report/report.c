@@ -30,8 +30,7 @@ void steif_report_free(steif_report **r)
 static void fail(steif_report *r, int code, const char *name, const char *reason)
 {
   if (r->code == STEIF_OK)
-    r->code = stf_fail(r->ctx, code, "steif_report", "cannot add \"%s\" to the report: %s",
-                       name, reason);
+    r->code = stf_fail(r->ctx, code, "cannot add \"%s\" to the report: %s", name, reason);
 }
 
 /* Store a new value (the reference is taken) as member `key` of `owner`. */

@@ -149,8 +149,8 @@ static int check_turning(stf_jump_search *w)
           size += fabs(w->E_now[j * n + i] * w->jump->c[j]);
     STEIF_CHECK(fabs(sum) <= noise * size, s->ctx, STEIF_SINGULAR,
                 "E of '%s' changes with time in the directions of the impulses at t = %.12g "
-                "(equation %zu, counted from 0): a frozen pencil does not tell the jump",
-                s->problem.name, s->t, i);
+                "(equation %zu): a frozen pencil does not tell the jump",
+                s->problem.name, s->t, i + 1);
   }
   memcpy(SM_DATA_D(w->E), w->E_now, n * n * sizeof *E);
   return STEIF_OK;

@@ -184,8 +184,8 @@ static int measure_rows(measure *w, steif_weak_row *row, steif_weak_result *resu
   const steif_weak_query *q = w->query;
   const int n = w->subject.n;
   STEIF_CHECK(q->component == STEIF_ALL || (q->component >= 0 && q->component < n), w->ctx,
-              STEIF_BAD_INPUT, "component %d is not one of the %d components 0 .. %d of '%s'",
-              q->component, n, n - 1, w->subject.problem.name);
+              STEIF_BAD_INPUT, "component %d is not one of the %d of '%s'", q->component + 1, n,
+              w->subject.problem.name);
   w->first = q->component == STEIF_ALL ? 0 : q->component;
   w->count = q->component == STEIF_ALL ? n : 1;
   w->floor = stf_allocate(w->ctx, q->rows + (size_t)n, sizeof *w->floor);

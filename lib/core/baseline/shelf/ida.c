@@ -1,6 +1,7 @@
 /* ida.c: IDA's variable-order BDF for F(t, y, y') = 0 and the forms that lower to it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "baseline.h"
+#include "problem.h"
 #include <ida/ida.h>
 #include <ida/ida_ls.h>
 #include <math.h>
@@ -69,13 +70,13 @@ static void name_equation(ida *s)
   b->fault.now = false;
   const sunrealtype *r = N_VGetArrayPointer(b->start);
   if (seen || !r) return;
+  char name[STEIF_SPEC_WORD];
   sunindextype worst = 0;
   for (sunindextype i = 1; i < run->problem->n; i++)
     if (fabs(r[i]) > fabs(r[worst])) worst = i;
   if (fabs(r[worst]) > sqrt(STF_EPS))
-    snprintf(b->detail, sizeof b->detail,
-             "; the start misses equation %lld (from 0) by most, F = %.3g", (long long)worst,
-             r[worst]);
+    snprintf(b->detail, sizeof b->detail, "; the start misses equation %s by most, F = %.3g",
+             stf_equation(run->problem, worst, name), r[worst]);
   else
     snprintf(b->detail, sizeof b->detail,
              "; the start satisfies the equations, so the index is suspect");
