@@ -178,14 +178,14 @@ static void bad_indices(void)
   begin(false);
   const sunindextype pointer = SM_INDEXPTRS_S(A)[6], row = SM_INDEXVALS_S(E)[9];
   SM_INDEXPTRS_S(A)[6] = SM_INDEXPTRS_S(A)[7] + 1;
-  CHECK(steif_pencil_update(p) == STEIF_BAD_INPUT && says("column 6 of A"));
+  CHECK(steif_pencil_update(p) == STEIF_BAD_INPUT && says("column 7 of A"));
   SM_INDEXPTRS_S(A)[6] = pointer;
   SM_INDEXVALS_S(E)[9] = N;
-  CHECK(steif_pencil_update(p) == STEIF_BAD_INPUT && says("entry 9 of E") && says("row 40"));
+  CHECK(steif_pencil_update(p) == STEIF_BAD_INPUT && says("column 4 of E") && says("row index 40"));
   CHECK(steif_pencil_factor(p, 1, &(steif_shift){1, 0}) == STEIF_BAD_INPUT);
   SM_INDEXVALS_S(E)[9] = row;
   SM_INDEXPTRS_S(E)[0] = 1;
-  CHECK(steif_pencil_update(p) == STEIF_BAD_INPUT && says("column 0 of E"));
+  CHECK(steif_pencil_update(p) == STEIF_BAD_INPUT && says("column 1 of E"));
   SM_INDEXPTRS_S(E)[0] = 0;
   CHECK(steif_pencil_factor(p, 1, &(steif_shift){1, 0}) == STEIF_OK);
   end();

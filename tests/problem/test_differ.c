@@ -195,7 +195,7 @@ static void the_probe_names_what_is_missing(void)
                   "pattern of problem 'chain' misses the derivative of e18 with respect to y5");
   fixture_refused(&p, STEIF_BAND, STEIF_BAD_INPUT,
                   "band of problem 'chain' misses the derivative of e18 with respect to y5");
-  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "derivative of about 0.37");
+  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "found about 0.37 there");
   p.f = NULL, p.F = F;
   fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT,
                   "misses the derivative of e18 with respect to y5");
