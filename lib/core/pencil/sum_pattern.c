@@ -12,7 +12,7 @@ static int check(steif_pencil *p, const char *name, SUNMatrix M)
 {
   const sunindextype *ptr = SM_INDEXPTRS_S(M), *row = SM_INDEXVALS_S(M), n = p->n;
   STEIF_CHECK(ptr[0] == 0, p->ctx, STEIF_BAD_INPUT,
-              "column 0 of %s starts at entry %lld: column pointers start at 0", name,
+              "column 1 of %s starts at entry %lld: column pointers start at 0", name,
               (long long)ptr[0]);
   for (sunindextype j = 0; j < n; j++) {
     STEIF_CHECK(
