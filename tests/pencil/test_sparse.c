@@ -181,7 +181,8 @@ static void bad_indices(void)
   CHECK(steif_pencil_update(p) == STEIF_BAD_INPUT && says("column 7 of A"));
   SM_INDEXPTRS_S(A)[6] = pointer;
   SM_INDEXVALS_S(E)[9] = N;
-  CHECK(steif_pencil_update(p) == STEIF_BAD_INPUT && says("column 4 of E") && says("row index 40"));
+  CHECK(steif_pencil_update(p) == STEIF_BAD_INPUT && says("column 4 of E") &&
+        says("row index 40"));
   CHECK(steif_pencil_factor(p, 1, &(steif_shift){1, 0}) == STEIF_BAD_INPUT);
   SM_INDEXVALS_S(E)[9] = row;
   SM_INDEXPTRS_S(E)[0] = 1;
