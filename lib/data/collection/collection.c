@@ -1,6 +1,7 @@
 /* collection.c: problems by name, from a spec to a filled steif_problem and back.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"
+#include "model_file.h"
 #include <string.h>
 
 const char *steif_problem_name(size_t i)
@@ -25,11 +26,49 @@ static int build(steif_context *ctx, const char *text, const steif_spec *spec, s
   return code;
 }
 
+/* "ball.steif" or "ball.steif:e=0.9,g=1.6": where the name of the file ends; NULL: this is no file. */
+static const char *end_of_file_name(const char *text)
+{
+  static const char ending[] = ".steif";
+  for (const char *at = strstr(text, ending); at; at = strstr(at + 1, ending)) {
+    const char *end = at + sizeof ending - 1;
+    if (!*end || *end == ':') return end;
+  }
+  return NULL;
+}
+
+static int build_file(steif_context *ctx, const steif_spec *spec, steif_problem *self)
+{
+  return stf_model_open(ctx, self->name, spec, self);
+}
+
+/* The name is the file alone; parameters are read as of a spec. */
+static int open_file(steif_context *ctx, const char *text, const char *end, steif_problem *p)
+{
+  steif_spec spec = {.count = 0};
+  const size_t length = (size_t)(end - text);
+  char *rest = *end ? stf_allocate(ctx, strlen(end) + sizeof "model", 1) : NULL;
+  if (*end && !rest) return STEIF_NO_MEMORY;
+  int code = rest ? steif_spec_parse(ctx, strcat(strcpy(rest, "model"), end), &spec) : STEIF_OK;
+  if (rest) stf_release(ctx, rest);
+  if (code) return code;
+  char *name = stf_allocate(ctx, length + 1, 1);
+  if (!name) return STEIF_NO_MEMORY;
+  p->name = memcpy(name, text, length);
+  p->build = build_file;
+  p->destroy = stf_model_close;
+  code = p->build(ctx, &spec, p);
+  if (code) steif_problem_clear(ctx, p);
+  return code;
+}
+
 int steif_problem_find(steif_context *ctx, const char *text, steif_problem *problem)
 {
   steif_spec spec;
   STEIF_CHECK(problem, ctx, STEIF_BAD_INPUT, "a place for the problem is needed, got NULL");
   *problem = (steif_problem){0};
+  const char *end = text ? end_of_file_name(text) : NULL;
+  if (end) return open_file(ctx, text, end, problem);
   STEIF_TRY(steif_spec_parse(ctx, text, &spec));
   const stf_problem_entry *entry = look_up(spec.name);
   if (!entry) {

@@ -1,0 +1,288 @@
+/* elements.c: indices as whole numbers that depend on loop counters, and the elements they choose.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "model.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEEP = 32, NEAR = 1000000000 };
+static const int64_t FAR = 1000000000000; /* of indices on the way; elements lie within NEAR */
+
+static int complain(const stf_builder *b, uint32_t at, const char *what)
+{
+  return stf_complain(&b->m->syntax.sources, at, STEIF_BAD_INPUT, "%s", what);
+}
+
+static bool fixed(const stf_affine *x)
+{
+  for (int d = 0; d < STF_LOOPS; d++)
+    if (x->s[d]) return false;
+  return true;
+}
+
+/* ---- indices --------------------------------------------------------------------------------- */
+
+static int whole(stf_builder *b, const stf_code *c, stf_affine *x)
+{
+  double value;
+  const uint32_t from = (uint32_t)(c - STF_AT(b->m->syntax.codes, stf_code, 0));
+  stf_graph g = {.ctx = b->m->ctx};
+  stf_builder own;
+  int code = stf_builder_open(&own, b->m, &g, true);
+  if (!code) code = stf_value(&own, &(stf_expression){from, from + 1}, &value);
+  stf_builder_close(&own);
+  stf_graph_free(&g);
+  STEIF_TRY(code);
+  if (value == floor(value) && fabs(value) < (double)FAR) {
+    *x = (stf_affine){.c = (int64_t)value};
+    return STEIF_OK;
+  }
+  return stf_complain(
+    &b->m->syntax.sources, c->at, STEIF_BAD_INPUT,
+    "an index or range must be a whole number, here '%s' = %.12g; declare it 'whole'",
+    c->kind == STF_OP_NAME ? stf_named(b->m, c->a) : "it", value);
+}
+
+static int name(stf_builder *b, const stf_code *c, size_t scope, stf_affine *x)
+{
+  for (size_t i = b->bindings.count; i-- > scope;) {
+    const stf_binding *local = STF_AT(b->bindings, stf_binding, i);
+    if (local->word != c->a) continue;
+    if (local->node < 0) {
+      *x = local->at;
+      return STEIF_OK;
+    }
+    const stf_node *n = stf_node_at(b->g, local->node);
+    if (n->kind != STF_OP_NUMBER || n->number != floor(n->number) ||
+        fabs(n->number) > (double)FAR)
+      return complain(b, c->at,
+                      "an argument of a function as index, and it is no whole number");
+    *x = (stf_affine){.c = (int64_t)n->number};
+    return STEIF_OK;
+  }
+  return whole(b, c, x);
+}
+
+static bool times(const stf_affine *x, const stf_affine *y, stf_affine *to)
+{
+  if (!fixed(x) && !fixed(y)) return false;
+  const stf_affine *by = fixed(x) ? x : y, *of = fixed(x) ? y : x;
+  to->c = of->c * by->c;
+  for (int d = 0; d < STF_LOOPS; d++) to->s[d] = of->s[d] * by->c;
+  return true;
+}
+
+static bool far(const stf_affine *x)
+{
+  bool is = x->c > FAR || x->c < -FAR;
+  for (int d = 0; d < STF_LOOPS; d++) is = is || x->s[d] > FAR || x->s[d] < -FAR;
+  return is;
+}
+
+/* div and mod of what depends on a counter need their passes one by one. */
+static int divided(stf_builder *b, const stf_code *c, bool remainder, const stf_affine *x,
+                   const stf_affine *y, stf_affine *to)
+{
+  if (!fixed(x) || !fixed(y)) b->fallback = true;
+  if (!y->c) return complain(b, c->at, "division by zero in an index");
+  const int64_t low = (x->c % y->c != 0) && ((x->c < 0) != (y->c < 0)),
+                quotient = x->c / y->c - low;
+  *to = (stf_affine){.c = remainder ? x->c - y->c * quotient : quotient};
+  return STEIF_OK;
+}
+
+static int operate(stf_builder *b, const stf_code *c, stf_affine *x, const stf_affine *y)
+{
+  const stf_affine a = *x;
+  const int sign = c->kind == STF_OP_SUBTRACT ? -1 : 1;
+  if (c->kind == STF_OP_CALL) {
+    const char *word = stf_named(b->m, c->a);
+    if (!strcmp(word, "div") || !strcmp(word, "mod"))
+      return divided(b, c, *word == 'm', &a, y, x);
+  } else if (c->kind == STF_OP_DIVIDE && y->c && fixed(&a) && fixed(y) && a.c % y->c == 0) {
+    x->c = a.c / y->c;
+    return STEIF_OK;
+  } else if (c->kind == STF_OP_POWER && fixed(&a) && fixed(y) && y->c >= 0) {
+    const double value = pow((double)a.c, (double)y->c);
+    if (!(fabs(value) <= (double)FAR)) return complain(b, c->at, "an index beyond 1e12");
+    x->c = (int64_t)value;
+    return STEIF_OK;
+  } else if (c->kind == STF_OP_MULTIPLY) {
+    if (!times(&a, y, x)) {
+      b->fallback = true;
+      *x = (stf_affine){0};
+    }
+    return far(x) ? complain(b, c->at, "an index beyond 1e12") : STEIF_OK;
+  } else if (c->kind == STF_OP_ADD || c->kind == STF_OP_SUBTRACT) {
+    x->c += sign * y->c;
+    for (int d = 0; d < STF_LOOPS; d++) x->s[d] += sign * y->s[d];
+    return far(x) ? complain(b, c->at, "an index beyond 1e12") : STEIF_OK;
+  }
+  return complain(b, c->at, "an index is made of + - *, div and mod of whole numbers");
+}
+
+int stf_index(stf_builder *b, const stf_expression *e, uint32_t at, stf_affine *index)
+{
+  stf_affine stack[DEEP];
+  int used = 0;
+  for (uint32_t i = e->from; i < e->to; i++) {
+    const stf_code *c = STF_AT(b->m->syntax.codes, stf_code, i);
+    if (used == DEEP) return complain(b, at, "an index that is nested too deeply");
+    if (c->kind == STF_OP_NUMBER) {
+      if (c->number != floor(c->number) || fabs(c->number) > (double)FAR)
+        return complain(b, c->at, "an index that is no whole number");
+      stack[used++] = (stf_affine){.c = (int64_t)c->number};
+    } else if (c->kind == STF_OP_NAME) {
+      STEIF_TRY(name(b, c, stf_scope(b), stack + used));
+      used++;
+    } else if (c->kind == STF_OP_NEGATIVE) {
+      const stf_affine zero = {0}, y = stack[used - 1];
+      const stf_code minus = {.kind = STF_OP_SUBTRACT, .at = c->at};
+      stack[used - 1] = zero;
+      STEIF_TRY(operate(b, &minus, stack + used - 1, &y));
+    } else {
+      if (used < 2)
+        return complain(b, c->at, "an index is made of + - *, div and mod of whole numbers");
+      used--;
+      STEIF_TRY(operate(b, c, stack + used - 1, stack + used));
+    }
+  }
+  if (used != 1)
+    return complain(b, at, "an index is made of + - *, div and mod of whole numbers");
+  *index = stack[0];
+  return STEIF_OK;
+}
+
+/* ---- elements -------------------------------------------------------------------------------- */
+
+int stf_state_leaf(stf_builder *b, const stf_symbol *s, int primes, const stf_affine *k,
+                   uint32_t at)
+{
+  int32_t stride[STF_LOOPS];
+  for (int d = 0; d < STF_LOOPS; d++) stride[d] = (int32_t)k->s[d];
+  if (b->numeric) {
+    if (!b->started || primes || !b->started[s->first[0] + k->c])
+      return stf_complain(
+        &b->m->syntax.sources, at, STEIF_BAD_INPUT,
+        "'%s' is an unknown; here only numbers, parameters and fixed start values stand",
+        stf_named(b->m, s->word));
+    return stf_push_node(b, stf_number(b->g, b->m->y0[s->first[0] + k->c]));
+  }
+  const int kind = primes < s->order ? STF_OP_STATE : STF_OP_SLOPE;
+  const int level = primes < s->order ? primes : s->order - 1;
+  return stf_push_node(b, stf_leaf(b->g, kind, s->first[level] + (int32_t)k->c, stride));
+}
+
+/* Passes in which low <= x <= high, of one counter; false: they must be looked at one by one. */
+static bool narrow(stf_builder *b, const stf_affine *x, int64_t low, int64_t high)
+{
+  int counter = -1;
+  for (int d = 0; d < STF_LOOPS; d++)
+    if (x->s[d]) {
+      if (counter >= 0) return false;
+      counter = d;
+    }
+  if (counter < 0) return x->c >= low && x->c <= high;
+  const int64_t s = x->s[counter];
+  const double first = (double)((s > 0 ? low : high) - x->c) / (double)s,
+               last = (double)((s > 0 ? high : low) - x->c) / (double)s;
+  if (ceil(first) > b->low[counter]) b->low[counter] = (int32_t)fmin(ceil(first), NEAR);
+  if (floor(last) < b->high[counter]) b->high[counter] = (int32_t)fmax(floor(last), -NEAR);
+  return true;
+}
+
+/* The boundary statement that gives an element outside; its names are bound. */
+static const stf_statement *boundary(stf_builder *b, const stf_code *c, const stf_affine *x,
+                                     int *code)
+{
+  for (size_t i = 0; i < b->m->syntax.statements.count; i++) {
+    const stf_statement *s = stf_statement_at(b->m, (int32_t)i);
+    if (s->kind != STF_SAY_BOUNDARY || s->name != c->b || s->dimensions != c->count) continue;
+    bool here = true;
+    for (int d = 0; d < c->count && here && !*code; d++) {
+      stf_affine low = {0}, high;
+      *code = stf_index(b, &s->range[d].low, s->at, &low);
+      high = low;
+      if (!*code && s->range[d].high.to > s->range[d].high.from)
+        *code = stf_index(b, &s->range[d].high, s->at, &high);
+      here = x[d].c >= low.c && x[d].c <= high.c;
+    }
+    if (*code || here) return s;
+  }
+  return NULL;
+}
+
+static int outside(stf_builder *b, const stf_symbol *s, const stf_code *c, const stf_affine *x,
+                   int d)
+{
+  int code = STEIF_OK;
+  const stf_statement *said = boundary(b, c, x, &code);
+  STEIF_TRY(code);
+  const char *name = stf_named(b->m, s->word);
+  if (!said || c->primes) {
+    char pass[60] = "";
+    const stf_binding *local = b->bindings.data;
+    if (b->bindings.count && local->node < 0)
+      snprintf(pass, sizeof pass, "%.30s = %lld; ", stf_named(b->m, local->word),
+               (long long)local->at.c);
+    return stf_complain(&b->m->syntax.sources, c->at, STEIF_BAD_INPUT,
+                        "%s[%lld] does not exist (%s%s runs from %d to %d); end the loop "
+                        "earlier or add 'boundary %s[%lld] = ...'",
+                        name, (long long)x[d].c, pass, name, s->low[d],
+                        s->low[d] + s->count[d] - 1, name, (long long)x[d].c);
+  }
+  const size_t scope = b->bindings.count;
+  for (int k = 0; k < c->count; k++)
+    if (said->range[k].name >= 0) STEIF_TRY(stf_bind_index(b, said->range[k].name, x + k));
+  if (b->frames.count > 1000)
+    return complain(b, said->at, "boundaries that refer to each other");
+  return stf_enter(b, &said->value, -1, scope);
+}
+
+static int array(stf_builder *b, const stf_symbol *s, const stf_code *c, const stf_affine *x)
+{
+  stf_affine k = {0};
+  for (int d = 0; d < c->count; d++) {
+    const int64_t low = s->low[d], high = low + s->count[d] - 1;
+    if (llabs(x[d].c) > NEAR && !fixed(x + d)) return complain(b, c->at, "an index beyond 1e9");
+    if (fixed(x + d)) {
+      if (x[d].c < low || x[d].c > high) return outside(b, s, c, x, d);
+    } else if (!narrow(b, x + d, low, high)) {
+      b->fallback = true;
+    }
+    k.c = k.c * s->count[d] + x[d].c - low;
+    for (int l = 0; l < STF_LOOPS; l++) k.s[l] = k.s[l] * s->count[d] + x[d].s[l];
+  }
+  return stf_state_leaf(b, s, c->primes, &k, c->at);
+}
+
+/* An abbreviation with indices: its expression with the names of the indices bound. */
+static int abbreviation(stf_builder *b, const stf_symbol *s, const stf_code *c,
+                        const stf_affine *x)
+{
+  const stf_statement *said = stf_statement_at(b->m, s->statement);
+  const size_t scope = b->bindings.count;
+  for (int d = 0; d < c->count; d++) {
+    const int32_t word = said->range[d].name;
+    if (word < 0)
+      return complain(b, said->at,
+                      "the indices of an abbreviation are names, 'let q[i] = ...'");
+    STEIF_TRY(stf_bind_index(b, word, x + d));
+  }
+  if (b->frames.count > 100000)
+    return complain(b, said->at, "abbreviations with indices that refer to each other");
+  return stf_enter(b, &said->value, -1, scope);
+}
+
+int stf_element(stf_builder *b, const stf_code *c)
+{
+  const stf_symbol *s = stf_symbol_of(b->m, c->b);
+  stf_affine x[STF_DIMENSIONS];
+  if (!s || (s->kind != STF_IS_STATE && s->kind != STF_IS_LET))
+    return stf_complain(&b->m->syntax.sources, c->at, STEIF_BAD_INPUT, "'%s' is no array",
+                        stf_named(b->m, c->b));
+  for (int d = 0; d < c->count; d++)
+    STEIF_TRY(
+      stf_index(b, &STF_AT(b->m->syntax.indices, stf_range, c->a + d)->low, c->at, x + d));
+  return s->kind == STF_IS_STATE ? array(b, s, c, x) : abbreviation(b, s, c, x);
+}

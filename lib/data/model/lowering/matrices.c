@@ -1,0 +1,287 @@
+/* matrices.c: tapes of f and of the entries of E and A, with the pattern of the entries by columns.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "model.h"
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct entry {
+  size_t block;
+  int32_t node;
+  const stf_equation *equation;
+  int32_t column, stride[STF_LOOPS];
+  int32_t *slot;
+} entry;
+
+static stf_block *block_at(const stf_model *m, size_t i)
+{
+  return *STF_AT(m->blocks, stf_block *, i);
+}
+
+static int64_t passes(const stf_box *box)
+{
+  int64_t count = 1;
+  for (int d = 0; d < box->dims; d++) count *= box->count[d];
+  return count;
+}
+
+static int32_t at_pass(const stf_box *box, int64_t k, int32_t a, const int32_t *stride)
+{
+  int64_t value = a;
+  for (int d = box->dims; d--;) {
+    value += (int64_t)stride[d] * (box->low[d] + k % box->count[d]);
+    k /= box->count[d];
+  }
+  return (int32_t)value;
+}
+
+static int32_t row_of(const stf_box *box, int64_t k, const stf_equation *e)
+{
+  return e->slot ? e->slot[k] : at_pass(box, k, e->row, e->stride);
+}
+
+/* ---- quantities ------------------------------------------------------------------------------ */
+
+static int compile(stf_model *m, const stf_block *block, const stf_vector *stores,
+                   stf_quantity *q)
+{
+  if (!stores->count) return STEIF_OK;
+  stf_tape *tape = stf_vector_push(m->ctx, &q->tapes, sizeof *tape);
+  double **space = tape ? stf_vector_push(m->ctx, &q->spaces, sizeof *space) : NULL;
+  if (!space) return STEIF_NO_MEMORY;
+  STEIF_TRY(stf_tape_compile(&block->graph, &block->box, stores->count, stores->data, tape));
+  *space = stf_pool_array(m->pool, stf_tape_space(tape), sizeof **space);
+  if (!*space) return STEIF_NO_MEMORY;
+  stf_tape_prepare(tape, &m->feed, *space);
+  return STEIF_OK;
+}
+
+void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed *feed,
+                      double *out)
+{
+  (void)m;
+  for (size_t i = 0; i < q->tapes.count; i++)
+    stf_tape_run(STF_AT(q->tapes, stf_tape, i), feed, *STF_AT(q->spaces, double *, i), out);
+}
+
+/* f, with the equations that are not explicit as -residual without derivatives; F is the residual. */
+static int values(stf_model *m)
+{
+  for (size_t i = 0; i < m->blocks.count; i++) {
+    stf_block *block = block_at(m, i);
+    for (size_t k = 0; k < block->equations.count; k++) {
+      stf_equation *e = STF_AT(block->equations, stf_equation, k);
+      if (m->form == STEIF_IMPLICIT) e->value = e->residual;
+      if (e->value >= 0) continue;
+      const int32_t rest = stf_without(&block->graph, e->residual, STF_OP_SLOPE, &m->sweep);
+      e->value = rest < 0 ? -1 : stf_apply1(&block->graph, STF_OP_NEGATIVE, rest);
+      if (e->value < 0) return STEIF_NO_MEMORY;
+    }
+  }
+  return STEIF_OK;
+}
+
+static int build_values(stf_model *m, bool without_states)
+{
+  stf_vector stores = {0};
+  int code = STEIF_OK;
+  for (size_t i = 0; !code && i < m->blocks.count; i++) {
+    stf_block *block = block_at(m, i);
+    stores.count = 0;
+    for (size_t k = 0; !code && k < block->equations.count; k++) {
+      const stf_equation *e = STF_AT(block->equations, stf_equation, k);
+      stf_store *s = stf_vector_push(m->ctx, &stores, sizeof *s);
+      if (!s) code = STEIF_NO_MEMORY;
+      if (code) break;
+      *s = (stf_store){.from = e->value, .a = e->row, .slot = e->slot};
+      memcpy(s->stride, e->stride, sizeof s->stride);
+      if (without_states)
+        s->from = stf_without(&block->graph, e->value, STF_OP_STATE, &m->sweep);
+      if (s->from < 0) code = STEIF_NO_MEMORY;
+    }
+    if (!code) code = compile(m, block, &stores, &m->f);
+  }
+  stf_vector_free(m->ctx, &stores);
+  return code;
+}
+
+/* ---- entries --------------------------------------------------------------------------------- */
+
+static int add(stf_model *m, stf_vector *entries, size_t block, const stf_equation *e,
+               int32_t node, int32_t column, const int32_t *stride)
+{
+  entry *to = node < 0 ? NULL : stf_vector_push(m->ctx, entries, sizeof *to);
+  if (!to) return STEIF_NO_MEMORY;
+  *to = (entry){.block = block, .node = node, .equation = e, .column = column};
+  memcpy(to->stride, stride, sizeof to->stride);
+  return STEIF_OK;
+}
+
+static int partials(stf_model *m, stf_vector *entries, size_t i, const stf_equation *e,
+                    int32_t root, int kind, bool minus)
+{
+  stf_graph *g = &block_at(m, i)->graph;
+  STEIF_TRY(stf_graph_differentiate(g, root, kind, &m->sweep, &m->partials));
+  for (size_t k = 0; k < m->partials.count; k++) {
+    const stf_partial p = *STF_AT(m->partials, stf_partial, k);
+    const stf_node leaf = *stf_node_at(g, p.leaf);
+    const int32_t stride[STF_LOOPS] = {leaf.b, leaf.stride[0], leaf.stride[1]};
+    if (stf_is_number(g, p.value, 0)) continue;
+    STEIF_TRY(add(m, entries, i, e, minus ? stf_apply1(g, STF_OP_NEGATIVE, p.value) : p.value,
+                  leaf.a, stride));
+  }
+  return STEIF_OK;
+}
+
+/* The entries of E (slopes) or A. */
+static int list(stf_model *m, bool slopes, stf_vector *entries)
+{
+  const bool implicit = m->form == STEIF_IMPLICIT;
+  for (size_t i = 0; i < m->blocks.count; i++) {
+    const stf_block *block = block_at(m, i);
+    for (size_t k = 0; k < block->equations.count; k++) {
+      const stf_equation *e = STF_AT(block->equations, stf_equation, k);
+      if (!slopes)
+        STEIF_TRY(partials(m, entries, i, e, e->value, STF_OP_STATE, implicit));
+      else if (e->own && !implicit)
+        STEIF_TRY(
+          add(m, entries, i, e, stf_number(&block_at(m, i)->graph, 1), e->row, e->stride));
+      else
+        STEIF_TRY(partials(m, entries, i, e, e->residual, STF_OP_SLOPE, false));
+    }
+  }
+  return STEIF_OK;
+}
+
+/* ---- patterns -------------------------------------------------------------------------------- */
+
+static int ascending(const void *a, const void *b)
+{
+  const sunindextype x = *(const sunindextype *)a, y = *(const sunindextype *)b;
+  return (x > y) - (x < y);
+}
+
+/* Columns in `column` are counted, or rows filled in from column[j] on. */
+static void scan(const stf_model *m, const stf_vector *entries, sunindextype *column,
+                 sunindextype *row)
+{
+  for (size_t i = 0; i < entries->count; i++) {
+    const entry *e = STF_AT(*entries, entry, i);
+    const stf_box *box = &block_at(m, e->block)->box;
+    const int64_t count = passes(box);
+    for (int64_t k = 0; k < count; k++) {
+      const int32_t j = at_pass(box, k, e->column, e->stride);
+      if (row)
+        row[column[j]++] = row_of(box, k, e->equation);
+      else
+        column[j + 1]++;
+    }
+  }
+}
+
+/* Rows ascend in each column and occur once. */
+static void unite(int32_t n, sunindextype *column, sunindextype *row)
+{
+  sunindextype used = 0, from = 0;
+  for (int32_t j = 0; j < n; j++) {
+    const sunindextype to = column[j];
+    qsort(row + from, (size_t)(to - from), sizeof *row, ascending);
+    const sunindextype start = used;
+    for (sunindextype k = from; k < to; k++)
+      if (used == start || row[used - 1] != row[k]) row[used++] = row[k];
+    column[j] = start;
+    from = to;
+  }
+  column[n] = used;
+}
+
+static int pattern(stf_model *m, const stf_vector *entries, stf_matrix *M)
+{
+  int64_t count = 0;
+  for (size_t i = 0; i < entries->count; i++)
+    count += passes(&block_at(m, STF_AT(*entries, entry, i)->block)->box);
+  STEIF_CHECK(count < INT32_MAX, m->ctx, STEIF_UNSUPPORTED,
+              "a Jacobian of %lld entries; 2e9 are the most", (long long)count);
+  M->column = stf_pool_array(m->pool, (size_t)m->n + 1, sizeof *M->column);
+  M->row = stf_pool_array(m->pool, (size_t)count, sizeof *M->row);
+  if (!M->column || !M->row) return STEIF_NO_MEMORY;
+  scan(m, entries, M->column, NULL);
+  for (int32_t j = 0; j < m->n; j++) M->column[j + 1] += M->column[j];
+  scan(m, entries, M->column, M->row);
+  unite(m->n, M->column, M->row);
+  M->entries = M->column[m->n];
+  M->scratch = stf_pool_array(m->pool, (size_t)M->entries, sizeof *M->scratch);
+  return M->scratch ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+/* Where the entry of each pass is stored. */
+static int slots(stf_model *m, const stf_matrix *M, entry *e)
+{
+  const stf_box *box = &block_at(m, e->block)->box;
+  const int64_t count = passes(box);
+  e->slot = stf_pool_array(m->pool, (size_t)count, sizeof *e->slot);
+  if (!e->slot) return STEIF_NO_MEMORY;
+  for (int64_t k = 0; k < count; k++) {
+    const int32_t j = at_pass(box, k, e->column, e->stride);
+    const sunindextype row = row_of(box, k, e->equation), *from = M->row + M->column[j];
+    const sunindextype *found =
+      bsearch(&row, from, (size_t)(M->column[j + 1] - M->column[j]), sizeof row, ascending);
+    e->slot[k] = (int32_t)(found - M->row);
+  }
+  return STEIF_OK;
+}
+
+static int tapes(stf_model *m, const stf_vector *entries, stf_matrix *M)
+{
+  stf_vector stores = {0};
+  int code = STEIF_OK;
+  size_t next = 0;
+  for (size_t i = 0; !code && i < m->blocks.count; i++) {
+    stores.count = 0;
+    for (; !code && next < entries->count && STF_AT(*entries, entry, next)->block == i;
+         next++) {
+      entry *e = STF_AT(*entries, entry, next);
+      stf_store *s = stf_vector_push(m->ctx, &stores, sizeof *s);
+      code = s ? slots(m, M, e) : STEIF_NO_MEMORY;
+      if (!code) *s = (stf_store){.from = e->node, .slot = e->slot};
+    }
+    if (!code) code = compile(m, block_at(m, i), &stores, &M->quantity);
+  }
+  stf_vector_free(m->ctx, &stores);
+  return code;
+}
+
+/* What all entries depend on. */
+static int dependence(const stf_model *m, const stf_vector *entries)
+{
+  int on = 0;
+  for (size_t i = 0; i < entries->count; i++) {
+    const entry *e = STF_AT(*entries, entry, i);
+    on |= stf_node_at(&block_at(m, e->block)->graph, e->node)->on;
+  }
+  return on;
+}
+
+static int finish(stf_model *m, stf_vector *A, stf_vector *E)
+{
+  m->linear =
+    m->form != STEIF_IMPLICIT && !(dependence(m, A) & ~(STF_ON_PARAMETER | STF_ON_PASS));
+  if (m->linear && m->form == STEIF_MASS) m->form = STEIF_DESCRIPTOR;
+  STEIF_TRY(pattern(m, A, &m->A));
+  STEIF_TRY(tapes(m, A, &m->A));
+  if (m->form == STEIF_ODE) return build_values(m, false);
+  STEIF_TRY(list(m, true, E));
+  STEIF_TRY(pattern(m, E, &m->E));
+  STEIF_TRY(tapes(m, E, &m->E));
+  return build_values(m, m->form == STEIF_DESCRIPTOR);
+}
+
+int stf_build_tapes(stf_model *m)
+{
+  stf_vector A = {0}, E = {0};
+  int code = values(m);
+  if (!code) code = list(m, false, &A);
+  if (!code) code = finish(m, &A, &E);
+  stf_vector_free(m->ctx, &A);
+  stf_vector_free(m->ctx, &E);
+  return code;
+}

@@ -1,0 +1,171 @@
+/* model.h: a model between its text and a steif_problem: what is declared, blocks of equations, tapes.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_MODEL_H
+#define STF_MODEL_H
+
+#include "syntax.h"
+#include "tape.h"
+#include <steif/problem.h>
+
+enum { STF_UNKNOWNS = 10000000, STF_PASSES_MOST = 100000000 };
+
+enum stf_symbol_kind {
+  STF_IS_NOTHING,
+  STF_IS_PARAMETER,
+  STF_IS_CONST,
+  STF_IS_STATE,
+  STF_IS_DISCRETE,
+  STF_IS_LET,
+  STF_IS_FUNCTION,
+  STF_IS_TABLE,
+  STF_IS_KINDS
+};
+
+typedef struct stf_symbol {
+  uint8_t kind, visit; /* visit: 1 while its value is looked for, 2 afterwards */
+  int32_t word, statement;
+  int32_t which; /* of its kind; a parameter that follows others has -1 */
+  bool given;    /* a parameter: from outside */
+  double value;  /* of parameters and constants */
+  /* states */
+  int32_t order, first[8]; /* derivatives that occur, at least 1; unknowns 0 .. order-1 */
+  uint8_t differentiated;
+  int32_t dims, low[STF_DIMENSIONS], count[STF_DIMENSIONS], size;
+} stf_symbol;
+
+/* A whole number that depends on loop counters. */
+typedef struct stf_affine {
+  int64_t c, s[STF_LOOPS];
+} stf_affine;
+
+typedef struct stf_binding {
+  int32_t word;
+  int32_t node; /* of an argument; -1: an index */
+  stf_affine at;
+} stf_binding;
+
+/* An equation 0 = residual, or slope of its row = value. */
+typedef struct stf_equation {
+  int32_t statement;              /* -1: the velocity of an unknown */
+  int32_t residual, value;        /* nodes; value -1: not explicit */
+  bool own;                       /* explicit: the row of its unknown */
+  int32_t row, stride[STF_LOOPS]; /* of each pass */
+  int32_t *slot; /* rows of the passes where they are no multiples of counters */
+} stf_equation;
+
+/* Equations that share loops and a graph. */
+typedef struct stf_block {
+  stf_graph graph;
+  stf_box box;
+  stf_vector equations; /* of stf_equation */
+} stf_block;
+
+/* One quantity of all blocks: f, F or the entries of a matrix. */
+typedef struct stf_quantity {
+  stf_vector tapes, spaces; /* stf_tape, double * */
+} stf_quantity;
+
+typedef struct stf_matrix {
+  stf_quantity quantity;
+  sunindextype *column, *row; /* by columns */
+  sunindextype entries;
+  sunrealtype *scratch; /* entries, for dense storage */
+} stf_matrix;
+
+typedef struct stf_model {
+  steif_context *ctx;
+  stf_pool *pool;
+  stf_syntax syntax;
+  stf_vector symbols;   /* stf_symbol */
+  stf_vector symbol_of; /* int32_t by word: 1 + symbol; 0: none */
+  stf_vector names;     /* const char *: declared */
+  int32_t parameters, n, discretes, states;
+  double *p;         /* parameters */
+  stf_vector blocks; /* stf_block *; the first has no loops */
+  int form, wished;  /* wished: form statement, or 0 */
+  bool linear, autonomous;
+  const char *why; /* why not a simpler form */
+  stf_matrix A, E;
+  stf_quantity f; /* f, F or g */
+  stf_feed feed;
+  double *memory;
+  sunrealtype *y0, *yp0;
+  uint8_t *start; /* n: '=', '~' or 0 */
+  int32_t *owner; /* n: symbol of each unknown */
+  const char **unknown, **equation;
+  steif_names problem_names;
+  stf_sweep sweep;
+  stf_vector partials;
+} stf_model;
+
+static inline stf_symbol *stf_symbol_at(const stf_model *m, int32_t i)
+{
+  return STF_AT(m->symbols, stf_symbol, i);
+}
+static inline const stf_statement *stf_statement_at(const stf_model *m, int32_t i)
+{
+  return STF_AT(m->syntax.statements, stf_statement, i);
+}
+static inline const char *stf_named(const stf_model *m, int32_t word)
+{
+  return stf_word_text(&m->syntax.words, word);
+}
+/* The symbol of a word; NULL: it is not declared. */
+stf_symbol *stf_symbol_of(const stf_model *m, int32_t word);
+
+/* declare.c: symbols, values of parameters, sizes, numbers of unknowns. */
+int stf_declare(stf_model *m, const steif_spec *spec);
+int stf_number_unknowns(stf_model *m);
+/* check.c: every name that is used is known. */
+int stf_check_names(stf_model *m);
+
+/* builder.c: expressions into nodes. */
+typedef struct stf_builder {
+  stf_model *m;
+  stf_graph *g;
+  bool
+    numeric; /* parameters are numbers and there are no unknowns but those that have started */
+  bool fallback;                            /* an index needs its passes one by one */
+  int dims;                                 /* loops whose counters stand in indices */
+  int32_t low[STF_LOOPS], high[STF_LOOPS];  /* passes in which all indices exist */
+  const uint8_t *started;                   /* n; NULL: none */
+  stf_vector stack, frames, bindings, memo; /* memo: 1 + node of each symbol */
+} stf_builder;
+int stf_builder_open(stf_builder *b, stf_model *m, stf_graph *g, bool numeric);
+void stf_builder_close(stf_builder *b);
+int stf_bind_node(stf_builder *b, int32_t word, int32_t node);
+int stf_bind_index(stf_builder *b, int32_t word, const stf_affine *at);
+int stf_build(stf_builder *b, const stf_expression *e, int32_t *node);
+/* A number now: of parameters, constants and bound indices. */
+int stf_value(stf_builder *b, const stf_expression *e, double *value);
+/* elements.c: an index, and what an element stands for: a leaf or an expression to be entered. */
+int stf_index(stf_builder *b, const stf_expression *e, uint32_t at, stf_affine *index);
+int stf_element(stf_builder *b, const stf_code *c);
+int stf_state_leaf(stf_builder *b, const stf_symbol *s, int primes, const stf_affine *component,
+                   uint32_t at);
+/* of builder.c, for elements.c: an expression in a scope of its own; memo: symbol or -1. */
+int stf_enter(stf_builder *b, const stf_expression *e, int32_t memo, size_t scope);
+size_t stf_scope(const stf_builder *b);
+int stf_push_node(stf_builder *b, int32_t node);
+
+/* loops.c: the equations. */
+int stf_build_blocks(stf_model *m);
+/* form.c: explicit rows, the form, rows of the others. */
+int stf_deduce_form(stf_model *m);
+/* The value of a node that depends on parameters only. */
+int stf_fixed_value(stf_model *m, const stf_graph *g, int32_t node, double *value);
+/* matrices.c: tapes of f and the matrices. */
+int stf_build_tapes(stf_model *m);
+void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed *feed,
+                      double *out);
+/* starts.c: start values. */
+int stf_build_start(stf_model *m);
+/* problem.c of this room */
+int stf_name_unknowns(stf_model *m);
+/* A number of parameters and constants only; the failure is told. */
+int stf_number_of(stf_model *m, const stf_expression *e, double *value);
+/* model_problem.c: members and callbacks. */
+int stf_model_fill(stf_model *m, steif_problem *problem);
+void stf_model_free(stf_model *m);
+
+#endif

@@ -1,0 +1,182 @@
+/* tape_run.c: the machine: scalar instructions, and those on lanes.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "tape.h"
+#include <math.h>
+#include <string.h>
+
+static void run_scalar(const stf_step_code *s, const stf_step_code *end, double *r,
+                       const stf_lookup *l)
+{
+  for (; s < end; s++) {
+    const double a = r[s->a];
+    switch (s->kind) {
+    case STF_OP_ADD: r[s->to] = a + r[s->b]; break;
+    case STF_OP_SUBTRACT: r[s->to] = a - r[s->b]; break;
+    case STF_OP_MULTIPLY: r[s->to] = a * r[s->b]; break;
+    case STF_OP_DIVIDE: r[s->to] = a / r[s->b]; break;
+    case STF_OP_NEGATIVE: r[s->to] = -a; break;
+    case STF_OP_SELECT: r[s->to] = a != 0 ? r[s->b] : r[s->c]; break;
+    case STF_OP_LOOKUP: r[s->to] = stf_lookup_value(l + s->b, a); break;
+    case STF_OP_TILT: r[s->to] = stf_lookup_slope(l + s->b, a); break;
+    default: r[s->to] = stf_operate(s->kind, a, stf_operands(s->kind) > 1 ? r[s->b] : 0, 0);
+    }
+  }
+}
+
+/* One instruction on `count` passes. */
+static void run_lane(const stf_step_code *s, double *lanes, int count, const stf_lookup *l)
+{
+  double *restrict to = lanes + (size_t)s->to * STF_PASSES;
+  const double *x = lanes + (size_t)s->a * STF_PASSES;
+  const bool table = s->kind == STF_OP_LOOKUP || s->kind == STF_OP_TILT;
+  const double *y = table ? x : lanes + (size_t)s->b * STF_PASSES;
+  const double *z = lanes + (size_t)s->c * STF_PASSES;
+  switch (s->kind) {
+#define STF_ONE(name, word, value)                                                             \
+  case STF_OP_##name:                                                                          \
+    for (int i = 0; i < count; i++) {                                                          \
+      const double a = x[i];                                                                   \
+      to[i] = value;                                                                           \
+    }                                                                                          \
+    break;
+    STF_UNARY(STF_ONE)
+#undef STF_ONE
+#define STF_ONE(name, word, value)                                                             \
+  case STF_OP_##name:                                                                          \
+    for (int i = 0; i < count; i++) {                                                          \
+      const double a = x[i], b = y[i];                                                         \
+      to[i] = value;                                                                           \
+    }                                                                                          \
+    break;
+    STF_BINARY(STF_ONE)
+#undef STF_ONE
+  case STF_OP_SELECT:
+    for (int i = 0; i < count; i++) to[i] = x[i] != 0 ? y[i] : z[i];
+    break;
+  case STF_OP_LOOKUP:
+    for (int i = 0; i < count; i++) to[i] = stf_lookup_value(l + s->b, x[i]);
+    break;
+  default:
+    for (int i = 0; i < count; i++) to[i] = stf_lookup_slope(l + s->b, x[i]);
+    break;
+  }
+}
+
+static const double *array_of(const stf_feed *f, int kind)
+{
+  return kind == STF_OP_STATE    ? f->y
+         : kind == STF_OP_SLOPE  ? f->yp
+         : kind == STF_OP_MEMORY ? f->memory
+                                 : f->p;
+}
+
+static double loaded(const stf_feed *f, const stf_load *l)
+{
+  return l->kind == STF_OP_TIME ? f->t : array_of(f, l->kind)[l->a];
+}
+
+void stf_tape_prepare(const stf_tape *t, const stf_feed *feed, double *space)
+{
+  const stf_load *l = t->numbers.data;
+  for (size_t i = 0; i < t->numbers.count; i++)
+    space[l[i].to] = *STF_AT(t->values, double, l[i].a);
+  l = t->loads.data;
+  for (size_t i = 0; i < t->loads.count; i++)
+    if (l[i].kind == STF_OP_PARAMETER) space[l[i].to] = feed->p[l[i].a];
+  const stf_step_code *s = t->code.data;
+  if (s) run_scalar(s, s + t->fixed, space, feed->lookups);
+}
+
+/* ---- passes ---------------------------------------------------------------------------------- */
+
+static int64_t offset(int32_t a, const int32_t *stride, const int32_t *counter)
+{
+  return a + (int64_t)stride[0] * counter[0] + (int64_t)stride[1] * counter[1] +
+         (int64_t)stride[2] * counter[2];
+}
+
+static void fill(const stf_tape *t, const stf_feed *feed, const int32_t *counter, int count,
+                 double *lanes)
+{
+  const int inner = t->box.dims - 1;
+  const stf_load *l = t->wide_loads.data;
+  for (size_t i = 0; i < t->wide_loads.count; i++, l++) {
+    double *to = lanes + (size_t)l->to * STF_PASSES;
+    if (l->kind == STF_OP_COUNTER) {
+      for (int k = 0; k < count; k++) to[k] = counter[l->a] + (l->a == inner ? k : 0);
+      continue;
+    }
+    const double *from = array_of(feed, l->kind) + offset(l->a, l->stride, counter);
+    const int64_t step = l->stride[inner];
+    if (step == 1)
+      memcpy(to, from, (size_t)count * sizeof *to);
+    else
+      for (int k = 0; k < count; k++) to[k] = from[k * step];
+  }
+}
+
+static void store(const stf_tape *t, const int32_t *counter, int64_t pass, int count,
+                  const double *lanes, double *out)
+{
+  const int inner = t->box.dims - 1;
+  const stf_store *s = t->stores.data;
+  for (size_t i = 0; i < t->stores.count; i++, s++) {
+    const double *from = lanes + (size_t)s->from * STF_PASSES;
+    if (s->slot) {
+      const int32_t *slot = s->slot + pass;
+      for (int k = 0; k < count; k++) out[slot[k]] += from[k];
+    } else {
+      double *to = out + offset(s->a, s->stride, counter);
+      const int64_t step = s->stride[inner];
+      for (int k = 0; k < count; k++) to[k * step] += from[k];
+    }
+  }
+}
+
+static void run_passes(const stf_tape *t, const stf_feed *feed, double *lanes, double *out)
+{
+  const stf_box *b = &t->box;
+  const int inner = b->dims - 1;
+  int32_t counter[STF_LOOPS];
+  int64_t pass = 0;
+  memcpy(counter, b->low, sizeof counter);
+  for (int d = 0; d < b->dims; d++)
+    if (b->count[d] < 1) return;
+  for (;;) {
+    for (int32_t k = 0; k < b->count[inner]; k += STF_PASSES) {
+      const int count = b->count[inner] - k < STF_PASSES ? b->count[inner] - k : STF_PASSES;
+      counter[inner] = b->low[inner] + k;
+      fill(t, feed, counter, count, lanes);
+      const stf_step_code *s = t->wide.data;
+      for (size_t i = 0; i < t->wide.count; i++) run_lane(s + i, lanes, count, feed->lookups);
+      store(t, counter, pass + k, count, lanes, out);
+    }
+    pass += b->count[inner];
+    int d = inner - 1;
+    while (d >= 0 && ++counter[d] == b->low[d] + b->count[d]) {
+      counter[d] = b->low[d];
+      d--;
+    }
+    if (d < 0) return;
+  }
+}
+
+void stf_tape_run(const stf_tape *t, const stf_feed *feed, double *space, double *out)
+{
+  double *lanes = space + t->registers;
+  const stf_load *l = t->loads.data;
+  for (size_t i = 0; i < t->loads.count; i++) space[l[i].to] = loaded(feed, l + i);
+  const stf_step_code *s = t->code.data;
+  if (s) run_scalar(s + t->fixed, s + t->code.count, space, feed->lookups);
+  if (t->box.dims) {
+    const stf_step_code *b = t->broadcasts.data;
+    for (size_t i = 0; i < t->broadcasts.count; i++)
+      for (int k = 0; k < STF_PASSES; k++)
+        lanes[(size_t)b[i].to * STF_PASSES + (size_t)k] = space[b[i].a];
+    run_passes(t, feed, lanes, out);
+    return;
+  }
+  const stf_store *o = t->stores.data;
+  for (size_t i = 0; i < t->stores.count; i++)
+    out[o[i].slot ? o[i].slot[0] : o[i].a] += space[o[i].from];
+}

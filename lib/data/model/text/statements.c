@@ -1,0 +1,236 @@
+/* statements.c: statements, a line each. A wrong one is left out and the next one read.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "reader.h"
+#include <string.h>
+
+static int loop(stf_reader *r, const stf_token *t)
+{
+  stf_statement s = stf_reader_fresh(r, STF_SAY_FOR);
+  s.line = t->line;
+  STEIF_TRY(stf_reader_name(r, &s));
+  s.at = t->at;
+  if (!stf_take_word(&r->p, STF_WORD_IN)) return stf_expected(&r->p, "'in'");
+  s.range[0].name = s.name;
+  s.range[0].low.from = s.range[0].low.to = 0;
+  s.third.from = stf_next(&r->p)->at; /* place of the range */
+  STEIF_TRY(stf_parse_number(&r->p, &s.range[0].low));
+  STEIF_TRY(stf_reader_demand(r, ':', "':' and the end of the range"));
+  STEIF_TRY(stf_parse_number(&r->p, &s.range[0].high));
+  r->parent = (int32_t)r->p.syntax->statements.count;
+  return stf_reader_keep(r, &s);
+}
+
+static int action(stf_reader *r)
+{
+  stf_statement s = stf_reader_fresh(r, STF_SAY_STOP);
+  if (!stf_take_word(&r->p, STF_WORD_STOP)) {
+    s.kind = STF_SAY_ASSIGN;
+    STEIF_TRY(stf_reader_assignment(r, &s));
+  } else if (stf_next(&r->p)->kind == STF_TOKEN_STRING) {
+    STEIF_TRY(stf_reader_string(r, &s));
+  }
+  return stf_reader_keep(r, &s);
+}
+
+/* ": action", or ":" and lines up to "end". */
+static int actions(stf_reader *r, const stf_statement *s, size_t place)
+{
+  STEIF_TRY(stf_reader_demand(r, ':', "':' and what happens"));
+  const int32_t around = r->parent;
+  *STF_AT(r->p.syntax->statements, stf_statement, place) = *s;
+  r->parent = (int32_t)place;
+  if (stf_next(&r->p)->kind == STF_TOKEN_END) return STEIF_OK;
+  const int code = action(r);
+  r->parent = around;
+  return code;
+}
+
+static int when(stf_reader *r)
+{
+  stf_statement s = stf_reader_fresh(r, STF_SAY_WHEN);
+  const size_t place = r->p.syntax->statements.count;
+  STEIF_TRY(stf_reader_keep(r, &s));
+  STEIF_TRY(stf_parse_any(&r->p, &s.value));
+  const bool condition = r->p.boolean;
+  s.whole = stf_reader_take(r, "rising")     ? 'r'
+            : stf_reader_take(r, "falling")  ? 'f'
+            : stf_reader_take(r, "crossing") ? 'c'
+                                             : 0;
+  if (condition == (s.whole != 0)) {
+    const uint32_t at = s.at;
+    return stf_reader_fail(r, at, "expected a condition such as v < 0, or 'v falling'");
+  }
+  return actions(r, &s, place);
+}
+
+static int instants(stf_reader *r)
+{
+  stf_statement s = stf_reader_fresh(r, STF_SAY_AT);
+  const size_t place = r->p.syntax->statements.count;
+  const int32_t around = r->parent;
+  STEIF_TRY(stf_reader_keep(r, &s));
+  r->parent = (int32_t)place;
+  const int code = stf_reader_list(r, STF_SAY_INSTANT, stf_reader_value);
+  r->parent = around;
+  STEIF_TRY(code);
+  return actions(r, &s, place);
+}
+
+static int every(stf_reader *r)
+{
+  stf_statement s = stf_reader_fresh(r, STF_SAY_EVERY);
+  const size_t place = r->p.syntax->statements.count;
+  STEIF_TRY(stf_reader_keep(r, &s));
+  STEIF_TRY(stf_parse_number(&r->p, &s.value));
+  if (stf_reader_take(r, "from")) STEIF_TRY(stf_parse_number(&r->p, &s.other));
+  return actions(r, &s, place);
+}
+
+static int interval(stf_reader *r)
+{
+  stf_statement s = stf_reader_fresh(r, STF_SAY_TIME);
+  STEIF_TRY(stf_parse_number(&r->p, &s.value));
+  if (!stf_reader_take(r, "to")) return stf_expected(&r->p, "'to' and the end of the interval");
+  STEIF_TRY(stf_parse_number(&r->p, &s.other));
+  stf_reader_unit(r, &s);
+  return stf_reader_keep(r, &s);
+}
+
+static int reference_value(stf_reader *r, stf_statement *s)
+{
+  STEIF_TRY(stf_reader_assignment(r, s));
+  s->kind = STF_SAY_VALUE;
+  return STEIF_OK;
+}
+
+static int reference(stf_reader *r)
+{
+  stf_statement s = stf_reader_fresh(r, STF_SAY_REFERENCE);
+  const size_t place = r->p.syntax->statements.count;
+  const int32_t around = r->parent;
+  STEIF_TRY(stf_reader_keep(r, &s));
+  if (!stf_take_word(&r->p, STF_WORD_AT)) return stf_expected(&r->p, "'at' and a time");
+  STEIF_TRY(stf_parse_number(&r->p, &s.value));
+  r->parent = (int32_t)place;
+  const int code = stf_take(&r->p, ',') ? stf_reader_list(r, STF_SAY_VALUE, reference_value)
+                                        : stf_expected(&r->p, "',' and a value");
+  r->parent = around;
+  STEIF_TRY(code);
+  if (stf_reader_take(r, "digits")) STEIF_TRY(stf_parse_number(&r->p, &s.other));
+  if (stf_reader_take(r, "source")) STEIF_TRY(stf_reader_string(r, &s));
+  *STF_AT(r->p.syntax->statements, stf_statement, place) = s;
+  return STEIF_OK;
+}
+
+static int form(stf_reader *r)
+{
+  static const char *const names[] = {"ode", "mass", "implicit", "descriptor"};
+  stf_statement s = stf_reader_fresh(r, STF_SAY_FORM);
+  for (int i = 0; i < 4; i++)
+    if (stf_reader_take(r, names[i])) s.whole = (uint8_t)(1 << i);
+  return s.whole ? stf_reader_keep(r, &s)
+                 : stf_expected(&r->p, "ode, mass, implicit or descriptor");
+}
+
+static int named_text(stf_reader *r, int kind)
+{
+  stf_statement s = stf_reader_fresh(r, kind);
+  STEIF_TRY(stf_reader_string(r, &s));
+  return stf_reader_keep(r, &s);
+}
+
+static int equation(stf_reader *r)
+{
+  stf_statement s = stf_reader_fresh(r, STF_SAY_EQUATION);
+  const stf_token *t = stf_next(&r->p);
+  if (t->kind == STF_TOKEN_NAME && t[1].kind == STF_TOKEN_MARK && t[1].word == ':') {
+    s.name = t->word;
+    r->p.at += 2;
+  }
+  STEIF_TRY(stf_parse_number(&r->p, &s.value));
+  s.third.from = stf_next(&r->p)->at;
+  STEIF_TRY(stf_reader_demand(r, '=', "'=' or an operator"));
+  STEIF_TRY(stf_parse_number(&r->p, &s.other));
+  return stf_reader_keep(r, &s);
+}
+
+static int end(stf_reader *r, uint32_t at)
+{
+  if (r->parent < 0) return stf_reader_fail(r, at, "'end' without 'for' or 'when'; remove it");
+  r->parent = STF_AT(r->p.syntax->statements, stf_statement, r->parent)->parent;
+  return STEIF_OK;
+}
+
+static bool acting(const stf_reader *r)
+{
+  if (r->parent < 0) return false;
+  const int kind = STF_AT(r->p.syntax->statements, stf_statement, r->parent)->kind;
+  return kind == STF_SAY_WHEN || kind == STF_SAY_AT || kind == STF_SAY_EVERY;
+}
+
+static int dispatch(stf_reader *r, const stf_token *t)
+{
+  switch (t->word) {
+  case STF_WORD_MODEL: return named_text(r, STF_SAY_TITLE);
+  case STF_WORD_PARAM: return stf_reader_list(r, STF_SAY_PARAM, stf_reader_item);
+  case STF_WORD_CONST: return stf_reader_list(r, STF_SAY_CONST, stf_reader_item);
+  case STF_WORD_STATE: return stf_reader_list(r, STF_SAY_STATE, stf_reader_state);
+  case STF_WORD_DISCRETE: return stf_reader_list(r, STF_SAY_DISCRETE, stf_reader_assignment);
+  case STF_WORD_LET: return stf_reader_list(r, STF_SAY_LET, stf_reader_assignment);
+  case STF_WORD_FUNCTION: return stf_reader_function(r);
+  case STF_WORD_BOUNDARY: return stf_reader_list(r, STF_SAY_BOUNDARY, stf_reader_assignment);
+  case STF_WORD_TABLE: return stf_reader_table(r);
+  case STF_WORD_FOR: return loop(r, t);
+  case STF_WORD_WHEN: return when(r);
+  case STF_WORD_AT: return instants(r);
+  case STF_WORD_EVERY: return every(r);
+  case STF_WORD_OUTPUT: return stf_reader_list(r, STF_SAY_OUTPUT, stf_reader_assignment);
+  case STF_WORD_INVARIANT: return stf_reader_list(r, STF_SAY_INVARIANT, stf_reader_assignment);
+  case STF_WORD_REQUIRE: return stf_reader_list(r, STF_SAY_REQUIRE, stf_reader_requirement);
+  case STF_WORD_BREAKS: return stf_reader_list(r, STF_SAY_BREAK, stf_reader_value);
+  case STF_WORD_TIME: return interval(r);
+  case STF_WORD_TOLERANCE: return stf_reader_list(r, STF_SAY_TOLERANCE, stf_reader_tolerance);
+  case STF_WORD_FORM: return form(r);
+  case STF_WORD_REFERENCE: return reference(r);
+  case STF_WORD_FIT: return stf_reader_list(r, STF_SAY_FIT, stf_reader_fit);
+  case STF_WORD_END: return end(r, t->at);
+  default: r->p.at--; return equation(r);
+  }
+}
+
+static int statement(stf_reader *r)
+{
+  const stf_token *t = stf_next(&r->p);
+  r->p.level = 0;
+  if (t->kind == STF_TOKEN_END) return STEIF_OK;
+  if (acting(r) && !stf_next_word(&r->p, STF_WORD_END)) return action(r);
+  if (t->kind != STF_TOKEN_NAME) return equation(r);
+  r->p.at++;
+  return dispatch(r, t);
+}
+
+/* One statement and the end of its line; after an error the rest of the line is left out. */
+static int line(stf_reader *r)
+{
+  int code = statement(r);
+  if (!code && stf_next(&r->p)->kind != STF_TOKEN_END)
+    code = stf_expected(&r->p, "an operator or the end of the line");
+  if (code == STEIF_NO_MEMORY) return code;
+  while (stf_next(&r->p)->kind != STF_TOKEN_END) r->p.at++;
+  r->p.at++;
+  return STEIF_OK;
+}
+
+int stf_parse(stf_syntax *syntax, size_t which)
+{
+  const size_t first = syntax->tokens.count;
+  STEIF_TRY(stf_lex(&syntax->sources, which, &syntax->words, &syntax->tokens));
+  stf_reader r = {.p = {.syntax = syntax, .at = first}, .parent = -1};
+  while (r.p.at < syntax->tokens.count && syntax->sources.errors < STF_ERRORS)
+    STEIF_TRY(line(&r));
+  if (r.parent < 0) return STEIF_OK;
+  const stf_statement *open = STF_AT(syntax->statements, stf_statement, r.parent);
+  return stf_complain(&syntax->sources, open->at, STEIF_BAD_INPUT,
+                      "this %s has no 'end'; close it",
+                      open->kind == STF_SAY_FOR ? "loop" : "event");
+}

@@ -1,0 +1,26 @@
+/* fixture.h: a model from a text, which is written into a file of a new folder, or of the examples.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef FIXTURE_H
+#define FIXTURE_H
+
+#include "folder.h"
+#include "suite.h"
+#include <nvector/nvector_serial.h>
+#include <stdbool.h>
+#include <steif/data.h>
+#include <steif/steif.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct fixture {
+  steif_context *ctx;
+  steif_problem p;
+  char folder[200], path[300];
+} fixture;
+
+/* The text as m.steif, with `rest` after its path (":k=3" or ""). The code of opening it. */
+int fixture_text(fixture *s, const char *text, const char *rest);
+int fixture_example(fixture *s, const char *spec);
+void fixture_close(fixture *s);
+
+#endif

@@ -1,0 +1,11 @@
+/* Tests of lib/data/model: models as text.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_examples[];
+extern CU_TestInfo tests_of_derivatives[];
+extern CU_TestInfo tests_of_wrong_models[];
+
+SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_examples},
+           {.pName = "derivatives against differences", .pTests = tests_of_derivatives},
+           {.pName = "wrong models and their sentences", .pTests = tests_of_wrong_models})
