@@ -61,11 +61,6 @@ void steif_bench_average(const steif_bench_match *match, size_t count, steif_ben
  * over published seconds of the best of CVODE, IDA, ARKODE; NaN: of nothing. */
 sunrealtype steif_bench_speed(const steif_bench_match *match, size_t count);
 
-/* Time of SUNDIALS' N_VLinearSum of 1000 numbers over that of a plain loop: 1 for a library
- * compiled with optimisation, above STEIF_BENCH_SLOW without. NaN when memory is short. */
-#define STEIF_BENCH_SLOW 2.5
-sunrealtype steif_bench_sundials(steif_context *ctx);
-
 /* The members that come from print: peer, peer_s, peer_baseline_s. */
 void stf_bench_published(steif_bench_match *m);
 

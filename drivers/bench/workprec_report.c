@@ -1,16 +1,17 @@
 /* workprec_report.c: the benchmark of work against precision as a report and a picture.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "workprec_report.h"
+#include "sundials_build.h"
 #include <string.h>
 
 static const double wanted[DIGITS] = {4, 6, 8, 10};
 
 void work_header(const workprec *w, const struct call *call, steif_report *r)
 {
-  const double sundials = steif_bench_sundials(call->ctx);
+  const double sundials = sundials_ratio(call->ctx);
   steif_report_text(r, "benchmark", "workprec");
   steif_report_text(r, "sundials",
-                    sundials > STEIF_BENCH_SLOW
+                    sundials > SUNDIALS_SLOW
                       ? "compiled without optimisation; tests/peers.sh builds one at -O2"
                       : "compiled with optimisation");
   steif_report_real(r, "sundials_vectors", sundials);

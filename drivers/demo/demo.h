@@ -24,6 +24,6 @@ int demo_finish(demo *d);
 int demo_published(demo *d); /* published problems, digits against published solutions */
 int demo_layers(demo *d);    /* index 2 to 4: lengths of the initial layer */
 int demo_weak(demo *d);      /* index 2 to 4: weak convergence */
-int demo_baseline(demo *d);  /* index 2 to 4: IDA from consistent and inconsistent values */
+int demo_baseline(demo *d);  /* index 1 to 4: IDA in its best setting */
 
 #endif

@@ -1,4 +1,4 @@
-/* layers.c: layers and IDA on N x' + x = f, index 2 to 4.
+/* layers.c: layers of N x' + x = f, index 2 to 4.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "demo.h"
 #include "members.h"
@@ -49,32 +49,4 @@ int demo_layers(demo *d)
   for (size_t i = 0; i < LAYERS; i++)
     for (size_t k = 2; k <= 4 && code == EXIT_OK; k++) code = one_layer(d, i, k, &errors);
   return code ? code : errors_plot(d->call, &errors, demo_picture(d, "layer.svg"));
-}
-
-static int one_baseline(demo *d, size_t k, const char *kind)
-{
-  struct layer l = block(k, kind, 64, 1.0 / 64);
-  double error;
-  if (layer_measure(d->call->ctx, &l, "be", NULL)) {
-    layer_free(&l);
-    return fail(d->call);
-  }
-  progress(d->call, "ida on %s", l.problem);
-  const outcome o = layer_against(d->call->ctx, &l, "ida", 1e-6, &error);
-  steif_report_row(d->report, "ida");
-  steif_report_text(d->report, "ida.problem", l.problem);
-  report_maybe(d->report, "ida.", "error", o.code == STEIF_OK, error);
-  report_maybe(d->report, "ida.", "error_of_be_at_end", true, l.error[l.steps]);
-  report_status(d->report, "ida.", &o);
-  layer_free(&l);
-  return EXIT_OK;
-}
-
-int demo_baseline(demo *d)
-{
-  static const char *const kind[] = {"N-cons", "N-inc"};
-  int code = EXIT_OK;
-  for (int i = 0; i < 2; i++)
-    for (size_t k = 2; k <= 4 && code == EXIT_OK; k++) code = one_baseline(d, k, kind[i]);
-  return code;
 }

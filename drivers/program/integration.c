@@ -89,14 +89,16 @@ static void describe(steif_context *ctx, outcome *o)
              o->code == STEIF_OK ? "ok" : steif_message(ctx));
 }
 
-outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
-                  const steif_options *options, steif_solver **solver)
+outcome integrate_from(steif_context *ctx, const steif_problem *problem, const char *method,
+                       const steif_options *options, steif_solver **solver,
+                       void (*begun)(steif_solver *s, void *user), void *user)
 {
   outcome o = {.t = problem->t0};
   const double t1 = options->t1 > 0 ? options->t1 : problem->t1;
   steif_forget(ctx);
-  steif_solver *s = steif_solver_new(ctx, problem, method, options);
+  steif_solver *s = *solver = steif_solver_new(ctx, problem, method, options);
   if (s && options->observe) options->observe(s, o.t, steif_solution(s), options->observer);
+  if (s && begun) begun(s, user);
   o.code = s ? solve(s, t1) : steif_status(ctx);
   if (s) {
     o.t = steif_time(s);
@@ -107,6 +109,15 @@ outcome integrate(steif_context *ctx, const steif_problem *problem, const char *
     o.known =
       steif_problem_digits(ctx, problem, o.t, steif_solution(s),
                            tolerance_ratio(problem, options), &o.scd, &o.mescd) == STEIF_OK;
+  steif_forget(ctx);
+  return o;
+}
+
+outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
+                  const steif_options *options, steif_solver **solver)
+{
+  steif_solver *s = NULL;
+  outcome o = integrate_from(ctx, problem, method, options, &s, NULL, NULL);
   if (s && o.code < 0) explain(ctx, problem, method, options, &o);
   if (solver)
     *solver = s;

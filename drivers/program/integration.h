@@ -38,6 +38,11 @@ steif_options options_of(const struct call *call);
  * The context's message is forgotten. SIGINT ends the run after a step. */
 outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
                   const steif_options *options, steif_solver **solver);
+/* The same; begun is told of the solver at the start, as the method has made it, and a run that fails is not
+ * explained. */
+outcome integrate_from(steif_context *ctx, const steif_problem *problem, const char *method,
+                       const steif_options *options, steif_solver **solver,
+                       void (*begun)(steif_solver *s, void *user), void *user);
 /* Was a run stopped by SIGINT? */
 bool interrupted(void);
 

@@ -30,7 +30,8 @@ const char *const *impulse_columns(const struct descriptor *l);
  * x(0-) where they are too large to be shown. */
 int report_projectors(struct call *call, const struct descriptor *l, const steif_structure *s,
                       steif_report *r);
-/* Under "vs.": how far `method` comes from the same x(0-). */
+/* Under "vs.": how far `method` comes from the same x(0-), with the best of its settings; all of them in the
+ * sheet "settings". */
 void report_beside(const struct call *call, const struct descriptor *l, const char *method,
                    steif_report *r);
 /* Of systems with an output y = C x + D u: y(0+) and its impulses; y at t where x is known. */

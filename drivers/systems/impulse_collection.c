@@ -2,6 +2,7 @@
  * beside what an integrator of SUNDIALS makes of them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "impulse.h"
+#include "settings.h"
 #include <math.h>
 #include <string.h>
 
@@ -57,6 +58,8 @@ static int start(struct call *call, const steif_problem *p, steif_report *r)
 static int row(struct call *call, const char *spec, double t1, const char *method,
                steif_report *r)
 {
+  static settings s;
+  known_solution known;
   steif_problem p;
   steif_options o = steif_defaults();
   o.t1 = t1;
@@ -67,10 +70,16 @@ static int row(struct call *call, const char *spec, double t1, const char *metho
   steif_report_row(r, "rows");
   steif_report_text(r, "rows.system", spec);
   const int code = start(call, &p, r);
-  const outcome got = integrate(call->ctx, &p, method, &o, NULL);
-  steif_report_text(r, "rows.vs", got.code ? "stops" : "solves");
-  steif_report_real(r, "rows.t", got.t);
-  steif_report_text(r, "rows.message", got.message);
+  known_open(call, &p, &o, &known);
+  settings_run(call, &p, method, &o, &known, &s);
+  known_close(&known);
+  const outcome *got = &s.run[s.best].out;
+  steif_report_text(r, "rows.vs", s.run[s.best].verdict);
+  report_best(r, "rows", &s);
+  steif_report_whole(r, "rows.steps", got->stats.steps);
+  steif_report_real(r, "rows.asked", -log10(o.rtol));
+  steif_report_real(r, "rows.t", got->t);
+  steif_report_text(r, "rows.message", got->message);
   steif_problem_clear(call->ctx, &p);
   return code;
 }

@@ -1,0 +1,15 @@
+/* sundials_build.h: was the SUNDIALS that is linked compiled with optimisation?
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SUNDIALS_BUILD_H
+#define SUNDIALS_BUILD_H
+
+#include <steif/base.h>
+
+/* Time of its N_VLinearSum of 1000 numbers over that of a plain loop compiled like steif: 1 for a library
+ * compiled with optimisation, above SUNDIALS_SLOW without. NaN when memory is short. */
+#define SUNDIALS_SLOW 2.5
+double sundials_ratio(steif_context *ctx);
+/* "SUNDIALS 6.4.1 compiled without optimisation: its vector sums take 8 times as long as a plain loop". */
+double sundials_describe(steif_context *ctx, char *text, size_t room);
+
+#endif
