@@ -16,6 +16,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_text(r, "problem", word_of(call, "--problem"));
   if (a->method.order) steif_report_whole(r, "claimed", a->method.order);
   report_steps(r, &a->made);
+  steif_report_text(r, "start", word_of(call, "--start"));
   for (size_t i = 0; i < a->count; i++) {
     steif_report_row(r, "rows");
     steif_report_real(r, "rows.h", a->row[i].h);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "comparison.h"
 #include "settings.h"
+#include <math.h>
 
 /* Step sizes for methods without an error estimate and when nothing else is given; else tolerances. */
 static size_t asked(struct call *call, const char *method, double *value, bool *steps)
@@ -23,6 +24,20 @@ static outcome best(struct call *call, comparison *c, const char *method,
   return s->run[s->best].out;
 }
 
+/* Processor seconds of short runs: the least of five, the first of which finds cold caches. */
+static void repeat(struct call *call, comparison *c, const char *spec, const steif_options *o,
+                   outcome *out)
+{
+  const double enough = 0.02;
+  for (int k = 1; k < 5 && out->code == STEIF_OK && out->stats.cpu_s < enough; k++) {
+    steif_solver *s = NULL;
+    const outcome again = integrate_from(call->ctx, &c->problem, spec, o, &s, NULL, NULL);
+    steif_solver_free(&s);
+    if (again.code || again.stats.steps != out->stats.steps) return;
+    out->stats.cpu_s = fmin(out->stats.cpu_s, again.stats.cpu_s);
+  }
+}
+
 void compare_method(struct call *call, comparison *c, const char *method)
 {
   static settings s;
@@ -37,11 +52,13 @@ void compare_method(struct call *call, comparison *c, const char *method)
     o.h = steps ? value[i] : 0;
     if (!steps) o.rtol = value[i];
     progress(call, "%s, %s %.3g", method, what, value[i]);
-    const outcome out = many ? best(call, c, method, &o, &s)
-                             : integrate(call->ctx, &c->problem, method, &o, NULL);
+    outcome out = many ? best(call, c, method, &o, &s)
+                       : integrate(call->ctx, &c->problem, method, &o, NULL);
     if (out.why[0]) say(call, "%s, %s %.3g: %s", method, what, value[i], out.why);
+    const char *const spec = many ? s.run[s.best].spec : method;
+    repeat(call, c, spec, &o, &out);
     report_run(c->report, method, &c->problem, &o, &out);
-    steif_report_text(c->report, "rows.settings", many ? s.run[s.best].spec : method);
+    steif_report_text(c->report, "rows.settings", spec);
     if (many) report_settings(c->report, "settings", NULL, &s);
     work_add(&c->work, &out);
     c->good += out.code == STEIF_OK || out.code == STEIF_EVENT;

@@ -180,7 +180,8 @@ int steif_bench_cost_accounting(steif_context *ctx, size_t i, steif_bench_row *r
   const char *name;
   sunrealtype rtol;
   STEIF_TRY(find(ctx, i, &b.problem, &name, &rtol));
-  *row = (steif_bench_row){.limit = 1, .n = b.problem.n};
+  *row = (steif_bench_row){.limit = 1, .n = b.problem.n, .rtol = rtol};
+  row->atol = rtol * (b.problem.rtol_scale > 0 ? b.problem.rtol_scale : 1);
   snprintf(row->kind, sizeof row->kind, "rtol %.0e", rtol);
   snprintf(row->problem, sizeof row->problem, "%s", name);
   const int code = measure(ctx, &b, rtol, row);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "benchmarks.h"
 #include "kernels.h"
+#include "sundials_build.h"
 
 static void add(steif_report *r, const steif_bench_row *row)
 {
@@ -10,6 +11,9 @@ static void add(steif_report *r, const steif_bench_row *row)
   steif_report_text(r, "rows.problem", row->problem);
   steif_report_whole(r, "rows.n", (long)row->n);
   steif_report_text(r, "rows.method", row->method);
+  report_maybe(r, "rows.", "h", row->h > 0, row->h);
+  report_maybe(r, "rows.", "rtol", row->rtol > 0, row->rtol);
+  report_maybe(r, "rows.", "atol", row->rtol > 0, row->atol);
   steif_report_real(r, "rows.step_us", 1e6 * row->step_s);
   steif_report_real(r, "rows.floor_us", 1e6 * row->floor_s);
   steif_report_real(r, "rows.ratio", row->ratio);
@@ -29,7 +33,11 @@ static int against_kernels(struct call *call, const char *name,
 {
   steif_report *r = steif_report_new(call->ctx);
   steif_bench_row row;
+  char build[160];
+  const double sums = sundials_describe(call->ctx, build, sizeof build);
   steif_report_text(r, "benchmark", name);
+  steif_report_text(r, "sundials", build);
+  steif_report_real(r, "sundials_vectors", sums);
   for (size_t i = 0; r && !measure(call->ctx, i, &row); i++) {
     progress(call, "%s %s %s", row.kind, row.problem, row.method);
     add(r, &row);

@@ -22,6 +22,9 @@
  *   "threads"  step_s: a step with new factors by two threads, in wall-clock time; floor_s: the same by
  *              one, with the same numbers bit for bit (else STEIF_NOT_CERTIFIED); limit 1/1.3; s = 3
  *              has one complex system, which takes nearly all the time
+ *   "price"    step_s: a whole run of a baseline through steif, from its creation to its destruction;
+ *              floor_s: the same by a direct program (direct.h) with the same steps (else
+ *              STEIF_NOT_CERTIFIED); ratio: median over runs in turns; limit 1.05
  *   "lyapunov" (steif_bench_lyapunov) step_s: a step with all n Lyapunov exponents, 10 where n is
  *              10000; floor_s: the step alone, J and its product with as many columns for every
  *              stage, the systems of the stages (one of order s n for s collocation stages), Q R by
@@ -30,6 +33,7 @@
 typedef struct steif_bench_row {
   char kind[16], problem[STEIF_SPEC_WORD], method[STEIF_SPEC_WORD];
   sunindextype n;
+  sunrealtype h, rtol, atol; /* what was asked for; 0: not of this row */
   sunrealtype step_s, floor_s, ratio, limit;
 } steif_bench_row;
 
@@ -41,6 +45,9 @@ int steif_bench_lyapunov(steif_context *ctx, size_t i, steif_bench_row *row);
  * its end; step_s: the rest of the step, limit 1. */
 int steif_bench_cost_accounting(steif_context *ctx, size_t i, steif_bench_row *row);
 
+/* n, atol, step_s, floor_s, ratio of a row "price", at its rtol. */
+int stf_bench_price(steif_context *ctx, const char *problem, const char *method,
+                    steif_bench_row *row);
 /* n, step_s, floor_s: a step by two threads and by one; STEIF_NOT_CERTIFIED where they disagree. */
 int stf_bench_threads(steif_context *ctx, const char *problem, const char *method,
                       sunrealtype h, steif_bench_row *row);

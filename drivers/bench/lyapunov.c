@@ -226,7 +226,7 @@ int steif_bench_lyapunov(steif_context *ctx, size_t i, steif_bench_row *row)
 {
   if (i >= sizeof plan / sizeof *plan) return STEIF_BAD_INPUT;
   subject s = {.ctx = ctx, .method = plan[i].method, .h = plan[i].h, .m = plan[i].count};
-  *row = (steif_bench_row){.kind = "lyapunov", .limit = 1.3};
+  *row = (steif_bench_row){.kind = "lyapunov", .limit = 1.3, .h = plan[i].h};
   snprintf(row->problem, sizeof row->problem, "%s", plan[i].problem);
   snprintf(row->method, sizeof row->method, "%s", plan[i].method);
   sunrealtype alone = 0;

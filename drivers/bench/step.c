@@ -7,12 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 
-enum kind { SPARSE, STAGES, SMALL, SPLITTING, THREADS };
+enum kind { SPARSE, STAGES, SMALL, SPLITTING, THREADS, PRICE };
 
 static const struct {
   enum kind kind;
   const char *problem, *method;
-  sunrealtype h;
+  sunrealtype h; /* PRICE: rtol */
 } plan[] = {
   {SPARSE, "heat:n=4000,storage=sparse", "be", 1e-6},
   {SPARSE, "heat2d:n=64", "be", 1e-4},
@@ -34,6 +34,12 @@ static const struct {
   {SPLITTING, "fpu:n=500000", "verlet", 1e-2},
   {THREADS, "bruss2d:n=64", "radau:s=3", 1e-2},
   {THREADS, "bruss2d:n=64", "radau:s=5", 1e-2},
+  {PRICE, "vdpol", "cvode", 1e-6},
+  {PRICE, "vdpol", "ida", 1e-6},
+  {PRICE, "hires", "cvode", 1e-6},
+  {PRICE, "hires", "ida", 1e-6},
+  {PRICE, "bruss2d:n=16", "cvode", 1e-6},
+  {PRICE, "bruss2d:n=16", "ida", 1e-6},
 };
 
 typedef struct subject {
@@ -216,14 +222,17 @@ static int bookkeeping(subject *s, const char *problem, steif_bench_row *row)
 
 int steif_bench_step(steif_context *ctx, size_t i, steif_bench_row *row)
 {
-  static const char *const names[] = {"sparse", "stages", "small", "splitting", "threads"};
+  static const char *const names[] = {"sparse",    "stages",  "small",
+                                      "splitting", "threads", "price"};
   if (i >= sizeof plan / sizeof *plan) return STEIF_BAD_INPUT;
   subject s;
-  static const sunrealtype limits[] = {1.3, 1.3, 1, 1.2, 1 / 1.3};
+  static const sunrealtype limits[] = {1.3, 1.3, 1, 1.2, 1 / 1.3, 1.05};
   *row = (steif_bench_row){.limit = limits[plan[i].kind]};
+  *(plan[i].kind == PRICE ? &row->rtol : &row->h) = plan[i].h;
   snprintf(row->kind, sizeof row->kind, "%s", names[plan[i].kind]);
   snprintf(row->problem, sizeof row->problem, "%s", plan[i].problem);
   snprintf(row->method, sizeof row->method, "%s", plan[i].method);
+  if (plan[i].kind == PRICE) return stf_bench_price(ctx, plan[i].problem, plan[i].method, row);
   if (plan[i].kind == THREADS) {
     const int code = stf_bench_threads(ctx, plan[i].problem, plan[i].method, plan[i].h, row);
     row->ratio = row->step_s / row->floor_s;

@@ -158,7 +158,73 @@ static void memory_may_end_anywhere(void)
     }
 }
 
+static int look(steif_solver *s, sunrealtype t, N_Vector y, void *user)
+{
+  (void)s, (void)t, (void)y;
+  ++*(long *)user;
+  return 0;
+}
+
+/* Where nobody looks at steps, the package makes many in one call: they are the same steps, between
+ * outputs, through a break and under limits. Two problems: one with a break, at t = 1.1. */
+static void steps_are_the_same_whoever_looks(void)
+{
+  static const char *const names[] = {"vdpol", "bruss2d:n=4"};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int k = 0; k < 6; k++) {
+    steif_problem p;
+    volatile int stop = 0;
+    long seen = 0, steps[3] = {0};
+    sunrealtype end[3][2];
+    CU_ASSERT_FATAL(!steif_problem_find(ctx, names[k % 2], &p));
+    for (int way = 0; way < 3; way++) { /* alone, alone with limits, observed */
+      steif_options o = steif_defaults();
+      o.rtol = 1e-5;
+      if (way == 1) o.stop = &stop, o.max_seconds = 1000;
+      if (way == 2) o.observe = look, o.observer = &seen;
+      steif_solver *s = steif_solver_new(ctx, &p, all[k / 2], &o);
+      for (int part = 1; part <= 2; part++) {
+        CHECK(s && steif_solve_to(s, part < 2 ? 0.37 * p.t1 : p.t1) == STEIF_OK);
+        end[way][part - 1] = NV_Ith_S(steif_solution(s), 0);
+      }
+      CHECK(steif_time(s) == p.t1);
+      steps[way] = steif_statistics(s)->steps;
+      steif_solver_free(&s);
+    }
+    CHECK(seen == steps[2] && steps[0] == seen && steps[1] == seen);
+    CHECK(!memcmp(end[0], end[2], sizeof *end) && !memcmp(end[1], end[2], sizeof *end));
+    steif_problem_clear(ctx, &p);
+  }
+  steif_context_free(&ctx);
+}
+
+/* Limits hold inside of long calls, too. */
+static void limits_hold(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  for (int e = 0; e < 3; e++) {
+    steif_options o = steif_defaults();
+    volatile int stop = 0;
+    o.max_steps = 40;
+    steif_solver *s = steif_solver_new(ctx, &problem, all[e], &o);
+    CHECK(s && steif_solve_to(s, 21) == STEIF_STEP_LIMIT);
+    CHECK(steif_statistics(s)->steps == 40 && steif_time(s) > 0 && steif_time(s) < 21);
+    steif_solver_free(&s);
+    o.max_steps = 100000, o.stop = &stop;
+    s = steif_solver_new(ctx, &problem, all[e], &o);
+    CHECK(s && steif_solve_to(s, 1) == STEIF_OK);
+    stop = 1;
+    CHECK(steif_solve_to(s, 21) == STEIF_STOPPED);
+    stop = 0;
+    CHECK(steif_solve_to(s, 21) == STEIF_OK);
+    steif_solver_free(&s);
+  }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_public[] = {
+  {"steps are the same whoever looks", steps_are_the_same_whoever_looks},
+  {"limits hold in long calls", limits_hold},
   {"all agree with radau", all_agree_with_radau},
   {"output between the steps", output_between_the_steps},
   {"failures reach the context", failures_reach_the_context},

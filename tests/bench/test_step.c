@@ -18,5 +18,23 @@ static void costs_are_accounted_for(void)
   steif_context_free(&ctx);
 }
 
+/* The same steps through steif as in a direct program, at nearly the same price: the bound of 1.05 is for a
+ * quiet machine. */
+static void a_baseline_costs_what_a_direct_program_costs(void)
+{
+  static const char *const problem[] = {"vdpol", "hires", "bruss2d:n=8"};
+  static const char *const method[] = {"cvode", "ida"};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 2; k++) {
+      steif_bench_row row = {.rtol = 1e-5};
+      CHECK(stf_bench_price(ctx, problem[i], method[k], &row) == STEIF_OK);
+      CHECK(row.floor_s > 0 && row.ratio > 0.5 && row.ratio < 1.25);
+    }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_step[] = {
-  {"whole runs of auto less their kernels", costs_are_accounted_for}, CU_TEST_INFO_NULL};
+  {"a baseline against a direct program", a_baseline_costs_what_a_direct_program_costs},
+  {"whole runs of auto less their kernels", costs_are_accounted_for},
+  CU_TEST_INFO_NULL};

@@ -50,7 +50,8 @@ typedef struct stf_baseline {
   bool restart;        /* a break was reached: the next step begins anew */
   steif_stats past;    /* counted before the last restart */
   sunrealtype before;  /* time before the step */
-  int stalls;          /* steps in a row that time did not feel */
+  long made;           /* steps made then */
+  long stalls;         /* steps in a row that time did not feel */
   char said[STF_SAID]; /* last message of the package */
   char detail[120];    /* what the engine adds to the sentence */
 } stf_baseline;

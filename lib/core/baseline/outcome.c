@@ -30,7 +30,7 @@ int stf_baseline_ready(stf_baseline *base, stf_run *run, sunrealtype *t_stop)
               "%s made %ld steps and is at t = %.12g on the way to %.12g; raise max_steps or "
               "loosen the tolerances",
               base->package, run->stats.steps, run->t, *t_stop);
-  base->before = run->t;
+  base->before = run->t, base->made = run->stats.steps;
   stf_baseline_enter(base, run);
   stop_at_break(base, t_stop);
   return STEIF_OK;
@@ -109,8 +109,9 @@ static int check_progress(stf_baseline *base)
 {
   enum { PATIENCE = 1000 };
   const stf_run *run = base->run;
-  const bool moved = run->t - base->before > 4 * STF_EPS * fabs(run->t);
-  base->stalls = moved || !run->stats.steps ? 0 : base->stalls + 1;
+  const long steps = run->stats.steps > base->made ? run->stats.steps - base->made : 1;
+  const bool moved = run->t - base->before > 4 * STF_EPS * (sunrealtype)steps * fabs(run->t);
+  base->stalls = moved || !run->stats.steps ? 0 : base->stalls + steps;
   if (base->stalls < PATIENCE) return STEIF_OK;
   static const stf_flag stalled = {0, STEIF_STEP_SIZE, "", "", ""};
   char fault[120];

@@ -33,6 +33,9 @@ typedef struct steif_engine {
   int (*open)(stf_run *run, void *state, const steif_spec *spec);
   /* One internal step, not beyond t_stop; sets run->t and run->y. */
   int (*step)(stf_run *run, void *state, sunrealtype t_stop);
+  /* Up to `steps` internal steps in one call of the package, until one ends at t or later, none beyond
+   * t_stop >= t; run->t and run->y are those of the last step. NULL: by `step`, one after another. */
+  int (*advance)(stf_run *run, void *state, sunrealtype t, sunrealtype t_stop, long steps);
   /* The solution at a time inside the last step. */
   int (*dense)(stf_run *run, void *state, sunrealtype t, N_Vector y);
   /* The next step begins anew from (run->t, run->y); run->yp holds slopes, or 0 where unknown. */

@@ -32,6 +32,8 @@ struct steif_solver {
   sunrealtype end;      /* the solution is known up to here */
   stf_detector *events; /* of events; NULL: none */
   bool observed;        /* stf_observed */
+  bool watched;         /* every step is shown to someone */
+  long stretch;         /* steps that an engine makes between two looks at the limits */
   bool finished;        /* by an event */
   bool observer_stopped,
     observer_failed;          /* the observer wishes to stop, and has failed itself */

@@ -235,6 +235,8 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(stf_drift_open(s));
   STEIF_TRY(stf_event_open(s));
   s->observed = stf_observed(s);
+  s->watched = s->events || s->options.observe;
+  s->stretch = 16;
   return STEIF_OK;
 }
 

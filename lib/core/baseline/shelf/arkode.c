@@ -265,6 +265,33 @@ static int step(stf_run *run, void *state, sunrealtype t_stop)
   return verdict(s, flag);
 }
 
+/* The end of the last good step, which may lie beyond the time that was asked for. */
+static int last_step(arkode *s, int flag)
+{
+  stf_run *run = s->base.run;
+  sunrealtype tn = run->t;
+  ARK(GetCurrentTime)(s->memory, &tn);
+  if (flag == ARK_TOO_MUCH_WORK) flag = 0;
+  if (flag >= 0 && tn <= run->t) return flag;
+  if (ARK(GetDky)(s->memory, tn, 0, run->y) >= 0) run->t = tn;
+  return flag;
+}
+
+static int advance(stf_run *run, void *state, sunrealtype t, sunrealtype t_stop, long steps)
+{
+  arkode *s = state;
+  const long left = run->options->max_steps - run->stats.steps;
+  if (s->base.restart || !run->stats.steps || run->options->h > 0)
+    return step(run, state, t_stop); /* the first step is scaled by all of the interval */
+  STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
+  int flag = ARK(SetStopTime)(s->memory, t_stop);
+  STF_CALL(flag, ARK(SetMaxNumSteps)(s->memory, steps < left ? steps : left));
+  STF_CALL(flag, ARK(Evolve)(s->memory, fmin(t, t_stop), run->y, &run->t, ARK_NORMAL));
+  flag = last_step(s, flag);
+  collect(s);
+  return verdict(s, flag);
+}
+
 static int dense(stf_run *run, void *state, sunrealtype t, N_Vector y)
 {
   arkode *s = state;
@@ -289,6 +316,7 @@ const steif_engine steif_engine_arkode = {
   .size = sizeof(arkode),
   .open = open,
   .step = step,
+  .advance = advance,
   .dense = dense,
   .renew = stf_baseline_renewed,
   .close = close,

@@ -240,6 +240,34 @@ static int step(stf_run *run, void *state, sunrealtype t_stop)
   return verdict(s, flag);
 }
 
+/* The end of the last good step, which may lie beyond the time that was asked for. */
+static int last_step(ida *s, int flag)
+{
+  stf_run *run = s->base.run;
+  sunrealtype tn = run->t;
+  IDAGetCurrentTime(s->memory, &tn);
+  if (flag == IDA_TOO_MUCH_WORK) flag = 0;
+  if (flag >= 0 && tn <= run->t) return flag;
+  if (IDAGetDky(s->memory, tn, 0, run->y) >= 0 && IDAGetDky(s->memory, tn, 1, run->yp) >= 0)
+    run->t = tn;
+  return flag;
+}
+
+static int advance(stf_run *run, void *state, sunrealtype t, sunrealtype t_stop, long steps)
+{
+  ida *s = state;
+  const long left = run->options->max_steps - run->stats.steps;
+  if (s->base.restart || !run->stats.steps || run->options->h > 0)
+    return step(run, state, t_stop); /* the first step is scaled by all of the interval */
+  STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
+  int flag = IDASetStopTime(s->memory, t_stop);
+  STF_CALL(flag, IDASetMaxNumSteps(s->memory, steps < left ? steps : left));
+  STF_CALL(flag, IDASolve(s->memory, fmin(t, t_stop), &run->t, run->y, run->yp, IDA_NORMAL));
+  flag = last_step(s, flag);
+  collect(s);
+  return verdict(s, flag);
+}
+
 static int dense(stf_run *run, void *state, sunrealtype t, N_Vector y)
 {
   ida *s = state;
@@ -267,6 +295,7 @@ const steif_engine steif_engine_ida = {
   .size = sizeof(ida),
   .open = open,
   .step = step,
+  .advance = advance,
   .dense = dense,
   .renew = stf_baseline_renewed,
   .close = close,
