@@ -26,6 +26,7 @@
  *                   the convergence test; lmm=adams with order=1..12: fixed-point iteration, no matrix
  *   arkode:order=2..5,newton=C             DIRK; table=NAME instead of the order: a table of steif
  *   ida:suppress=0|1,id=E|index|ones,ic=0|1|2,order=1..5,newton=C
+ * Of sparse problems without entries they take the pattern, with steif's own differences.
  * suppress=1 leaves components with id_j = 0 out of IDA's error test (IDASetSuppressAlg). id_j = 1 where
  * column j of E = dF/dy' is not 0 (E, the default), where the perturbation index of component j is 1
  * (index: problem.index, else steif_diagnose), or everywhere (ones). ic=1, 2: IDACalcIC with YA_YDP_INIT, Y_INIT

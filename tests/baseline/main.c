@@ -3,7 +3,8 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_engines[], tests_of_forms[], tests_of_index[], tests_of_failures[],
-  tests_of_tables[], tests_of_public[], tests_of_linear[], tests_of_settings[];
+  tests_of_tables[], tests_of_public[], tests_of_linear[], tests_of_settings[],
+  tests_of_coloured[];
 
 SUITE_MAIN({.pName = "engines", .pTests = tests_of_engines},
            {.pName = "forms", .pTests = tests_of_forms},
@@ -12,4 +13,5 @@ SUITE_MAIN({.pName = "engines", .pTests = tests_of_engines},
            {.pName = "tables", .pTests = tests_of_tables},
            {.pName = "public", .pTests = tests_of_public},
            {.pName = "linear", .pTests = tests_of_linear},
-           {.pName = "settings", .pTests = tests_of_settings})
+           {.pName = "settings", .pTests = tests_of_settings},
+           {.pName = "coloured", .pTests = tests_of_coloured})

@@ -109,6 +109,7 @@ int stf_baseline_open(stf_baseline *base, stf_run *run, const char *package,
               "%s with matrices needs vectors with a host array; use storage = STEIF_KRYLOV",
               package);
   STEIF_TRY(constraints(base));
+  STEIF_TRY(stf_coloured_open(base));
   return tolerances(base);
 }
 
@@ -166,8 +167,8 @@ int stf_baseline_linear(stf_baseline *base, bool exact)
   const steif_problem *p = run->problem;
   STEIF_CHECK(
     base->storage != STEIF_SPARSE || exact, run->ctx, STEIF_UNSUPPORTED,
-    "%s needs the entries of a sparse Jacobian: give .jac (or .idajac), or force dense, "
-    "band or Krylov storage",
+    "%s needs the entries of a sparse Jacobian or its pattern: give .jac (or .idajac) or "
+    ".pattern, or force dense or Krylov storage",
     base->package);
   if (base->storage != STEIF_KRYLOV) {
     base->J = stf_matrix_new(run, base->storage, entries_of(p) + p->nnz_E + p->n);
@@ -232,7 +233,7 @@ int stf_baseline_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 bool stf_baseline_has_jac(const stf_baseline *base)
 {
   const steif_problem *p = base->run->problem;
-  return (p->jac || p->A) && p->storage != STEIF_KRYLOV;
+  return (p->jac || p->A || base->coloured) && p->storage != STEIF_KRYLOV;
 }
 
 int stf_baseline_jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user,
@@ -241,6 +242,7 @@ int stf_baseline_jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *
   stf_baseline *base = user;
   const steif_problem *p = base->run->problem;
   SUNMatrix M = base->A ? base->A : J;
+  if (base->coloured) return stf_coloured_fill(base, 'A', t, y, base->run->yp, J);
   if (base->A) SUNMatZero(M);
   const int verdict = p->jac ? p->jac(t, y, fy, M, p->user, tmp1, tmp2, tmp3)
                              : p->A(t, y, base->run->yp, M, p->user);

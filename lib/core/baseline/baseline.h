@@ -30,11 +30,13 @@ typedef struct stf_baseline {
   enum steif_storage storage; /* of the Newton matrix */
   SUNMatrix J;                /* NULL for Krylov */
   SUNLinearSolver solver;
-  steif_pencil *near;   /* incomplete factors; NULL: none */
-  bool preconditioned;  /* by them or by the problem ... */
-  sunrealtype c;        /* ... for this c */
-  SUNMatrix E, A;       /* as the callbacks fill them, in the storage of the problem */
-  stf_merge merge;      /* of sparse E and A */
+  steif_pencil *near;  /* incomplete factors; NULL: none */
+  bool preconditioned; /* by them or by the problem ... */
+  sunrealtype c;       /* ... for this c */
+  SUNMatrix E, A;      /* as the callbacks fill them, in the storage of the problem */
+  stf_merge merge;     /* of sparse E and A */
+  struct stf_system
+    *coloured;          /* differences in a sparse pattern; NULL: callbacks tell entries */
   N_Vector atol;        /* NULL: one number for all components */
   N_Vector work, start; /* start: residual of a failed start (IDA) */
   N_Vector *pair;       /* for slopes at a start */
@@ -86,6 +88,14 @@ int stf_baseline_linear(stf_baseline *base, bool exact);
 /* A in the storage of the problem, for callbacks that cannot fill J itself. */
 int stf_baseline_native(stf_baseline *base);
 SUNLinearSolver stf_baseline_solver(stf_baseline *base, SUNMatrix M);
+
+/* coloured.c. Where the problem is sparse and tells its pattern only: base->coloured; it fills E or A. */
+int stf_coloured_open(stf_baseline *base);
+int stf_coloured_fill(stf_baseline *base, char which, sunrealtype t, N_Vector y, N_Vector yp,
+                      SUNMatrix M);
+/* Evaluations it has made; count them from 0 again. */
+long stf_coloured_count(stf_baseline *base);
+void stf_coloured_forget(stf_baseline *base);
 
 /* Around every stretch of calls to a package: its messages are collected, never printed. */
 void stf_baseline_enter(stf_baseline *base, stf_run *run);

@@ -11,6 +11,8 @@ static int fill(stf_baseline *base, char which, sunrealtype t, N_Vector y, N_Vec
   const steif_problem *p = base->run->problem;
   SUNMatrix M = which == 'E' ? base->E : base->A;
   const char *who = which == 'E' ? "the matrix E" : "the matrix A";
+  if (base->coloured && (which == 'A' || base->run->form == STEIF_IMPLICIT))
+    return stf_coloured_fill(base, which, t, y, yp, M);
   SUNMatZero(M);
   const int verdict = (which == 'E' ? p->E : p->A)(t, y, yp, M, p->user);
   return stf_baseline_watch_matrix(base, who, verdict, t, M);
@@ -42,6 +44,7 @@ bool stf_lower_has_jac(const stf_baseline *base)
 {
   const steif_problem *p = base->run->problem;
   if (p->storage == STEIF_KRYLOV) return false;
+  if (base->coloured) return true;
   if (base->run->form == STEIF_IMPLICIT) return p->idajac || (p->E && p->A);
   return p->jac || p->A;
 }
@@ -82,7 +85,11 @@ int stf_lower_open(stf_baseline *base)
   const steif_problem *p = run->problem;
   const bool matrices = p->storage != STEIF_KRYLOV;
   const bool jac = stf_lower_has_jac(base) && base->storage != STEIF_KRYLOV;
-  if (matrices && p->E) STEIF_TRY(stf_lower_mass(base));
+  if (base->coloured && run->form == STEIF_IMPLICIT) {
+    base->E = stf_matrix_new(run, STEIF_SPARSE, p->pattern->column[p->n]);
+    if (!base->E) return steif_status(run->ctx);
+  }
+  if (matrices && p->E && !base->E) STEIF_TRY(stf_lower_mass(base));
   if ((jac && !p->idajac) || (matrices && run->form == STEIF_DESCRIPTOR))
     STEIF_TRY(stf_baseline_native(base));
   if (jac && p->idajac && base->storage != p->storage) STEIF_TRY(stf_baseline_native(base));

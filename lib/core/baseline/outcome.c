@@ -40,6 +40,7 @@ sunrealtype stf_baseline_renew(stf_baseline *base)
 {
   base->restart = false;
   base->past = base->run->stats;
+  stf_coloured_forget(base);
   return nextafter(base->run->t, INFINITY);
 }
 
@@ -58,7 +59,7 @@ void stf_baseline_count(stf_baseline *base, const steif_stats *now)
   const steif_stats *past = &base->past;
   *sum = (steif_stats){.steps = past->steps + now->steps,
                        .rejected = past->rejected + now->rejected,
-                       .nfe = past->nfe + now->nfe,
+                       .nfe = past->nfe + now->nfe + stf_coloured_count(base),
                        .nje = past->nje + now->nje,
                        .nlu = past->nlu + now->nlu,
                        .nsolve = past->newton + now->newton,
