@@ -50,11 +50,10 @@ static int run(struct call *call)
   if (steif_method_find(call->ctx, method, &a.method) != STEIF_OK) return fail(call);
   if (steif_problem_find(call->ctx, name, &p) != STEIF_OK) return fail(call);
   progress(call, "%s on %s", method, name);
-  int code = EXIT_OK;
-  if (steif_order_measure(call->ctx, &p, method, &o, real_of(call, "--h"), a.count, a.row))
-    code = fail(call);
-  else
-    code = present_rows(call, &p, &a);
+  const int code =
+    steif_order_measure(call->ctx, &p, method, &o, real_of(call, "--h"), a.count, a.row)
+      ? fail(call)
+      : present_rows(call, &p, &a);
   steif_problem_clear(call->ctx, &p);
   return code ? code : draw(call, &a);
 }
