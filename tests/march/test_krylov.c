@@ -82,9 +82,9 @@ static void as_good_as_direct(void)
     CHECK(scd > wanted - 0.3 && scd > 4);
     const steif_stats *d = steif_statistics(direct), *k = steif_statistics(krylov);
     CHECK(d->nli == 0 && k->nli > k->nsolve && k->nli < 8 * k->nsolve);
-    CHECK(k->steps < 1.1 * (double)d->steps);
+    CHECK((double)k->steps < 1.1 * (double)d->steps);
     CHECK(k->nlu > 0 && k->nlu < k->steps / 4);
-    if (m == 0) CHECK(k->nfe < 0.8 * (double)d->nfe);
+    if (m == 0) CHECK((double)k->nfe < 0.8 * (double)d->nfe);
     steif_solver_free(&direct), steif_solver_free(&krylov);
   }
   end();
