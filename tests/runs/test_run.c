@@ -103,13 +103,11 @@ static void orders_from_inconsistent_values(void)
   }
 }
 
-/* Adaptive steps have errors of the size of the tolerance in unknowns of every index, Gauss's methods
- * and those of ten digits included: |x(1)| = 15. Their number grows with the digits as an estimate of
- * order 3 lets it, the lowest of these methods, tolerance^(-1/4), or slower. */
+/* Errors of the size of the tolerance in unknowns of every index, Gauss's methods and those of ten
+ * digits included: |x(1)| = 15. Steps at most as tolerance^(-1/4): order 3 of the lowest estimate. */
 static const char *const chosen[] = {"bdf",       "radau:s=3", "radau:s=5", "gauss:s=3",
                                      "gauss:s=4", "dirk:hw43", "auto"};
 enum { CHOSEN = sizeof chosen / sizeof *chosen };
-
 static void chosen_steps_come_through_the_start(void)
 {
   static const double rtol[] = {1e-4, 1e-7, 1e-10};
@@ -119,7 +117,7 @@ static void chosen_steps_come_through_the_start(void)
       const int steps = ut5_errors(chosen[i], 0, rtol[k], error);
       for (int part = 0; part < PARTS; part++) most = fmax(most, error[part]);
       if (!k) first = steps;
-      const double bound = k ? 1.5 * first * pow(rtol[0] / rtol[k], 0.25) : 200;
+      const double bound = (k ? 1.5 * first : 200) * pow(rtol[0] / rtol[k], 0.25);
       const bool good = steps > 5 && steps < bound && most < 15 * 15 * rtol[k];
       CHECK(good);
       if (!good) printf("\n  %s, %g: %d steps, error %.1e", chosen[i], rtol[k], steps, most);
