@@ -12,11 +12,9 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_text(r, "convention", convention_name(w->query.convention));
   steif_report_real(r, "exact", w->result.exact);
   for (size_t i = 0; i < w->query.rows; i++) {
-    steif_report_row(r, "rows");
-    steif_report_real(r, "rows.h", w->row[i].h);
+    weak_row_begin(r, w->row + i);
     steif_report_real(r, "rows.value", w->row[i].value);
-    steif_report_real(r, "rows.error", w->row[i].error);
-    steif_report_real(r, "rows.order", w->row[i].order);
+    weak_row_end(r, w->row + i);
   }
   steif_report_text(r, "verdict", w->result.verdict);
 }
@@ -30,7 +28,7 @@ static int on_block(struct call *call)
   progress(call, "%s on index %ld", w.query.method, w.k);
   if (weak_measure(call->ctx, &w) != STEIF_OK) return fail(call);
   const int code = present_result(call, fill, &w);
-  return code ? code : weak_plot(call, w.query.rows, w.row);
+  return code ? code : weak_end(call, &w);
 }
 
 static int run(struct call *call)

@@ -20,7 +20,11 @@ struct weak {
 int weak_measure(steif_context *ctx, struct weak *w);
 /* What a call asks for. */
 struct weak weak_asked(const struct call *call);
-int weak_plot(const struct call *call, size_t rows, const steif_weak_row *row);
+/* A row of the report: what comes before its values, and after. */
+void weak_row_begin(steif_report *r, const steif_weak_row *row);
+void weak_row_end(steif_report *r, const steif_weak_row *row);
+/* The picture; EXIT_UNCERTIFIED where the verdict is open. */
+int weak_end(const struct call *call, const struct weak *w);
 /* `steif weak METHOD E.mtx F.mtx` or PROBLEM: one component, or all; an exit code. */
 int weak_system(struct call *call);
 const char *convention_name(enum steif_convention convention);

@@ -1,6 +1,7 @@
 /* weak_query.c: weak convergence from the words of a call to the measure and its picture.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak.h"
+#include <math.h>
 #include <string.h>
 
 static const char *const name[] = {"P", "R", "C", "stage"}; /* enum steif_convention */
@@ -20,12 +21,13 @@ struct weak weak_asked(const struct call *call)
   return w;
 }
 
-/* Stages for Runge-Kutta methods with more than one, the comb for convolution quadrature. */
+/* Stages for Runge-Kutta methods but backward Euler, the comb for convolution quadrature. */
 static enum steif_convention usual(const char *method, const char *start,
                                    const steif_method_info *m)
 {
   if (strstr(method, "start=cq") || (start && !strcmp(start, "cq"))) return STEIF_C;
-  return m->stages > 1 && strcmp(m->family, "bdf") ? STEIF_STAGE : STEIF_R;
+  const bool table = !strcmp(m->family, "irk") || !strcmp(m->family, "dirk");
+  return m->stages > 1 || (table && strncmp(method, "radau:s=1", 9)) ? STEIF_STAGE : STEIF_R;
 }
 
 int weak_measure(steif_context *ctx, struct weak *w)
@@ -43,10 +45,29 @@ int weak_measure(steif_context *ctx, struct weak *w)
   return steif_weak_measure(ctx, &w->query, w->row, &w->result);
 }
 
-int weak_plot(const struct call *call, size_t rows, const steif_weak_row *row)
+void weak_row_begin(steif_report *r, const steif_weak_row *row)
+{
+  steif_report_row(r, "rows");
+  steif_report_real(r, "rows.h", row->h);
+}
+
+/* An order that rounding decides is none. */
+void weak_row_end(steif_report *r, const steif_weak_row *row)
+{
+  steif_report_real(r, "rows.error", row->error);
+  steif_report_real(r, "rows.rounding", row->rounding);
+  steif_report_real(r, "rows.order", row->usable ? row->order : NAN);
+}
+
+int weak_end(const struct call *call, const struct weak *w)
 {
   error_curves errors = {.title = call->word[0], .y_label = "weak error"};
   errors_open(&errors, call->word[0]);
-  for (size_t i = 0; i < rows; i++) errors_add(&errors, row[i].h, row[i].error);
-  return errors_plot(call, &errors, call->plot);
+  for (size_t i = 0; i < w->query.rows; i++) errors_add(&errors, w->row[i].h, w->row[i].error);
+  const int code = errors_plot(call, &errors, call->plot);
+  const bool open =
+    w->query.rows > 1 && w->result.converges < 0; /* one row asks for no verdict */
+  if (code || !open) return code;
+  say(call, "%s [STEIF_NOT_CERTIFIED]", w->result.verdict);
+  return EXIT_UNCERTIFIED;
 }

@@ -26,14 +26,12 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   else
     steif_report_real(r, "exact", w->result.exact);
   for (size_t i = 0; i < q->rows; i++) {
-    steif_report_row(r, "rows");
-    steif_report_real(r, "rows.h", w->row[i].h);
+    weak_row_begin(r, w->row + i);
     if (lists)
       steif_report_list(r, "rows.value", a->n, q->values + i * a->n);
     else
       steif_report_real(r, "rows.value", w->row[i].value);
-    steif_report_real(r, "rows.error", w->row[i].error);
-    steif_report_real(r, "rows.order", w->row[i].order);
+    weak_row_end(r, w->row + i);
   }
   steif_report_text(r, "verdict", w->result.verdict);
   steif_report_text(r, "message", w->result.source);
@@ -44,7 +42,7 @@ static int answer(struct call *call, struct weak *w, size_t n)
   progress(call, "%s on %s", call->word[0], call->word[1]);
   if (weak_measure(call->ctx, w)) return descriptor_fail(call);
   const int code = present_result(call, fill, &(struct answer){w, n});
-  return code ? code : weak_plot(call, w->query.rows, w->row);
+  return code ? code : weak_end(call, w);
 }
 
 static int ask(struct call *call, const struct descriptor *l)

@@ -8,8 +8,11 @@
  * conventions, which differ by O(h):
  *   P      x_i on [ih, (i+1)h), i >= 0            (Campbell's)
  *   R      x_i on ((i-1)h, ih], i >= 1            (the step that produced x_i)
- *   C      h sum_i x_i delta(t - ih)              (comb)
+ *   C      h sum_i x_i delta(t - ih), i >= 1; i >= 0 where the run has solved for x_0, as convolution
+ *          quadrature (start=cq) does            (comb)
  *   stage  h sum_n sum_j b_j X_{n,j} delta(t - t_n - c_j h)   (Runge-Kutta stages)
+ * The program takes stage for Runge-Kutta methods of any number of stages (backward Euler apart), C
+ * for convolution quadrature, R for the others.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_WEAK_H
@@ -32,16 +35,26 @@ STEIF_EXPORT int steif_jordan_exact(steif_context *ctx, int k, steif_forcing for
 
 enum steif_convention { STEIF_P, STEIF_R, STEIF_C, STEIF_STAGE };
 
-/* A sequence from a run with equal or unequal steps, ready for pairing. */
+/* One run. Its rounding level is the difference to the same run in long double (recurrences of their
+ * own, with entries exactly those of the run in double), added to what random changes of f and t by
+ * parts of eps make of that, and to the accuracy of the exact value. Methods that have no such second
+ * run (general linear ones; more than 400 stage values): 16 times the largest difference between runs
+ * on multiples of the data. */
 typedef struct steif_weak_row {
-  sunrealtype h, value, error,
-    order; /* order: log2 of successive errors, NaN in the first row */
+  sunrealtype h, value, error, order; /* log2 of successive errors, NaN in the first row */
+  sunrealtype rounding;               /* level of `error` */
+  int usable; /* rounding <= 0.1 |error|, and h resolves the system, f and g */
 } steif_weak_row;
 
 typedef struct steif_weak_result {
-  sunrealtype exact;    /* <x, g> of the distributional solution */
-  sunrealtype first;    /* closed first-order constant of backward Euler (P, R), else NaN */
-  char verdict[160];    /* "converges weakly, order 1.00", "does not converge weakly: ..." */
+  sunrealtype exact; /* <x, g> of the distributional solution */
+  sunrealtype first; /* closed first-order constant of backward Euler (P, R), else NaN */
+  /* "converges weakly, order 1.00", "does not converge weakly: ...", "undecided: ...". Only usable rows
+   * have a say: at least three in a row, whose last two orders agree within 0.25 and do not move
+   * away from a whole number. "exact for every h" takes three rows with errors below 4 times and
+   * rounding below 1e-9 of the value. A test function with g^(q)(0) = 0 for a q below the index that
+   * matters sees nothing of those impulses and lets nothing converge. */
+  char verdict[256];
   int converges;        /* 1, 0, or -1: undecided */
   sunrealtype accuracy; /* of exact, as far as seen; 0: closed formulas */
   char source[160];     /* how exact was found */
@@ -50,7 +63,16 @@ typedef struct steif_weak_result {
 
 enum { STEIF_ALL = -1 }; /* components */
 
-/* Pair component `component` (0-based) of runs with steps h, h/2, ... on [0, 1]: of a Jordan block,
+/* A test function g on [0, t1], 0 beyond: c_j = g^(j)(t) / j!, j = 0 .. order, from the right; nonzero
+ * where it has none. For weak convergence at index k g takes k derivatives, k - 1 of which are 0
+ * at t1. */
+typedef struct steif_weight {
+  int (*taylor)(long double t, int order, long double *c, void *user);
+  void *user;
+  sunrealtype t1;
+} steif_weight;
+
+/* Pair component `component` (0-based) of runs with steps h, h/2, ... on [0, t1]: of a Jordan block,
  * where everything is known in closed form, of another descriptor problem of the collection, or of
  * a system of one's own. For these the impulses come from the pencil and the smooth part from its
  * closed solution, where there is one, or from radau:s=5 on the slow part and the derivatives of f
@@ -61,14 +83,17 @@ typedef struct steif_weak_query {
   const char *method;  /* "be", "bdf:p=3", "radau:s=2", ... */
   const char *problem; /* "jordan:k=3,case=H-inc", "ut5" */
   enum steif_convention convention;
-  const char *start; /* starting procedure, NULL: the method's */
-  sunrealtype h;     /* first step, 1/h a whole number */
-  size_t rows;
+  const char *start;   /* starting procedure, NULL: the method's */
+  sunrealtype h;       /* first step; the runs make as many as reach t1 */
+  size_t rows;         /* at least 3 for a verdict */
   int component;       /* STEIF_ALL: values and errors are 2-norms over the components */
   sunrealtype *values; /* rows x n and n: of all of them by themselves; NULL: not wanted */
   sunrealtype *exacts;
   const steif_linear *linear; /* instead of problem, */
   const sunrealtype *x0;      /* from x(0-) = x0 */
+  const steif_weight *g;      /* test function; NULL: (1 - t)_+^8 */
+  size_t break_count; /* where f or a derivative of it jumps, ascending, of `linear` only: */
+  const sunrealtype *breaks; /* impulses there are part of the exact distribution */
 } steif_weak_query;
 STEIF_EXPORT int steif_weak_measure(steif_context *ctx, const steif_weak_query *query,
                                     steif_weak_row *row, steif_weak_result *result);

@@ -54,10 +54,11 @@ static void pencils_pair_as_closed_formulas(void)
     double closed[MOST], found[MOST], accuracy, size = 0;
     char how[160];
     open_twins(&w, known[i].spec);
-    CHECK(!stf_subject_pair(&w.named, closed, &accuracy, how, sizeof how) && accuracy < 1e-12);
+    CHECK(!stf_subject_pair(&w.named, closed, &accuracy, how, sizeof how));
+    for (int m = 0; m < w.named.n; m++) size = fmax(size, fabs(closed[m]));
+    CHECK(accuracy < 1e-12 * size);
     CHECK(!stf_subject_pair(&w.plain, found, &accuracy, how, sizeof how));
     CHECK(strstr(how, "radau:s=5") && accuracy < 1e-8);
-    for (int m = 0; m < w.named.n; m++) size = fmax(size, fabs(closed[m]));
     for (int m = 0; m < w.named.n; m++)
       CLOSE_FLOOR(found[m], closed[m], known[i].tolerance, size);
     close_twins(&w);

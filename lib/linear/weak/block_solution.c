@@ -1,5 +1,5 @@
-/* block_solution.c: the distributional solution of N x' + x = f, paired with the test function (1-t)_+^8,
- * and the closed first-order constants of backward Euler. S. L. Campbell, Singular Systems of
+/* block_solution.c: the distributional solution of N x' + x = f, paired with a test function, and
+ * the closed first-order constants of backward Euler. S. L. Campbell, Singular Systems of
  * Differential Equations (1980); signs from the Laplace transform N (s X - x(0-)) + X = F.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -7,17 +7,8 @@
 #include <math.h>
 #include <nvector/nvector_serial.h>
 
-enum { POWER = 8, PANELS = 16 };
-
-sunrealtype steif_test_function(sunrealtype t, int q)
-{
-  if (q < 0) return NAN;
-  if (t >= 1 || q > POWER) return 0;
-  sunrealtype value = q % 2 ? -1 : 1;
-  for (int i = 0; i < q; i++) value *= POWER - i;
-  for (int i = q; i < POWER; i++) value *= 1 - t;
-  return value;
-}
+enum { PANELS = 16, PANELS_MOST = 4096 };
+static const long double agreed = 1e-15L;
 
 static sunrealtype sign(int i) { return i % 2 ? -1 : 1; }
 
@@ -66,7 +57,12 @@ static int claim(stf_block *block)
 int stf_block_open(stf_block *block, steif_context *ctx, int k, steif_forcing forcing,
                    void *user, const sunrealtype *x0)
 {
-  *block = (stf_block){.ctx = ctx, .k = k, .forcing = forcing, .user = user, .x0 = x0};
+  *block = (stf_block){.ctx = ctx,
+                       .k = k,
+                       .forcing = forcing,
+                       .user = user,
+                       .x0 = x0,
+                       .weight = stf_weight_of(ctx, NULL)};
   STEIF_CHECK(k >= 1, ctx, STEIF_BAD_INPUT, "index k = %d of the block must be at least 1", k);
   STEIF_CHECK(x0, ctx, STEIF_BAD_INPUT, "x(0-) is missing: give the %d start values", k);
   const int code = claim(block);
@@ -94,30 +90,61 @@ int steif_jordan_exact(steif_context *ctx, int k, steif_forcing forcing, void *u
   return code;
 }
 
-/* int_0^1 (component m of the series a, less half the weighted series if `half`) g^(j) dt. */
-static int integral(stf_block *block, int m, int series, bool half, int j, long double *value)
+/* The integral below by Gauss's rule on so many panels, and that of its absolute value. */
+static int panels(stf_block *block, int m, int series, bool half, int j, int count,
+                  long double *value, long double *size)
 {
-  *value = 0;
-  for (int panel = 0; block->forcing && panel < PANELS; panel++)
-    for (int i = 0; i < STF_RULE; i++) {
-      const sunrealtype t = (panel + (1 + stf_rule_node[i]) / 2) / PANELS;
-      STEIF_TRY(stf_block_series(block, t, series, false, block->x));
+  const stf_weight *g = &block->weight;
+  long double derivative[STF_DERIVATIVES];
+  *value = *size = 0;
+  for (int panel = 0; panel < count; panel++)
+    for (int i = 0; i < STF_BOX; i++) {
+      const long double t = g->t1 * ((long double)panel + g->node[i]) / count;
+      STEIF_TRY(stf_weight_at(g, t, j, derivative));
+      STEIF_TRY(stf_block_series(block, (sunrealtype)t, series, false, block->x));
       sunrealtype a = block->x[m];
       if (half) {
-        STEIF_TRY(stf_block_series(block, t, series, true, block->x));
+        STEIF_TRY(stf_block_series(block, (sunrealtype)t, series, true, block->x));
         a -= block->x[m] / 2;
       }
-      *value += (long double)stf_rule_weight[i] * a * steif_test_function(t, j) / (2 * PANELS);
+      const long double term = g->weight[i] * a * derivative[j] * g->t1 / count;
+      *value += term;
+      *size += fabsl(term);
     }
   return STEIF_OK;
 }
 
+/* int_0^t1 (component m of the series a, less half the weighted series if `half`) g^(j) dt. */
+static int integral(stf_block *block, int m, int series, bool half, int j, long double *value)
+{
+  long double finer, size;
+  *value = 0;
+  if (!block->forcing) return STEIF_OK;
+  STEIF_TRY(panels(block, m, series, half, j, PANELS, value, &size));
+  for (int count = 2 * PANELS; count <= PANELS_MOST; count *= 2) {
+    STEIF_TRY(panels(block, m, series, half, j, count, &finer, &size));
+    const bool same = fabsl(finer - *value) <= agreed * size;
+    *value = finer;
+    if (same) break;
+  }
+  return STEIF_OK;
+}
+
+/* g^(0) .. g^(order) at 0. */
+static int at_zero(const stf_block *block, int order, long double *g)
+{
+  STEIF_CHECK(order < STF_DERIVATIVES, block->ctx, STEIF_UNSUPPORTED,
+              "a block of index %d takes too many derivatives of the test function", block->k);
+  return stf_weight_at(&block->weight, 0, order, g);
+}
+
 int stf_block_pair(stf_block *block, int m, int j, sunrealtype *value)
 {
-  long double sum;
+  long double sum, g[STF_DERIVATIVES];
+  STEIF_TRY(at_zero(block, block->k > 1 ? block->k - 2 + j : j, g));
   STEIF_TRY(integral(block, m, 0, false, j, &sum));
   for (int i = 0; i + 1 < block->k; i++)
-    sum += (long double)sign(i) * block->c[i * block->k + m] * steif_test_function(0, i + j);
+    sum += (long double)sign(i) * block->c[i * block->k + m] * g[i + j];
   *value = (sunrealtype)sum;
   return STEIF_OK;
 }
@@ -131,18 +158,17 @@ int stf_block_first(stf_block *block, int m, enum steif_convention convention,
                     sunrealtype *value)
 {
   const int k = block->k;
-  long double sum;
+  long double sum, g[STF_DERIVATIVES];
+  STEIF_TRY(at_zero(block, k, g));
   STEIF_TRY(integral(block, m, 1, true, 0, &sum));
   for (int q = 0; q + 1 < k; q++) /* c_q = (-1)^q N^{q+1} d */
-    sum +=
-      (long double)sign(q) * (q + 1) / 2 * block->c[q * k + m] * steif_test_function(0, q + 1);
+    sum += (long double)sign(q) * (q + 1) / 2 * block->c[q * k + m] * g[q + 1];
   STEIF_TRY(stf_block_series(block, 0, 2, true, block->x));
-  for (int q = 0; m + q + 2 < k; q++)
-    sum -= (long double)block->x[m + q + 2] / 2 * steif_test_function(0, q);
+  for (int q = 0; m + q + 2 < k; q++) sum -= (long double)block->x[m + q + 2] / 2 * g[q];
   if (convention == STEIF_P) {
     sunrealtype shifted;
     STEIF_TRY(stf_block_pair(block, m, 1, &shifted));
-    sum += (long double)shifted + block->x0[m] * steif_test_function(0, 0);
+    sum += (long double)shifted + block->x0[m] * g[0];
   }
   *value = (sunrealtype)sum;
   return STEIF_OK;

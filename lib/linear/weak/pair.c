@@ -1,6 +1,5 @@
-/* pair.c: a sequence read as a function (conventions P, R, C) and paired with the test function.
- * Box averages come from Gauss's rule on each step: differencing an antiderivative of g would lose
- * a factor 1/h of accuracy to cancellation.
+/* pair.c: a sequence at unequal times read as a function (conventions P, R, C) and paired with the test
+ * function; box averages as in pairing.c.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak_inside.h"
@@ -41,22 +40,11 @@ static long double weight(enum steif_convention convention, size_t m, const sunr
   return (long double)h * steif_test_function(t[i], 0);
 }
 
-sunrealtype stf_pair_sized(enum steif_convention convention, size_t m, const sunrealtype *t,
-                           const sunrealtype *x, sunrealtype *size)
-{
-  long double sum = 0, all = 0;
-  for (size_t i = 0; i <= m && m > 0; i++) {
-    const long double term = weight(convention, m, t, i) * x[i];
-    sum += term;
-    all += fabsl(term);
-  }
-  *size = (sunrealtype)all;
-  return (sunrealtype)sum;
-}
-
 sunrealtype steif_pair(enum steif_convention convention, size_t m, const sunrealtype *t,
                        const sunrealtype *x)
 {
-  sunrealtype size;
-  return convention == STEIF_STAGE ? NAN : stf_pair_sized(convention, m, t, x, &size);
+  long double sum = 0;
+  if (convention == STEIF_STAGE) return NAN;
+  for (size_t i = 0; i <= m && m > 0; i++) sum += weight(convention, m, t, i) * x[i];
+  return (sunrealtype)sum;
 }

@@ -1,13 +1,15 @@
 /* smooth.c: the smooth part of the solution of E x' + F x = f and its pairing with the test function.
  *
- * Closed solutions are taken as they are. Otherwise radau:s=5 with given steps carries the slow part
+ * Closed solutions are taken as they are. Otherwise radau:s=5 with prescribed steps carries the slow part
  * (order 9) on a system of index 1 where the slow projector is at hand, and what it makes of the
  * fast part is thrown away: with the Laurent coefficients at infinity
  *   x_s(t) = Phi_{-1} E x(t) + sum_j Phi_j f^(j)(t),
  * the jump formula at t. It is linear in (x, f, f', ...), so
  *   int x_s g dt = jump formula at (sum_q w_q g(t_q) x(t_q), sum_q w_q g(t_q) f^(j)(t_q)),
  * one application for any number of nodes. The nodes are Gauss's on panels that shrink towards
- * t = 0, where fast modes die away, and are halved until the sums agree.
+ * the start, where fast modes die away, and are halved until the sums agree. At each break of f the
+ * smooth solution before it takes the place of x(0-): the jump formula gives x on its other side and
+ * its impulses.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "subject.h"
@@ -16,21 +18,23 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { OCTAVES = 40, FIRST = 4, PANELS_MOST = 512, PARTS_MOST = 100000 };
+enum { OCTAVES = 40, FIRST = 4, PANELS_MOST = 512 };
 static const sunrealtype agreed = 1e-12;
 
 /* ---- nodes --------------------------------------------------------------------------------------- */
 
-/* Panels of [0, 1]: `parts` in [0, 2^-octaves] and in each of its doublings. */
+/* Panels of [from, to]: `parts` in its first part 2^-octaves and in each of its doublings. */
 typedef struct panels {
+  sunrealtype from, to;
   int octaves, parts;
   size_t count; /* nodes */
 } panels;
 
-static panels panels_of(const stf_subject *s, int parts)
+static panels panels_of(const stf_subject *s, sunrealtype from, sunrealtype to, int parts)
 {
-  panels p = {2, parts, 0};
-  while (p.octaves < OCTAVES && ldexp(1, -p.octaves) * 4 * s->structure.radius > 1) p.octaves++;
+  panels p = {from, to, 2, parts, 0};
+  const sunrealtype wanted = 4 * s->structure.radius * (to - from);
+  while (p.octaves < OCTAVES && ldexp(1, -p.octaves) * wanted > 1) p.octaves++;
   p.count = (size_t)(p.octaves + 1) * (size_t)parts * STF_RULE;
   return p;
 }
@@ -41,29 +45,9 @@ static sunrealtype node(const panels *p, size_t i, sunrealtype *weight)
   const int panel = (int)(i / STF_RULE), k = (int)(i % STF_RULE), octave = panel / p->parts;
   const sunrealtype from = octave ? ldexp(1, octave - 1 - p->octaves) : 0;
   const sunrealtype width = (octave ? from : ldexp(1, -p->octaves)) / p->parts;
-  *weight = width / 2 * stf_rule_weight[k];
-  return from + width * (panel % p->parts + (1 + stf_rule_node[k]) / 2);
-}
-
-/* ---- a run through given times -------------------------------------------------------- */
-
-static int carry(stf_subject *s, const sunrealtype *x0, size_t count, const sunrealtype *mesh,
-                 int (*take)(steif_solver *solver, sunrealtype t, N_Vector x, void *user),
-                 void *user)
-{
-  steif_problem p;
-  const steif_linear *l = s->reduced.linear.E ? &s->reduced.linear : &s->linear;
-  STEIF_TRY(steif_linear_problem(s->ctx, l, x0, mesh[0], mesh[count - 1], &p));
-  p.dae_index = s->reduced.linear.E ? 1 : s->index;
-  steif_options o = steif_defaults();
-  o.mesh = mesh, o.mesh_size = count;
-  o.observe = take, o.observer = user;
-  o.max_steps = (long)count + 1;
-  steif_solver *solver = steif_solver_new(s->ctx, &p, "radau:s=5", &o);
-  if (!solver) return steif_status(s->ctx);
-  const int code = steif_solve_to(solver, mesh[count - 1]);
-  steif_solver_free(&solver);
-  return code;
+  *weight = width / 2 * stf_rule_weight[k] * (p->to - p->from);
+  return p->from +
+         (p->to - p->from) * (from + width * (panel % p->parts + (1 + stf_rule_node[k]) / 2));
 }
 
 /* ---- sums over the nodes ------------------------------------------------------------------------- */
@@ -71,9 +55,11 @@ static int carry(stf_subject *s, const sunrealtype *x0, size_t count, const sunr
 typedef struct sums {
   stf_subject *subject;
   panels panels;
-  size_t at;          /* nodes taken */
-  N_Vector value;     /* room for f or x */
-  sunrealtype *x, *f; /* n, and index x n: sums of w g x and w g f^(j) */
+  size_t at;                /* nodes taken */
+  const sunrealtype *start; /* x at the beginning of the panels, from the right, ... */
+  sunrealtype *end;         /* ... and at their end, from the left; NULL: not wanted */
+  N_Vector value;           /* room for f or x */
+  sunrealtype *x, *f;       /* n, and index x n: sums of w g x and w g f^(j) */
 } sums;
 
 static void add(const sums *s, sunrealtype factor, sunrealtype *sum)
@@ -87,23 +73,31 @@ static int gather(sums *s)
 {
   sunrealtype w;
   const stf_subject *q = s->subject;
-  const sunrealtype t = node(&s->panels, s->at++, &w), factor = w * steif_test_function(t, 0);
+  const sunrealtype t = node(&s->panels, s->at++, &w);
+  long double g;
+  STEIF_TRY(stf_weight_at(&q->weight, t, 0, &g));
+  const sunrealtype factor = w * (sunrealtype)g;
   add(s, factor, s->x);
   for (int j = 0; !q->problem.exact && q->linear.f && j < q->index; j++) {
     const int code = q->linear.f(t, j, s->value, q->linear.user);
     STEIF_CHECK(
       !code, q->ctx, code < 0 ? STEIF_CALLBACK : STEIF_BAD_INPUT,
-      "derivative %d of the forcing is not known at t = %g; index %d needs it on [0, 1]", j, t,
-      q->index);
+      "derivative %d of the forcing is not known at t = %g; index %d needs it up to t = %g", j,
+      t, q->index, (double)q->weight.t1);
     add(s, factor, s->f + j * q->n);
   }
   return STEIF_OK;
 }
 
+/* Behind the nodes comes the end. */
 static int take_node(steif_solver *solver, sunrealtype t, N_Vector x, void *user)
 {
   sums *s = user;
   (void)solver, (void)t;
+  if (s->at == s->panels.count) {
+    memcpy(s->end, N_VGetArrayPointer(x), (size_t)s->subject->n * sizeof *s->end);
+    return 0;
+  }
   N_VScale(1, x, s->value);
   return gather(s);
 }
@@ -111,13 +105,18 @@ static int take_node(steif_solver *solver, sunrealtype t, N_Vector x, void *user
 static int through_nodes(sums *s)
 {
   sunrealtype w;
-  const size_t count = s->panels.count;
-  sunrealtype *mesh = stf_allocate(s->subject->ctx, count + 1, sizeof *mesh);
+  const panels *p = &s->panels;
+  stf_subject *q = s->subject;
+  sunrealtype *mesh = stf_allocate(q->ctx, p->count + 2, sizeof *mesh);
   if (!mesh) return STEIF_NO_MEMORY;
-  mesh[0] = 0;
-  for (size_t i = 0; i < count; i++) mesh[i + 1] = node(&s->panels, i, &w);
-  const int code = carry(s->subject, s->subject->impulse.x_plus, count + 1, mesh, take_node, s);
-  stf_release(s->subject->ctx, mesh);
+  mesh[0] = p->from;
+  for (size_t i = 0; i < p->count; i++) mesh[i + 1] = node(p, i, &w);
+  mesh[p->count + 1] = p->to;
+  stf_sides_step(&q->sides, p->from, p->to, 0);
+  const int code =
+    stf_subject_carry(q, s->start, p->count + 1 + (s->end != NULL), mesh, take_node, s);
+  stf_sides_step(&q->sides, 0, 0, 0);
+  stf_release(q->ctx, mesh);
   return code;
 }
 
@@ -145,10 +144,12 @@ static int summed(sunrealtype t, int derivative, N_Vector g, void *user)
   return 0;
 }
 
+/* Between two breaks. */
 static int integrate(stf_subject *s, int parts, sums *sum, sunrealtype *value)
 {
   const size_t n = (size_t)s->n;
-  sum->panels = panels_of(s, parts), sum->at = 0;
+  sum->panels = panels_of(s, sum->panels.from, sum->panels.to, parts);
+  sum->at = 0;
   memset(sum->x, 0, n * (1 + (size_t)s->index) * sizeof *sum->x);
   STEIF_TRY(s->problem.exact ? closed_nodes(sum) : through_nodes(sum));
   if (s->problem.exact) return memcpy(value, sum->x, n * sizeof *value), STEIF_OK;
@@ -196,6 +197,57 @@ static int pair_block(stf_subject *s, sunrealtype *value)
   return STEIF_OK;
 }
 
+/* x(t-) of the smooth solution at break b, its fast part found anew, and what happens there. */
+static int jump(stf_subject *s, size_t b, sunrealtype *x)
+{
+  const steif_linear *l = &s->linear;
+  stf_jump *j = s->jump + b;
+  steif_impulse before = {0};
+  j->t = s->sides.breaks[b];
+  stf_sides_step(&s->sides, b ? s->sides.breaks[b - 1] : 0, j->t, 0);
+  int code = steif_impulse_find(s->ctx, l->E, l->F, x, j->t, l->f, l->user, NULL, &s->structure,
+                                &before);
+  stf_sides_step(&s->sides, j->t, 2 * j->t, 0);
+  if (!code)
+    code = steif_impulse_find(s->ctx, l->E, l->F, before.x_plus, j->t, l->f, l->user, NULL,
+                              &s->structure, &j->at);
+  stf_sides_step(&s->sides, 0, 0, 0);
+  if (!code) s->jumps = b + 1;
+  steif_impulse_clear(s->ctx, &before);
+  return code;
+}
+
+/* Breaks inside the interval of the test function. */
+static size_t breaks_of(const stf_subject *s)
+{
+  size_t count = 0;
+  while (count < s->sides.count && s->sides.breaks[count] < s->weight.t1) count++;
+  return count;
+}
+
+/* Segment by segment; part and finer: n values each, end: n more. */
+static int segments(stf_subject *s, sums *sum, sunrealtype *value, sunrealtype *part,
+                    sunrealtype *accuracy)
+{
+  const size_t n = (size_t)s->n, count = breaks_of(s);
+  sunrealtype *finer = part + n, *end = finer + n, error;
+  s->jump = stf_allocate(s->ctx, count + 1, sizeof *s->jump);
+  if (!s->jump) return STEIF_NO_MEMORY;
+  *accuracy = 0;
+  memset(value, 0, n * sizeof *value);
+  for (size_t b = 0; b <= count; b++) {
+    sum->panels.from = b ? s->sides.breaks[b - 1] : 0;
+    sum->panels.to = b < count ? s->sides.breaks[b] : (sunrealtype)s->weight.t1;
+    sum->start = b ? s->jump[b - 1].at.x_plus : s->impulse.x_plus;
+    sum->end = b < count ? end : NULL;
+    STEIF_TRY(refine(s, sum, part, finer, &error));
+    *accuracy += error;
+    for (size_t m = 0; m < n; m++) value[m] += part[m];
+    if (b < count) STEIF_TRY(jump(s, b, end));
+  }
+  return STEIF_OK;
+}
+
 static int pair_smooth(stf_subject *s, sunrealtype *value, sunrealtype *accuracy)
 {
   sums sum = {.subject = s};
@@ -203,16 +255,35 @@ static int pair_smooth(stf_subject *s, sunrealtype *value, sunrealtype *accuracy
   STEIF_CHECK(s->problem.t0 == 0, s->ctx, STEIF_UNSUPPORTED,
               "the test function begins at t = 0, problem '%s' at %g", s->problem.name,
               s->problem.t0);
-  sunrealtype *work = stf_allocate(s->ctx, n * (2 + (size_t)s->index), sizeof *work);
+  sunrealtype *work = stf_allocate(s->ctx, n * (4 + (size_t)s->index), sizeof *work);
   sum.value = N_VNew_Serial(s->n, steif_sundials(s->ctx));
   if (work) sum.x = work, sum.f = work + n;
   int code = work && sum.value ? STEIF_OK
                                : STEIF_FAIL(s->ctx, STEIF_NO_MEMORY,
                                             "no memory to integrate %d unknowns", s->n);
-  if (!code) code = refine(s, &sum, value, work + n * (1 + (size_t)s->index), accuracy);
+  if (!code) code = segments(s, &sum, value, work + n * (1 + (size_t)s->index), accuracy);
   if (sum.value) N_VDestroy(sum.value);
   stf_release(s->ctx, work);
   return code;
+}
+
+/* sum_i (-1)^i c_i g^(i)(t), and what rounding of c_i and the two ways to find x(t+) leave open. */
+static int pair_impulses(stf_subject *s, sunrealtype t, const steif_impulse *i,
+                         sunrealtype *value, sunrealtype *accuracy)
+{
+  long double g[STF_DERIVATIVES];
+  sunrealtype open = 0;
+  STEIF_CHECK(i->count < STF_DERIVATIVES, s->ctx, STEIF_UNSUPPORTED,
+              "index %d takes too many derivatives of the test function", s->index);
+  STEIF_TRY(stf_weight_at(&s->weight, t, i->count, g));
+  for (int q = 0; q < i->count; q++)
+    for (int m = 0; m < s->n; m++) {
+      const sunrealtype term = (q % 2 ? -1 : 1) * i->c[q * s->n + m] * (sunrealtype)g[q];
+      value[m] += term;
+      open = fmax(open, fabs(term));
+    }
+  *accuracy += open * fmax(4 * STF_EPS, isfinite(i->estimate) ? i->estimate : 0);
+  return STEIF_OK;
 }
 
 int stf_subject_pair(stf_subject *s, sunrealtype *value, sunrealtype *accuracy, char *how,
@@ -221,95 +292,18 @@ int stf_subject_pair(stf_subject *s, sunrealtype *value, sunrealtype *accuracy, 
   *accuracy = 0;
   if (s->block.k) {
     snprintf(how, room, "closed formulas");
+    s->block.weight = s->weight;
     return pair_block(s, value);
   }
   STEIF_TRY(pair_smooth(s, value, accuracy));
-  for (int i = 0; i < s->impulse.count; i++)
-    for (int m = 0; m < s->n; m++)
-      value[m] += (i % 2 ? -1 : 1) * s->impulse.c[i * s->n + m] * steif_test_function(0, i);
-  snprintf(how, room, "impulses of the pencil and %s, to %.1e",
+  const sunrealtype smooth = *accuracy;
+  STEIF_TRY(pair_impulses(s, 0, &s->impulse, value, accuracy));
+  for (size_t b = 0; b < s->jumps; b++)
+    STEIF_TRY(pair_impulses(s, s->jump[b].t, &s->jump[b].at, value, accuracy));
+  snprintf(how, room, "impulses of the pencil%s and %s, to %.1e",
+           s->jumps ? ", also at breaks of f," : "",
            s->problem.exact ? "the closed smooth solution by Gauss quadrature"
                             : "the smooth part by radau:s=5 from x(0+) and Gauss quadrature",
-           *accuracy);
-  return STEIF_OK;
-}
-
-/* ---- the smooth part at given times --------------------------------------------------------------- */
-
-typedef struct walk {
-  stf_subject *subject;
-  size_t parts, at;
-  const sunrealtype *t;
-  sunrealtype *x;
-} walk;
-
-/* Of every `parts` steps the last ends at one of the times. */
-static int take_time(steif_solver *solver, sunrealtype t, N_Vector x, void *user)
-{
-  walk *w = user;
-  stf_subject *s = w->subject;
-  (void)solver;
-  if (++w->at % w->parts) return 0;
-  steif_impulse i = {0};
-  const int code = steif_impulse_find(s->ctx, s->linear.E, s->linear.F, N_VGetArrayPointer(x),
-                                      t, s->linear.f, s->linear.user, NULL, &s->structure, &i);
-  if (!code)
-    memcpy(w->x + w->at / w->parts * (size_t)s->n, i.x_plus, (size_t)s->n * sizeof *w->x);
-  steif_impulse_clear(s->ctx, &i);
-  return code;
-}
-
-int stf_subject_follow(stf_subject *s, size_t count, const sunrealtype *t, sunrealtype *x)
-{
-  walk w = {.subject = s, .t = t, .x = x};
-  const sunrealtype wanted =
-    4 * s->structure.radius * (t[count - 1] - t[0]) / (double)(count - 1);
-  w.parts = (size_t)fmin(fmax(ceil(wanted), 8), fmax(1, PARTS_MOST / (double)count));
-  const size_t steps = (count - 1) * w.parts;
-  sunrealtype *mesh = stf_allocate(s->ctx, steps + 1, sizeof *mesh);
-  if (!mesh) return STEIF_NO_MEMORY;
-  for (size_t i = 0; i <= steps; i++) {
-    const size_t k = i / w.parts < count - 1 ? i / w.parts : count - 2;
-    mesh[i] = t[k] + (t[k + 1] - t[k]) * (double)(i - k * w.parts) / (double)w.parts;
-  }
-  const int code = carry(s, x, steps + 1, mesh, take_time, &w);
-  stf_release(s->ctx, mesh);
-  return code;
-}
-
-static int closed_times(stf_subject *s, size_t count, const sunrealtype *t, sunrealtype *x)
-{
-  N_Vector like = N_VMake_Serial(s->n, x, steif_sundials(s->ctx));
-  STEIF_CHECK(like, s->ctx, STEIF_NO_MEMORY, "no memory for a vector");
-  int code = 0;
-  for (size_t i = 1; i < count && !code; i++) {
-    N_VSetArrayPointer(x + i * (size_t)s->n, like);
-    code = s->problem.exact(t[i], like, NULL, s->problem.user);
-  }
-  N_VDestroy(like);
-  STEIF_CHECK(!code, s->ctx, STEIF_CALLBACK, "the closed solution of '%s' failed",
-              s->problem.name);
-  return STEIF_OK;
-}
-
-int stf_subject_smooth(stf_subject *s, size_t count, const sunrealtype *t, sunrealtype *x)
-{
-  for (size_t i = 0; s->block.k && i < count; i++)
-    STEIF_TRY(stf_block_series(&s->block, t[i], 0, false, x + i * (size_t)s->n));
-  if (s->block.k) return STEIF_OK;
-  memcpy(x, s->impulse.x_plus, (size_t)s->n * sizeof *x);
-  if (count < 2) return STEIF_OK;
-  return s->problem.exact ? closed_times(s, count, t, x) : stf_subject_follow(s, count, t, x);
-}
-
-int stf_subject_before(stf_subject *s, sunrealtype t, sunrealtype *x)
-{
-  if (s->block.k) return stf_block_series(&s->block, t, 0, false, x);
-  steif_impulse i = {0};
-  const steif_linear *l = &s->linear;
-  STEIF_TRY(steif_impulse_find(s->ctx, l->E, l->F, s->impulse.x_plus, t, l->f, l->user, NULL,
-                               &s->structure, &i));
-  memcpy(x, i.x_plus, (size_t)s->n * sizeof *x);
-  steif_impulse_clear(s->ctx, &i);
+           smooth);
   return STEIF_OK;
 }

@@ -32,14 +32,17 @@ static int find(stf_subject *s, const char *spec)
   STEIF_TRY(steif_spec_parse(s->ctx, spec, &parsed));
   STEIF_TRY(steif_problem_find(s->ctx, spec, &s->problem));
   s->named = true, s->n = (int)s->problem.n;
-  if (!strcmp(parsed.name, "jordan")) return jordan(s);
-  STEIF_TRY(steif_linear_of(s->ctx, &s->problem, &s->linear));
-  return analyse(s);
+  const bool block = !strcmp(parsed.name, "jordan"),
+             matrices = s->problem.storage == STEIF_DENSE || s->problem.storage == STEIF_SPARSE;
+  if (matrices || !block) STEIF_TRY(steif_linear_of(s->ctx, &s->problem, &s->linear));
+  return block ? jordan(s) : analyse(s);
 }
 
 static int adopt(stf_subject *s, const steif_linear *linear, const sunrealtype *x0)
 {
   s->linear = *linear;
+  s->sides = (stf_sides){.f = linear->f, .user = linear->user};
+  if (linear->f) s->linear.f = stf_sides_force, s->linear.user = &s->sides;
   STEIF_TRY(steif_linear_problem(s->ctx, &s->linear, x0, 0, 1, &s->problem));
   s->n = (int)s->problem.n;
   return analyse(s);
@@ -48,7 +51,7 @@ static int adopt(stf_subject *s, const steif_linear *linear, const sunrealtype *
 int stf_subject_open(steif_context *ctx, const char *spec, const steif_linear *linear,
                      const sunrealtype *x0, stf_subject *s)
 {
-  *s = (stf_subject){.ctx = ctx};
+  *s = (stf_subject){.ctx = ctx, .weight = stf_weight_of(ctx, NULL)};
   const int code = linear ? adopt(s, linear, x0) : find(s, spec);
   if (code) stf_subject_close(s);
   return code;
@@ -58,6 +61,8 @@ void stf_subject_close(stf_subject *s)
 {
   if (!s->ctx) return;
   stf_block_close(&s->block);
+  for (size_t i = 0; i < s->jumps; i++) steif_impulse_clear(s->ctx, &s->jump[i].at);
+  stf_release(s->ctx, s->jump);
   steif_impulse_clear(s->ctx, &s->impulse);
   steif_structure_clear(s->ctx, &s->structure);
   stf_reduced_close(&s->reduced);

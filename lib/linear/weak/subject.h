@@ -8,6 +8,12 @@
 #include "weak_inside.h"
 #include "reduce.h"
 
+/* What happens at a break of f: x(t+) and impulses. */
+typedef struct stf_jump {
+  sunrealtype t;
+  steif_impulse at;
+} stf_jump;
+
 /* A Jordan block (everything by closed formulas), another problem of the collection, or a system of
  * the caller's. */
 typedef struct stf_subject {
@@ -18,7 +24,11 @@ typedef struct stf_subject {
   stf_block block;     /* of a Jordan block, k > 0 */
   steif_linear linear; /* of the others; named: its matrices are new */
   steif_structure structure;
-  steif_impulse impulse;
+  steif_impulse impulse; /* at 0 */
+  stf_weight weight; /* the test function; that of steif_test_function until it is changed */
+  stf_sides sides;   /* linear.f of a caller's system, with the breaks that are set here */
+  stf_jump *jump;    /* at the breaks, as many as are found */
+  size_t jumps;
   stf_reduced reduced; /* with the same smooth solutions, where there is one */
   stf_apart apart;     /* the same system in other coordinates, where there are some */
 } stf_subject;
@@ -42,5 +52,10 @@ int stf_subject_before(stf_subject *subject, sunrealtype t, sunrealtype *x);
 /* The smooth solution from the first row at t[0] on: the others. */
 int stf_subject_follow(stf_subject *subject, size_t count, const sunrealtype *t,
                        sunrealtype *x);
+/* radau:s=5 through given times; `take` is told of every one but the first. */
+int stf_subject_carry(stf_subject *subject, const sunrealtype *x0, size_t count,
+                      const sunrealtype *mesh,
+                      int (*take)(steif_solver *solver, sunrealtype t, N_Vector x, void *user),
+                      void *user);
 
 #endif

@@ -1,4 +1,5 @@
-/* trace.c: a run with equal steps on a Jordan block of the collection, recorded step by step.
+/* trace.c: a run with constant steps on a descriptor system, recorded
+ * step by step.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak_inside.h"
 #include <math.h>
@@ -14,22 +15,22 @@ bool stf_trace_is_cq(steif_context *ctx, const char *method, const char *start)
   return word && !strcmp(word, "cq");
 }
 
-static sunrealtype component(const stf_trace *trace, int m, N_Vector y)
+/* Rows of components of the problem, and what is paired in the coordinates of the run. */
+static int keep(const stf_trace *trace, long double *room, size_t i, sunrealtype t, N_Vector y)
 {
   const sunrealtype *value = N_VGetArrayPointer(y);
-  return trace->apart ? stf_apart_component(trace->apart, m, value) : value[m];
+  if (trace->t) trace->t[i] = t;
+  for (int m = 0; trace->x && m < trace->count; m++)
+    trace->x[i * (size_t)trace->count + (size_t)m] =
+      trace->apart ? stf_apart_component(trace->apart, m, value) : value[m];
+  if (!trace->pairing) return STEIF_OK;
+  for (int m = 0; m < trace->pairing->n; m++) room[m] = value[m];
+  return stf_pairing_node(trace->pairing, i, room);
 }
 
-static void keep(const stf_trace *trace, size_t i, sunrealtype t, N_Vector y)
-{
-  trace->t[i] = t;
-  for (int m = 0; m < trace->count; m++)
-    trace->x[i * (size_t)trace->count + (size_t)m] = component(trace, trace->first + m, y);
-}
-
-/* h sum_j b_j X_j g(t_n + c_j h) of the step just made from t. */
-static int pair_stages(steif_context *ctx, steif_solver *s, const char *method, sunrealtype t,
-                       sunrealtype h, stf_trace *trace)
+/* The stages of step i + 1. */
+static int pair_stages(steif_context *ctx, steif_solver *s, const char *method, size_t i,
+                       const stf_trace *trace, long double *room)
 {
   int count;
   const sunrealtype *b, *c;
@@ -40,27 +41,31 @@ static int pair_stages(steif_context *ctx, steif_solver *s, const char *method, 
     "%s has no stages with weights to pair with the test function: use convention R, P or C",
     method);
   for (int j = 0; j < count; j++) {
-    const sunrealtype g = steif_test_function(t + c[j] * h, 0);
-    const long double term = (long double)h * b[j] * g * component(trace, trace->first, X[j]);
-    trace->stage += term;
-    trace->stage_size += fabsl(term);
+    const sunrealtype *value = N_VGetArrayPointer(X[j]);
+    for (int m = 0; m < trace->pairing->n; m++) room[m] = value[m];
+    STEIF_TRY(stf_pairing_stage(trace->pairing, i, c[j], b[j], room));
   }
   return STEIF_OK;
 }
 
 static int follow(steif_context *ctx, steif_solver *s, const char *method, sunrealtype h,
-                  stf_trace *trace)
+                  stf_trace *trace, long double *room)
 {
-  keep(trace, 0, steif_time(s), steif_solution(s));
+  const bool stages = trace->pairing && trace->pairing->convention == STEIF_STAGE;
+  sunrealtype t = steif_time(s);
+  const sunrealtype t0 = t;
+  STEIF_TRY(keep(trace, room, 0, t, steif_solution(s)));
   for (size_t i = 1; i <= trace->steps; i++) {
+    if (trace->sides) stf_sides_step(trace->sides, t, t0 + (sunrealtype)i * h, STF_STEP_END);
     STEIF_TRY(steif_solve_step(s));
-    const sunrealtype t = steif_time(s), made = t - trace->t[i - 1];
+    const sunrealtype made = steif_time(s) - t;
     STEIF_CHECK(fabs(made - h) <= 1e-6 * h, ctx, STEIF_UNSUPPORTED,
                 "%s made a step of %g at t = %g where %g was asked for; weak convergence is "
-                "measured with equal steps",
+                "measured with constant steps",
                 method, made, t, h);
-    keep(trace, i, t, steif_solution(s));
-    if (trace->stages) STEIF_TRY(pair_stages(ctx, s, method, trace->t[i - 1], h, trace));
+    t = steif_time(s);
+    STEIF_TRY(keep(trace, room, i, t, steif_solution(s)));
+    if (stages) STEIF_TRY(pair_stages(ctx, s, method, i - 1, trace, room));
   }
   return STEIF_OK;
 }
@@ -78,10 +83,13 @@ int stf_trace_run(steif_context *ctx, const steif_problem *problem, const char *
   options.t1 = problem->t0 + h * (sunrealtype)trace->steps;
   options.start = start;
   options.max_steps = (long)trace->steps + 1;
-  trace->stage = trace->stage_size = 0;
+  long double *room = stf_allocate(ctx, (size_t)problem->n, sizeof *room);
+  if (!room) return STEIF_NO_MEMORY;
+  if (trace->sides) stf_sides_step(trace->sides, problem->t0, problem->t0 + h, STF_STEP_END);
   steif_solver *s = steif_solver_new(ctx, problem, method, &options);
-  if (!s) return steif_status(ctx);
-  const int code = follow(ctx, s, method, h, trace);
+  const int code = s ? follow(ctx, s, method, h, trace, room) : steif_status(ctx);
+  if (trace->sides) stf_sides_step(trace->sides, 0, 0, 0);
   steif_solver_free(&s);
+  stf_release(ctx, room);
   return code;
 }

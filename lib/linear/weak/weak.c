@@ -3,154 +3,162 @@
  * S. L. Campbell, Distributional convergence of BDF approximations (1988).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "subject.h"
+#include "measure.h"
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-/* Verdicts. An order within FLAT of zero means a limit other than the exact value; two orders
- * further than SETTLED apart mean nothing yet; below ROUNDING eps sum |x_i| w_i an error is
- * rounding (the values of a layer carry a few eps each). */
-#define FLAT 0.3
-#define SETTLED 0.5
-#define ROUNDING 16
-enum { MOST_STEPS = 1 << 26 };
+#define USABLE 0.1   /* of an error, the most that rounding may be */
+#define UNSEEN 1e-10 /* of the size of g, derivatives that are none */
+enum { MOST_STEPS = 1 << 26, LOOKS = 500 };
 
-typedef struct measure {
-  steif_context *ctx;
-  const steif_weak_query *query;
-  stf_subject subject;
-  sunrealtype *floor; /* rounding level of each row */
-  sunrealtype *exact; /* of every component */
-  int first, count;   /* components paired */
-  bool cq;
-} measure;
-
-static int check(steif_context *ctx, const steif_weak_query *q)
+static int check_steps(steif_context *ctx, const steif_weak_query *q, sunrealtype t1)
 {
-  STEIF_CHECK(q->method, ctx, STEIF_BAD_INPUT, "no method was named: give one such as \"be\"");
-  STEIF_CHECK(q->convention >= STEIF_P && q->convention <= STEIF_STAGE, ctx, STEIF_BAD_INPUT,
-              "convention %d is none of P, R, C and stage", (int)q->convention);
-  STEIF_CHECK(q->rows >= 1, ctx, STEIF_BAD_INPUT, "no rows were asked for: two or more decide");
-  STEIF_CHECK(q->h > 0 && q->h <= 1, ctx, STEIF_BAD_INPUT,
-              "the step h = %g must lie in (0, 1], the support of the test function", q->h);
-  const sunrealtype n = 1 / q->h;
-  STEIF_CHECK(fabs(n - round(n)) <= 1e-9 * n, ctx, STEIF_BAD_INPUT,
-              "1/h = %.10g is not a whole number: the steps must fill [0, 1]; take h = %.10g",
-              n, 1 / fmax(1, round(n)));
-  STEIF_CHECK(ldexp(round(n), (int)fmin((double)q->rows, 64) - 1) <= MOST_STEPS, ctx,
+  STEIF_CHECK(t1 > 0 && isfinite(t1), ctx, STEIF_BAD_INPUT,
+              "the test function ends at t1 = %g, which must be positive", t1);
+  STEIF_CHECK(q->h > 0 && q->h <= t1, ctx, STEIF_BAD_INPUT,
+              "the step h = %g must lie in (0, %g], the support of the test function", q->h,
+              t1);
+  STEIF_CHECK(ldexp(ceil(t1 / q->h), (int)fmin((double)q->rows, 64) - 1) <= MOST_STEPS, ctx,
               STEIF_BAD_INPUT,
               "%zu rows from h = %g would take more than %d steps: ask for fewer rows", q->rows,
               q->h, (int)MOST_STEPS);
   return STEIF_OK;
 }
 
-/* One row. A run that starts from x(0-) has not produced that value: the comb leaves it out, where
- * convolution quadrature solves at t = 0 already. */
-static int run(measure *w, stf_trace *trace, sunrealtype *value, sunrealtype *size)
+static int check(steif_context *ctx, const steif_weak_query *q)
 {
-  const steif_weak_query *q = w->query;
-  const sunrealtype h = 1 / (sunrealtype)trace->steps;
-  STEIF_TRY(stf_trace_run(w->ctx, &w->subject.problem, q->method, q->start, h, trace));
-  if (q->convention == STEIF_STAGE) {
-    *value = (sunrealtype)trace->stage;
-    *size = (sunrealtype)trace->stage_size;
-    return STEIF_OK;
-  }
-  if (q->convention == STEIF_C && !w->cq) trace->x[0] = 0;
-  *value = stf_pair_sized(q->convention, trace->steps, trace->t, trace->x, size);
-  return STEIF_OK;
+  STEIF_CHECK(q->method, ctx, STEIF_BAD_INPUT, "no method was named: give one such as \"be\"");
+  STEIF_CHECK(q->convention >= STEIF_P && q->convention <= STEIF_STAGE, ctx, STEIF_BAD_INPUT,
+              "convention %d is none of P, R, C and stage", (int)q->convention);
+  STEIF_CHECK(q->rows >= 1, ctx, STEIF_BAD_INPUT,
+              "no rows were asked for: three or more decide");
+  STEIF_CHECK(!q->break_count || q->linear, ctx, STEIF_BAD_INPUT,
+              "breaks belong to the forcing of a system of one's own");
+  for (size_t b = 0; b < q->break_count; b++)
+    STEIF_CHECK(q->breaks[b] > (b ? q->breaks[b - 1] : 0), ctx, STEIF_BAD_INPUT,
+                "breaks must be positive and ascend: %g comes after %g", q->breaks[b],
+                b ? q->breaks[b - 1] : 0);
+  return check_steps(ctx, q, q->g ? q->g->t1 : 1);
 }
 
-/* Component m of a run with so many steps. */
-static int pair(measure *w, int m, size_t steps, sunrealtype *value, sunrealtype *size)
-{
-  stf_trace trace = {
-    .first = m, .count = 1, .steps = steps, .stages = w->query->convention == STEIF_STAGE};
-  int code = STEIF_NO_MEMORY;
-  trace.apart = stf_subject_apart(&w->subject, w->query->method, w->query->start);
-  trace.t = stf_allocate(w->ctx, steps + 1, sizeof *trace.t);
-  trace.x = stf_allocate(w->ctx, steps + 1, sizeof *trace.x);
-  if (trace.t && trace.x) code = run(w, &trace, value, size);
-  stf_release(w->ctx, trace.t);
-  stf_release(w->ctx, trace.x);
-  return code;
-}
+/* ---- rows --------------------------------------------------------------------------------- */
 
 /* Over several components 2-norms. */
-static int fill_row(measure *w, size_t i, const steif_weak_result *result, steif_weak_row *row)
+static int fill_row(stf_measure *w, size_t i, const steif_weak_result *result,
+                    steif_weak_row *row)
 {
   const steif_weak_query *q = w->query;
-  const size_t steps = (size_t)llround(1 / q->h) << i;
+  const sunrealtype h = ldexp(q->h, -(int)i), t1 = (sunrealtype)w->subject.weight.t1;
   const bool all = q->component == STEIF_ALL;
   sunrealtype value = 0, error = 0, level = 0;
+  STEIF_TRY(stf_measure_run(w, h, (size_t)ceil(t1 / h * (1 - 1e-9))));
   for (int m = w->first; m < w->first + w->count; m++) {
-    sunrealtype v = 0, size = 0;
-    STEIF_TRY(pair(w, m, steps, &v, &size));
+    const sunrealtype v = w->value[m];
     if (all && q->values) q->values[i * (size_t)w->subject.n + (size_t)m] = v;
-    level = hypot(level, ROUNDING * STF_EPS * (size + fabs(w->exact[m])) + result->accuracy);
+    level = hypot(level,
+                  w->level[m] + 4 * STF_EPS * (fabs(w->exact[m]) + fabs(v)) + result->accuracy);
     value = all ? hypot(value, v) : v;
     error = all ? hypot(error, v - w->exact[m]) : v - w->exact[m];
   }
-  row[i] = (steif_weak_row){1 / (sunrealtype)steps, value, error, NAN};
+  row[i] = (steif_weak_row){h, value, error, NAN, level, 0};
+  row[i].usable = level <= USABLE * fabs(error) && isfinite(error);
   if (i > 0) row[i].order = log2(fabs(row[i - 1].error / row[i].error));
-  w->floor[i] = level;
   return STEIF_OK;
 }
 
-/* The limit of the errors from the last three rows (Aitken) or two (first order). */
-static sunrealtype limit(const steif_weak_row *row, size_t rows)
-{
-  const sunrealtype c = row[rows - 1].error, b = row[rows - 2].error;
-  const sunrealtype a = rows > 2 ? row[rows - 3].error : 0, bend = (c - b) - (b - a);
-  const bool regular = rows > 2 && fabs(c - b) < 0.9 * fabs(b - a);
-  return regular ? c - (c - b) * (c - b) / bend : 2 * c - b;
-}
+/* ---- what the rows may be judged by ------------------------------------------------------- */
 
-/* Judge the leading `rows` rows, whose errors are above rounding. */
-static void judge(const steif_weak_row *row, size_t rows, steif_weak_result *result)
+/* The largest rate at which f changes, 1/time: (|f^(j)| / |f|)^(1/j) over places of [0, t1]. */
+static int rate_of_forcing(const stf_measure *w, sunrealtype *rate)
 {
-  const sunrealtype last = row[rows - 1].order, before = rows > 2 ? row[rows - 2].order : last;
-  char *text = result->verdict;
-  const size_t room = sizeof result->verdict;
-  result->converges = 0;
-  if (fabs(last) <= FLAT && fabs(last - before) <= SETTLED)
-    snprintf(text, room, "does not converge weakly: error tends to %.3g", limit(row, rows));
-  else if (!(fabs(last - before) <= SETTLED)) {
-    result->converges = -1;
-    snprintf(text, room,
-             "undecided: the observed orders %.2f and %.2f differ; ask for more rows", before,
-             last);
-  } else if (last < 0)
-    snprintf(text, room, "does not converge weakly: error grows like h^%.1f", last);
-  else {
-    result->converges = 1;
-    snprintf(text, room, "converges weakly, order %.2f", last);
+  const stf_subject *s = &w->subject;
+  const steif_forcing f = s->block.k ? s->block.forcing : s->linear.f;
+  void *user = s->block.k ? s->block.user : s->linear.user;
+  sunrealtype most = 0;
+  *rate = 0;
+  for (int j = 0; f && j <= s->index; j++) {
+    sunrealtype largest = 0;
+    for (int i = 0; i < LOOKS; i++) {
+      const sunrealtype t = (sunrealtype)w->subject.weight.t1 * (i + 0.5) / LOOKS;
+      if (f(t, j, w->room, user)) return STEIF_OK; /* no more derivatives */
+      largest = fmax(largest, N_VMaxNorm(w->room));
+    }
+    if (j == 0) most = largest;
+    if (j > 0 && most > 0) *rate = fmax(*rate, pow(largest / most, 1.0 / j));
   }
+  return STEIF_OK;
 }
 
-static void conclude(const sunrealtype *level, const steif_weak_row *row, size_t rows,
-                     steif_weak_result *result)
+static int find_longest(const stf_measure *w, stf_judged *j)
 {
-  size_t above = 0;
-  while (above < rows && fabs(row[above].error) > level[above]) above++;
-  char *text = result->verdict;
-  const size_t room = sizeof result->verdict;
-  result->converges = -1;
-  if (rows < 2)
-    snprintf(text, room, "undecided: one row shows no order; ask for two or more");
-  else if (above == 0) {
-    result->converges = 1;
-    snprintf(text, room, "exact for every h (to rounding)");
-  } else if (above == 1) {
-    result->converges = 1;
-    snprintf(text, room, "converges weakly, below rounding from h = %.3g", row[1].h);
-  } else
-    judge(row, above, result);
+  long double most, rate;
+  sunrealtype of_f;
+  STEIF_TRY(stf_weight_scale(&w->subject.weight, &most, &rate));
+  STEIF_TRY(rate_of_forcing(w, &of_f));
+  const struct {
+    sunrealtype rate;
+    const char *what;
+  } known[] = {{(sunrealtype)rate, "the test function"},
+               {of_f, "the forcing"},
+               {w->subject.structure.finite > 0 ? w->subject.structure.radius : 0,
+                "the fastest finite eigenvalue of the system"}};
+  j->longest = INFINITY;
+  for (int i = 0; i < 3; i++)
+    if (1 / known[i].rate < j->longest) {
+      j->longest = 1 / known[i].rate;
+      j->fastest = known[i].what;
+    }
+  return STEIF_OK;
 }
+
+/* Has some component an impulse of order q there? */
+static bool has_impulse(const stf_measure *w, const sunrealtype *c, int q)
+{
+  const size_t n = (size_t)w->subject.n;
+  for (int m = w->first; m < w->first + w->count; m++)
+    if (c[(size_t)q * n + (size_t)m] != 0) return true;
+  return false;
+}
+
+/* At t = 0 or a break: the lowest order q of impulses that are there while g^(q) is 0, q = k - 1, by
+ * which errors are measured, among them. */
+static int find_blind(const stf_measure *w, sunrealtype t, const sunrealtype *c, int *blind)
+{
+  const int k = w->subject.index;
+  long double g[STF_DERIVATIVES], most, rate, scale = 1;
+  STEIF_TRY(stf_weight_scale(&w->subject.weight, &most, &rate));
+  if (k < 2) return STEIF_OK;
+  STEIF_TRY(stf_weight_at(&w->subject.weight, t, k - 1, g));
+  for (int q = 0; q < k; q++, scale *= q / w->subject.weight.t1) {
+    if (fabsl(g[q]) > (long double)UNSEEN * most * scale) continue;
+    if ((q < k - 1 && !has_impulse(w, c, q)) || *blind >= 0) continue;
+    *blind = q;
+  }
+  return STEIF_OK;
+}
+
+static int conclude(const stf_measure *w, steif_weak_row *row, steif_weak_result *result)
+{
+  const stf_subject *s = &w->subject;
+  stf_judged j = {.row = row,
+                  .rows = w->query->rows,
+                  .size = fabs(result->exact),
+                  .blind = -1,
+                  .inside = NAN};
+  STEIF_TRY(find_longest(w, &j));
+  STEIF_TRY(find_blind(w, 0, s->block.k ? s->block.c : s->impulse.c, &j.blind));
+  for (size_t b = 0; b < s->jumps; b++)
+    STEIF_TRY(find_blind(w, s->jump[b].t, s->jump[b].at.c, &j.blind));
+  for (size_t i = 0; i < j.rows; i++)
+    if (row[i].h > j.longest) row[i].usable = 0;
+  stf_weak_judge(&j, result);
+  return STEIF_OK;
+}
+
+/* ---- the measure -------------------------------------------------------------------------- */
 
 /* E_1 belongs to backward Euler started from x(0-), and is known for Jordan blocks. */
-static int first_order(measure *w, sunrealtype *value)
+static int first_order(stf_measure *w, sunrealtype *value)
 {
   const steif_weak_query *q = w->query;
   steif_spec spec;
@@ -165,7 +173,7 @@ static int first_order(measure *w, sunrealtype *value)
   return stf_block_first(&w->subject.block, q->component, q->convention, value);
 }
 
-static int find_exact(measure *w, steif_weak_result *result)
+static int find_exact(stf_measure *w, steif_weak_result *result)
 {
   const steif_weak_query *q = w->query;
   const bool all = q->component == STEIF_ALL;
@@ -179,7 +187,7 @@ static int find_exact(measure *w, steif_weak_result *result)
   return STEIF_OK;
 }
 
-static int measure_rows(measure *w, steif_weak_row *row, steif_weak_result *result)
+static int measure_rows(stf_measure *w, steif_weak_row *row, steif_weak_result *result)
 {
   const steif_weak_query *q = w->query;
   const int n = w->subject.n;
@@ -188,14 +196,10 @@ static int measure_rows(measure *w, steif_weak_row *row, steif_weak_result *resu
               w->subject.problem.name);
   w->first = q->component == STEIF_ALL ? 0 : q->component;
   w->count = q->component == STEIF_ALL ? n : 1;
-  w->floor = stf_allocate(w->ctx, q->rows + (size_t)n, sizeof *w->floor);
-  if (!w->floor) return STEIF_NO_MEMORY;
-  w->exact = w->floor + q->rows;
   STEIF_TRY(find_exact(w, result));
   STEIF_TRY(first_order(w, &result->first));
   for (size_t i = 0; i < q->rows; i++) STEIF_TRY(fill_row(w, i, result, row));
-  conclude(w->floor, row, q->rows, result);
-  return STEIF_OK;
+  return conclude(w, row, result);
 }
 
 int steif_weak_measure(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,
@@ -203,11 +207,9 @@ int steif_weak_measure(steif_context *ctx, const steif_weak_query *query, steif_
 {
   *result = (steif_weak_result){.first = NAN, .exact = NAN, .converges = -1};
   STEIF_TRY(check(ctx, query));
-  measure w = {.ctx = ctx, .query = query};
-  w.cq = stf_trace_is_cq(ctx, query->method, query->start);
-  STEIF_TRY(stf_subject_open(ctx, query->problem, query->linear, query->x0, &w.subject));
-  const int code = measure_rows(&w, row, result);
-  stf_release(ctx, w.floor);
-  stf_subject_close(&w.subject);
+  stf_measure w;
+  int code = stf_measure_open(ctx, query, &w);
+  if (!code) code = measure_rows(&w, row, result);
+  stf_measure_close(&w);
   return code;
 }

@@ -5,6 +5,8 @@
 
 #include "apart.h"
 #include "base.h"
+#include "forcing_sides.h"
+#include "pairing.h"
 #include <steif/collection.h>
 #include <steif/runs.h>
 #include <steif/weak.h>
@@ -17,9 +19,10 @@ typedef struct stf_block {
   steif_forcing forcing;
   void *user;
   const sunrealtype *x0;
-  N_Vector g;     /* room for one value of f */
-  sunrealtype *c; /* impulse coefficients, (k-1) x k by rows */
-  sunrealtype *x; /* scratch, k */
+  N_Vector g;        /* room for one value of f */
+  stf_weight weight; /* the test function; that of steif_test_function until it is changed */
+  sunrealtype *c;    /* impulse coefficients, (k-1) x k by rows */
+  sunrealtype *x;    /* scratch, k */
 } stf_block;
 
 int stf_block_open(stf_block *block, steif_context *ctx, int k, steif_forcing forcing,
@@ -38,18 +41,14 @@ int stf_block_first(stf_block *block, int m, enum steif_convention convention,
 enum { STF_RULE = 8 };
 extern const sunrealtype stf_rule_node[STF_RULE], stf_rule_weight[STF_RULE];
 
-/* steif_pair together with sum |x_i| w_i, the size that rounding is relative to. */
-sunrealtype stf_pair_sized(enum steif_convention convention, size_t m, const sunrealtype *t,
-                           const sunrealtype *x, sunrealtype *size);
-
-/* What to record of a run with equal steps, and the record. */
+/* What to record of a run with constant steps, and the record. */
 typedef struct stf_trace {
-  int first, count; /* components first .. first + count - 1 */
-  bool stages;      /* pair the stages of component `first` with the test function */
+  int count; /* components */
   size_t steps;
-  sunrealtype *t, *x; /* steps + 1 times; as many rows of `count` values */
-  long double stage, stage_size;
-  stf_apart *apart; /* run in its coordinates; NULL: in those of the problem */
+  sunrealtype *t, *x;   /* steps + 1 times; as many rows of `count` values; NULL: not wanted */
+  stf_pairing *pairing; /* is told of nodes and stages, in the coordinates of the run; NULL */
+  stf_sides *sides;     /* of f; NULL: it has no breaks */
+  stf_apart *apart;     /* run in its coordinates; NULL: in those of the problem */
 } stf_trace;
 
 /* Run `steps` equal steps h of the method; t and x are the caller's. */
@@ -57,5 +56,19 @@ int stf_trace_run(steif_context *ctx, const steif_problem *problem, const char *
                   const char *start, sunrealtype h, stf_trace *trace);
 /* The trace starts with the value of convolution quadrature at t0 instead of x(0-). */
 bool stf_trace_is_cq(steif_context *ctx, const char *method, const char *start);
+
+/* What the rows of a measure are judged by. */
+typedef struct stf_judged {
+  const steif_weak_row *row;
+  size_t rows;
+  sunrealtype size;    /* of the exact value */
+  sunrealtype longest; /* step that resolves system, f and g; */
+  const char *fastest; /* what asks for it */
+  int blind;           /* order of impulses that g does not see; -1: it sees all */
+  sunrealtype inside;  /* a break of f that lies inside a step; NaN: none does */
+  sunrealtype fitting; /* a first step that puts the breaks on the meshes */
+} stf_judged;
+/* Fills in verdict and converges. */
+void stf_weak_judge(const stf_judged *judged, steif_weak_result *result);
 
 #endif

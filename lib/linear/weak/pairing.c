@@ -1,0 +1,46 @@
+/* pairing.c: a run read as a function (conventions P, R, C, stage) and paired with the test function, in
+ * long double. Box averages come from Gauss's rule on each step: differencing an antiderivative of g
+ * would lose a factor 1/h of accuracy to cancellation.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "pairing.h"
+#include <float.h>
+
+/* Of a weight, in units of long double: a power and a sum of eight. */
+#define ROUNDING 4
+
+static void add(stf_pairing *p, long double weight, const long double *x)
+{
+  if (p->shaken) weight *= 1 + ROUNDING * LDBL_EPSILON * stf_random_in(p->shaken, -1, 1);
+  for (int m = 0; m < p->n && weight != 0; m++) p->sum[m] += weight * x[m];
+}
+
+int stf_pairing_node(stf_pairing *p, size_t i, const long double *x)
+{
+  const long double t = (long double)i * p->h;
+  long double w = 0;
+  switch (p->convention) {
+  case STEIF_P:
+    if (i < p->steps) STEIF_TRY(stf_weight_box(p->g, t, (long double)(i + 1) * p->h, &w));
+    break;
+  case STEIF_R:
+    if (i > 0) STEIF_TRY(stf_weight_box(p->g, (long double)(i - 1) * p->h, t, &w));
+    break;
+  case STEIF_C:
+    if (i > 0 || p->solved) STEIF_TRY(stf_weight_at(p->g, t, 0, &w));
+    w *= p->h;
+    break;
+  default: return STEIF_OK;
+  }
+  add(p, w, x);
+  return STEIF_OK;
+}
+
+int stf_pairing_stage(stf_pairing *p, size_t i, long double c, long double b,
+                      const long double *X)
+{
+  long double w;
+  if (p->convention != STEIF_STAGE) return STEIF_OK;
+  STEIF_TRY(stf_weight_at(p->g, ((long double)i + c) * p->h, 0, &w));
+  add(p, p->h * b * w, X);
+  return STEIF_OK;
+}

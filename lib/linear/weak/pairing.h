@@ -1,0 +1,45 @@
+/* pairing.h: <x_h, g> of a run while it is made, all components at once.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_PAIRING_H
+#define STF_PAIRING_H
+
+#include "random.h"
+#include <steif/weak.h>
+
+enum { STF_BOX = 8, STF_DERIVATIVES = 64 }; /* points of Gauss's rule on a step */
+
+/* A test function on [0, t1]; given NULL: (1 - t)_+^8. */
+typedef struct stf_weight {
+  steif_context *ctx;
+  const steif_weight *given;
+  long double t1, node[STF_BOX], weight[STF_BOX];
+} stf_weight;
+stf_weight stf_weight_of(steif_context *ctx, const steif_weight *given);
+/* Derivatives 0 .. order at t, 0 at t1 and beyond. */
+int stf_weight_at(const stf_weight *g, long double t, int order, long double *derivative);
+/* The same at t1, from the left. */
+int stf_weight_end(const stf_weight *g, int order, long double *derivative);
+/* int_a^b g by Gauss's rule, which ends at t1. */
+int stf_weight_box(const stf_weight *g, long double a, long double b, long double *value);
+/* The largest |g| of a few hundred places on [0, t1], and the largest rate at which it changes, 1/time:
+ * |g'| and sqrt |g''| in units of it. */
+int stf_weight_scale(const stf_weight *g, long double *most, long double *rate);
+
+/* Of values x_i at i h and stages. */
+typedef struct stf_pairing {
+  const stf_weight *g;
+  enum steif_convention convention;
+  bool solved; /* x_0 is a value of the run, not x(0-): the comb has it */
+  size_t steps;
+  long double h;
+  int n;
+  long double *sum; /* n */
+  stf_random
+    *shaken; /* weights are changed by random parts of their rounding; NULL: they are not */
+} stf_pairing;
+int stf_pairing_node(stf_pairing *p, size_t i, const long double *x);
+/* Stage X at (i + c) h with weight b. */
+int stf_pairing_stage(stf_pairing *p, size_t i, long double c, long double b,
+                      const long double *X);
+
+#endif

@@ -1,0 +1,124 @@
+/* verdict.c: what the rows of a weak measure entitle to say.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "weak_inside.h"
+#include <math.h>
+#include <stdio.h>
+
+/* Orders within FLAT of zero mean a limit other than the exact value; orders AGREED apart are one;
+ * the distance of an order from the whole number it tends to halves from row to row, a term of lower
+ * order that takes over doubles it: beyond NEAR it must not grow. */
+#define FLAT 0.25
+#define AGREED 0.25
+#define NEAR 0.03
+/* Zero to rounding: below TIMES the level, which is known to be below TINY of the value. */
+#define TIMES 4
+#define TINY 1e-9
+enum { LEAST = 3 }; /* rows */
+
+static bool zero(const stf_judged *j, size_t i)
+{
+  const steif_weak_row *r = j->row + i;
+  return fabs(r->error) <= TIMES * r->rounding &&
+         r->rounding <= TINY * fmax(j->size, fabs(r->value));
+}
+
+/* Rows from `from` on that are zero to rounding, all to the last. */
+static bool zeros(const stf_judged *j, size_t from)
+{
+  if (j->rows - from < LEAST) return false;
+  for (size_t i = from; i < j->rows; i++)
+    if (!zero(j, i)) return false;
+  return true;
+}
+
+/* The limit of the errors (Aitken), or of first-order ones. */
+static sunrealtype limit(const steif_weak_row *last)
+{
+  const sunrealtype c = last->error, b = last[-1].error, a = last[-2].error;
+  const bool regular = fabs(c - b) < 0.9 * fabs(b - a);
+  return regular ? c - (c - b) * (c - b) / ((c - b) - (b - a)) : 2 * c - b;
+}
+
+static int undecided(steif_weak_result *r) { return r->converges = -1; }
+
+/* By the orders of the last three usable rows. */
+static int by_orders(const steif_weak_row *last, steif_weak_result *r)
+{
+  const sunrealtype order = last->order, before = last[-1].order, whole = round(order);
+  const sunrealtype away = fabs(order - whole), was = fabs(before - whole);
+  char *text = r->verdict;
+  const size_t room = sizeof r->verdict;
+  undecided(r);
+  if (!(fabs(order - before) <= AGREED))
+    return snprintf(text, room,
+                    "undecided: the observed orders %.2f and %.2f differ; ask for more rows",
+                    before, order);
+  if (away > FLAT || (away > NEAR && away > was))
+    return snprintf(text, room,
+                    "undecided: the observed orders %.2f and %.2f are on the way to another "
+                    "one; ask for more rows",
+                    before, order);
+  if (whole > 0) {
+    r->converges = 1;
+    return snprintf(text, room, "converges weakly, order %.2f", order);
+  }
+  r->converges = 0;
+  return whole == 0
+           ? snprintf(text, room, "does not converge weakly: error tends to %.3g", limit(last))
+           : snprintf(text, room, "does not converge weakly: error grows like h^%.1f", order);
+}
+
+/* Fewer than three usable rows. */
+static int too_few(const stf_judged *j, size_t from, size_t usable, steif_weak_result *r)
+{
+  char *text = r->verdict;
+  const size_t room = sizeof r->verdict;
+  undecided(r);
+  if (from == j->rows)
+    return snprintf(text, room,
+                    "undecided: steps of %.3g do not resolve %s; take them below %.2g",
+                    j->row[j->rows - 1].h, j->fastest, j->longest);
+  if (zeros(j, from + usable)) {
+    r->converges = 1;
+    return usable ? snprintf(text, room, "converges weakly, below rounding from h = %.3g on",
+                             j->row[from + usable].h)
+                  : snprintf(text, room, "exact for every h (to rounding)");
+  }
+  if (j->rows - from < LEAST)
+    return snprintf(text, room, "undecided: %s; ask for more (--halvings)",
+                    j->rows == 1 ? "one row shows no order" : "three rows decide");
+  return snprintf(
+    text, room,
+    "undecided: rounding from h = %.3g on; larger steps decide (--h %.3g --halvings "
+    "4)",
+    j->row[from + usable].h, fmin(4 * j->row[from].h, j->longest));
+}
+
+void stf_weak_judge(const stf_judged *j, steif_weak_result *r)
+{
+  size_t from = 0, usable = 0;
+  while (from < j->rows && j->row[from].h > j->longest) from++;
+  while (from + usable < j->rows && j->row[from + usable].usable) usable++;
+  char *text = r->verdict;
+  const size_t room = sizeof r->verdict;
+  if (isfinite(j->inside)) {
+    undecided(r);
+    snprintf(
+      text, room,
+      "no order: the break of f at %.6g lies inside a step, an error bounded by O(h) that "
+      "depends on where; --h %.10g puts it on the mesh",
+      j->inside, j->fitting);
+    return;
+  }
+  if (usable < LEAST)
+    too_few(j, from, usable, r);
+  else
+    by_orders(j->row + from + usable - 1, r);
+  if (j->blind < 0 || r->converges != 1) return;
+  undecided(r);
+  snprintf(
+    text, room,
+    "undecided: the test function does not see impulses of order %d, its derivative there "
+    "is 0; take another one",
+    j->blind);
+}

@@ -1,0 +1,127 @@
+/* test_rounding.c: rounding levels against values known otherwise, and verdicts that rounding must not
+ * turn.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "weak/data.h"
+
+/* <x_h, g> of backward Euler, convention R, x(0-) = (1, .., k), f = 0: the symbol (s_h/s) (I + s_h N)^-1 N
+ * with s_h = (1 - e^{-sh})/h gives sum_q N^{q+1} x_0 sum_r beta_{q,r} h^r g^(q+r)(0) with
+ * beta_{q,r} = (q+1)! S(q+1+r, q+1) / (q+1+r)!, S Stirling's numbers of the second kind; the sum ends
+ * since g is a polynomial where the layer is. */
+static long double closed(int k, long double h)
+{
+  long double sum = 0, S[24][24] = {{1}};
+  for (int n = 1; n < 24; n++)
+    for (int m = 1; m <= n; m++) S[n][m] = m * S[n - 1][m] + S[n - 1][m - 1];
+  for (int q = 0; q + 1 < k; q++)
+    for (int r = 0; q + r <= 8; r++) {
+      long double beta = S[q + 1 + r][q + 1], power = 1;
+      for (int i = q + 2; i <= q + 1 + r; i++) beta /= i;
+      for (int i = 0; i < r; i++) power *= h;
+      sum += (q + 2) * beta * power * steif_test_function(0, q + r);
+    }
+  return sum;
+}
+
+static void levels_are_those_of_closed_values(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  int seen = 0, near = 0;
+  for (int k = 3; k <= 12; k++) {
+    steif_weak_row row[7];
+    steif_weak_result result;
+    CHECK(!weak_rows(ctx, "be", k, "H-inc", STEIF_R, NULL, 1.0 / 20, 7, row, &result));
+    for (int i = 0; i < 7; i++) {
+      const double made = fabs((double)(row[i].value - closed(k, row[i].h)));
+      CHECK(made <= 4 * row[i].rounding);
+      const bool visible = made > 1e-13 * fabs(row[i].value);
+      seen += visible, near += visible && row[i].rounding <= 30 * made;
+    }
+  }
+  CHECK(seen > 30 && 10 * near > 9 * seen);
+  steif_context_free(&ctx);
+}
+
+/* Errors of Gauss's method with 3 stages on N-inc at h = 1/64, 1/128, ..., weak order 2; and of backward
+ * Euler at index 12, order 1: 113-bit arithmetic, 33 digits. */
+static const struct known {
+  const char *method;
+  int k;
+  enum steif_convention convention;
+  int first; /* 1/h */
+  double error[5];
+} known[] = {
+  {"gauss:s=3",
+   4,
+   STEIF_STAGE,
+   64,
+   {.119079704885, .02981030616575, .007455100241128, .001863932790781, 4.6599e-4}},
+  {"gauss:s=3",
+   5,
+   STEIF_STAGE,
+   64,
+   {-6.635260667829, -1.660174326352, -.4151285291008, -.1037874414955, -2.5947e-2}},
+  {"be", 12, STEIF_R, 16, {71739.42309, 35238.01451, 17452.72568, 8683.609623, 4330.96062}},
+  {"be", 11, STEIF_R, 64, {16246.76101, 8051.061803, 4007.360165, 0, 0}},
+};
+
+static void errors_are_right_within_their_levels(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    const struct known *a = known + i;
+    steif_weak_row row[5];
+    steif_weak_result result;
+    CHECK(!weak_rows(ctx, a->method, a->k, "N-inc", a->convention, NULL, 1.0 / a->first, 5, row,
+                     &result));
+    CHECK(result.converges == -1 && !strncmp(result.verdict, "undecided: ", 11));
+    for (int j = 0; j < 5 && a->error[j] != 0; j++)
+      CHECK(fabs(row[j].error - a->error[j]) <=
+            1.25 * row[j].rounding + 1e-4 * fabs(a->error[j]));
+  }
+  steif_context_free(&ctx);
+}
+
+/* Weak orders on H-inc at k = 2, 3, 4 by the order of the adjoint method at index k - 1 (test_duality.c);
+ * 9: exact. Steps from coarse to where rounding is all there is: verdicts may be open, not wrong. */
+static void no_verdict_is_wrong(void)
+{
+  static const struct {
+    const char *method;
+    int order[3];
+  } truth[] = {{"be", {1, 1, 1}},
+               {"radau:s=2", {2, 1, 0}},
+               {"radau:s=3", {3, 2, 1}},
+               {"radau1a:s=2", {9, 2, 1}},
+               {"lobatto3c:s=2", {9, 1, 0}},
+               {"lobatto3c:s=3", {9, 2, 1}},
+               {"gauss:s=1", {2, 2, 2}},
+               {"gauss:s=2", {2, 0, -2}},
+               {"gauss:s=3", {4, 4, 2}},
+               {"dirk:alexander2", {1, 0, -1}},
+               {"dirk:alexander2b", {2, 1, 0}},
+               {"dirk:alexander3", {1, 0, -1}},
+               {"dirk:crouzeix23", {2, 1, 0}}};
+  steif_context *ctx = steif_context_new(NULL);
+  int decided = 0, all = 0;
+  for (size_t i = 0; i < sizeof truth / sizeof *truth; i++)
+    for (int k = 2; k <= 4; k++)
+      for (int h = 5; h <= 1280; h *= 4) {
+        steif_weak_row row[4];
+        steif_weak_result result;
+        CHECK(!weak_rows(ctx, truth[i].method, k, "H-inc", i ? STEIF_STAGE : STEIF_R, NULL,
+                         1.0 / h, 4, row, &result));
+        const bool wrong =
+          result.converges >= 0 && result.converges != (truth[i].order[k - 2] > 0);
+        if (wrong) printf("\n  %s, k=%d, h=1/%d: %s", truth[i].method, k, h, result.verdict);
+        CHECK(!wrong);
+        decided += result.converges >= 0, all++;
+      }
+  CHECK(3 * decided > 2 * all);
+  steif_context_free(&ctx);
+}
+
+CU_TestInfo tests_of_rounding[] = {
+  {"rounding levels are the differences to closed values", levels_are_those_of_closed_values},
+  {"errors are right within their levels", errors_are_right_within_their_levels},
+  {"no verdict is wrong", no_verdict_is_wrong},
+  CU_TEST_INFO_NULL};
