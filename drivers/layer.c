@@ -1,6 +1,7 @@
 /* layer.c: the initial layer of a method on a descriptor system, step by step.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "layer.h"
+#include <math.h>
 
 static int on_system(struct call *call, struct layer *l)
 {
@@ -8,6 +9,10 @@ static int on_system(struct call *call, struct layer *l)
   int code = descriptor_open(call, &q, 1, true);
   if (!code) code = descriptor_started(call, &q);
   if (!code && q.t0 != 0) code = bad_usage(call, "a layer begins at t = 0; leave --t0 out");
+  double at;
+  if (!code && steif_function_breaks(q.function, 0, l->h * (double)l->steps, 1, &at))
+    code = bad_usage(call, "f breaks at t = %g: take --steps %.0f, which end before", at,
+                     floor(at / l->h));
   snprintf(l->problem, sizeof l->problem, "%s", call->word[1]);
   l->k = (size_t)q.n;
   if (!descriptor_as_published(call, &q)) l->system = &q;

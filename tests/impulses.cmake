@@ -465,6 +465,28 @@ foreach(run "be;--index;12" "gauss:s=3;--index;5" "gauss:s=3;--index;4;--h;0.003
   endif()
 endforeach()
 expect(5 weak be switchrlc --json) # its time constants are 7e-5 s
+# f = (0, step(t - 0.3)): x_1 = -delta at 0.3, paired -0.7^8, and backward Euler has order 1 where the
+# break is on its mesh.
+matrix(E2.mtx 2 2 "1 2 1")
+matrix(F2.mtx 2 2 "1 1 1" "2 2 1")
+column(z2.mtx 0 0)
+file(WRITE ${FOLDER}/step.txt "0\nstep(t-0.3)\n")
+file(WRITE ${FOLDER}/turns.txt "0\nabs(sin(9*t+1))\n")
+set(jump E2.mtx F2.mtx --x0 z2.mtx --forcing step.txt)
+set(turns E2.mtx F2.mtx --x0 z2.mtx --forcing turns.txt)
+expect(0 weak be ${jump} --json)
+near(5764801 exact 0)
+string(JSON verdict GET "${out}" verdict)
+if(NOT verdict MATCHES "^converges weakly, order (0.9|1.0)")
+  message(SEND_ERROR "weak be at a jump: ${verdict}")
+endif()
+expect(5 weak be ${jump} --h 0.015625 --halvings 4 ERR "inside a step")
+expect(2 weak be ${turns} ERR "name its breaks")
+expect(2 weak be ${turns} --breaks 0.2379547392877548 ERR "near t = 0.58")
+# No steps of a sensible length have all three on their mesh.
+expect(5 weak be ${turns}
+       --breaks 0.2379547392877548,0.5870205896866207,0.9360864400854866)
+expect(2 layer be ${jump} --h 0.1 --steps 4 ERR "f breaks at t = 0.3")
 expect(2 weak be ut5 --index 3 ERR "name a Jordan block")
 expect(2 weak be ut5 --component 6 ERR "component 6 is not one of the 5")
 expect(2 layer be ut5 --h 0.1 --component 6 ERR "not one of 1 .. 5")

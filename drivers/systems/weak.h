@@ -13,6 +13,7 @@ struct weak {
   const char *convention; /* "P", "R", "C", "stage"; NULL: the usual one of the method */
   steif_weak_query query; /* method, start, h and rows are given, the rest is filled in */
   char problem[96];       /* of the Jordan block */
+  double breaks[REALS_MOST];
   steif_weak_row row[HALVINGS];
   steif_weak_result result;
 };

@@ -15,7 +15,7 @@ struct weak weak_asked(const struct call *call)
                    .convention = word_of(call, "--convention"),
                    .query = {.method = call->word[0],
                              .start = word_of(call, "--start"),
-                             .h = real_or(call, "--h", 1.0 / 64),
+                             .h = real_of(call, "--h"),
                              .component = (int)whole_or(call, "--component", 1) - 1}};
   w.query.rows = (size_t)whole_or(call, "--halvings", given(call, "--h") ? 0 : 4) + 1;
   return w;

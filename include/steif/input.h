@@ -4,8 +4,9 @@
  * skew-symmetric) and MATLAB version 5 files. Forcing: one expression in t per line,
  *     sin(3*t) + 2*exp(-t)          component 1
  *     step(t - 0.5) * t^2           component 2: declares a breakpoint at t = 0.5
- * with + - * / ^, numbers, t, pi, sin cos tan exp log sqrt sinh cosh tanh atan abs, step(t - c) and
- * ramp(t - c). Derivatives of any order are exact, by Taylor arithmetic.
+ * with + - * / ^, numbers, t, pi, sin cos tan exp log sqrt sinh cosh tanh atan abs,
+ * min(a, b), max(a, b), step(t - c) and ramp(t - c); abs, min and max of what is linear in t declare
+ * their breakpoints, too. Derivatives of any order are exact, by Taylor arithmetic.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_INPUT_H
@@ -89,6 +90,11 @@ STEIF_EXPORT int steif_function_inputs(sunrealtype t, steif_function *f, sunreal
 /* Declared breakpoints inside (t0, t1), ascending; returns how many there are. */
 STEIF_EXPORT size_t steif_function_breaks(const steif_function *f, sunrealtype t0,
                                           sunrealtype t1, size_t room, sunrealtype *times);
+
+/* Is an expression smooth between its declared breakpoints? 1, or 0 where abs, min or max of what is not
+ * linear in t turns within [t0, t1], seen at 1000 places; *where: shortly after the first turn. */
+STEIF_EXPORT int steif_function_smooth(steif_function *f, sunrealtype t0, sunrealtype t1,
+                                       sunrealtype *where);
 
 #ifdef __cplusplus
 }

@@ -83,8 +83,10 @@ typedef struct steif_weak_query {
   const char *method;  /* "be", "bdf:p=3", "radau:s=2", ... */
   const char *problem; /* "jordan:k=3,case=H-inc", "ut5" */
   enum steif_convention convention;
-  const char *start;   /* starting procedure, NULL: the method's */
-  sunrealtype h;       /* first step; the runs make as many as reach t1 */
+  const char *start; /* starting procedure, NULL: the method's */
+  sunrealtype
+    h; /* first step; the runs make as many as reach t1. 0: t1 / 64, or a step near it that puts
+                    all breaks on the meshes */
   size_t rows;         /* at least 3 for a verdict */
   int component;       /* STEIF_ALL: values and errors are 2-norms over the components */
   sunrealtype *values; /* rows x n and n: of all of them by themselves; NULL: not wanted */

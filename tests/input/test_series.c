@@ -201,7 +201,8 @@ static void where_there_is_no_value_it_is_said(void)
                   {"t^-0.5", "a negative power of zero", 0, -1, 0},
                   {"t^t", "the exponent not constant", 0, -1, 0},
                   {"(-2)^t", "the exponent not constant", 1, -1, 0},
-                  {"abs(t)", "abs at zero", 0, 0, 1},
+                  {"abs(sin(t))", "abs at zero", 0, 0, 1},
+                  {"max(sin(t), t^2)", "where both are equal", 0, 0, 1},
                   {"exp(t)", "not finite", 1e3, -1, 0},
                   {"tan(t)^1000000", "not finite", 1.5707963267948966, -1, 0}};
   steif_context *ctx = steif_context_new(NULL);

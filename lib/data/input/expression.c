@@ -3,7 +3,7 @@
  *   product = signed { (*|/) signed }
  *   signed  = (+|-) signed | power
  *   power   = atom [ ^ signed ]               so that -t^2 = -(t^2) and 2^3^2 = 2^9
- *   atom    = number | t | pi | name ( sum ) | ( sum )
+ *   atom    = number | t | pi | name ( sum ) | min ( sum , sum ) | max ( sum , sum ) | ( sum )
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "input.h"
 #include <ctype.h>
@@ -20,7 +20,8 @@ static const struct {
 } known[] = {{"t", STF_TIME},    {"pi", STF_NUMBER}, {"sin", STF_SIN},   {"cos", STF_COS},
              {"tan", STF_TAN},   {"exp", STF_EXP},   {"log", STF_LOG},   {"sqrt", STF_SQRT},
              {"sinh", STF_SINH}, {"cosh", STF_COSH}, {"tanh", STF_TANH}, {"atan", STF_ATAN},
-             {"abs", STF_ABS},   {"step", STF_STEP}, {"ramp", STF_RAMP}};
+             {"abs", STF_ABS},   {"step", STF_STEP}, {"ramp", STF_RAMP}, {"min", STF_MIN},
+             {"max", STF_MAX}};
 enum { KNOWN = sizeof known / sizeof *known };
 
 /* How an expression depends on t; what is linear is found by these rules only. */
@@ -138,6 +139,39 @@ static int broken(parser *p, enum stf_operation operation, size_t place, int sta
   return STEIF_OK;
 }
 
+/* abs of what is linear, min and max of two such: the break is where the argument, or the difference,
+ * is 0; the instructions from `start` on leave the first. */
+typedef struct line {
+  int degree;
+  sunrealtype a, b; /* a t + b */
+} line;
+
+static int line_of(parser *p, int start, int degree, line *l)
+{
+  *l = (line){.degree = degree};
+  return degree == GENERAL ? STEIF_OK : value_of(p, start, false, &l->b, &l->a);
+}
+
+static void emit_switch(parser *p, enum stf_operation operation, size_t place, const line *l,
+                        const line *m)
+{
+  const sunrealtype a = l->a - m->a, b = l->b - m->b;
+  const bool linear = l->degree != GENERAL && m->degree != GENERAL && a != 0;
+  emit(p, operation, place, linear ? (a == 1 ? -b : -b / a) : NAN);
+  p->program->code[p->program->length - 1].rising = a > 0;
+}
+
+/* The second argument of min and max. */
+static int second(parser *p, line *l)
+{
+  int degree;
+  if (next(p) != ',') return expected(p, "',' and a second argument");
+  p->at++;
+  const int start = p->program->length;
+  STEIF_TRY(sum(p, &degree));
+  return line_of(p, start, degree, l);
+}
+
 static int call(parser *p, int which, size_t place, int *degree)
 {
   char what[64];
@@ -148,9 +182,17 @@ static int call(parser *p, int which, size_t place, int *degree)
   if (next(p) != '(') return expected(p, what);
   p->at++;
   STEIF_TRY(sum(p, &inner));
+  const bool two = operation == STF_MIN || operation == STF_MAX;
+  line l = {0}, m = {0};
+  if (two || (operation == STF_ABS && inner == LINEAR)) STEIF_TRY(line_of(p, start, inner, &l));
+  if (two) STEIF_TRY(second(p, &m));
   if (next(p) != ')') return expected(p, "')' or an operator");
   p->at++;
-  *degree = inner == FIXED ? FIXED : GENERAL;
+  *degree = inner == FIXED && m.degree == FIXED ? FIXED : GENERAL;
+  if (two || operation == STF_ABS) {
+    emit_switch(p, operation, place, &l, &m);
+    return STEIF_OK;
+  }
   if (operation == STF_STEP || operation == STF_RAMP) {
     *degree = GENERAL;
     return broken(p, operation, place, start, inner);

@@ -118,6 +118,8 @@ static int ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
+static bool turns(enum stf_operation o) { return o == STF_ABS || o == STF_MIN || o == STF_MAX; }
+
 /* The breakpoints of all programs into list (NULL: count only). */
 static size_t collect(const steif_function *f, sunrealtype *list)
 {
@@ -125,7 +127,9 @@ static size_t collect(const steif_function *f, sunrealtype *list)
   for (sunindextype i = 0; i < f->inputs; i++)
     for (int k = 0; k < f->program[i].length; k++) {
       const stf_instruction *c = f->program[i].code + k;
-      if (c->operation != STF_STEP && c->operation != STF_RAMP) continue;
+      const bool breaks = c->operation == STF_STEP || c->operation == STF_RAMP ||
+                          (turns(c->operation) && isfinite(c->number));
+      if (!breaks) continue;
       if (list) list[count] = c->number;
       count++;
     }
@@ -155,6 +159,34 @@ size_t steif_function_breaks(const steif_function *f, sunrealtype t0, sunrealtyp
       count++;
     }
   return count;
+}
+
+/* The first of many places in [t0, t1] before which instruction k turns; NaN: none. */
+static sunrealtype turn(const stf_program *program, int k, sunrealtype t0, sunrealtype t1,
+                        stf_series *stack)
+{
+  enum { PLACES = 1000 };
+  sunrealtype last = 0;
+  for (int i = 0; i <= PLACES; i++) {
+    const sunrealtype t = t0 + (t1 - t0) * i / PLACES,
+                      now = stf_program_switch(program, k, t, stack);
+    if (now * last < 0) return t;
+    if (now != 0) last = now;
+  }
+  return NAN;
+}
+
+int steif_function_smooth(steif_function *f, sunrealtype t0, sunrealtype t1, sunrealtype *where)
+{
+  *where = NAN;
+  for (sunindextype i = 0; f->program && i < f->inputs; i++)
+    for (int k = 0; k < f->program[i].length; k++) {
+      const stf_instruction *c = f->program[i].code + k;
+      if (!turns(c->operation) || isfinite(c->number)) continue;
+      const sunrealtype t = turn(f->program + i, k, t0, t1, f->stack);
+      if (!isnan(t) && !(*where < t)) *where = t;
+    }
+  return isnan(*where);
 }
 
 /* ---- building -------------------------------------------------------------------------------- */

@@ -75,6 +75,8 @@ enum stf_operation {
   STF_SUBTRACT,
   STF_MULTIPLY,
   STF_DIVIDE,
+  STF_MIN,
+  STF_MAX,
   STF_NEGATE,
   STF_POWER,       /* a^b */
   STF_POWER_WHOLE, /* a^number, a whole number */
@@ -96,9 +98,11 @@ enum stf_operation {
 
 typedef struct stf_instruction {
   enum stf_operation operation;
-  int place;          /* of its name in the text */
-  sunrealtype number; /* value, exponent, or the breakpoint of step and ramp */
-  int rising;         /* step and ramp: of t - c (1), of c - t (0) */
+  int place; /* of its name in the text */
+  sunrealtype
+    number;   /* value, exponent, or the breakpoint of step and ramp, and of abs, min and
+                         max of what is linear in t (NaN: of others) */
+  int rising; /* at the breakpoint: of t - c (1), of c - t (0) */
 } stf_instruction;
 
 typedef struct stf_program {
@@ -121,6 +125,10 @@ int stf_program_parse(steif_context *ctx, const stf_source *source, const char *
  * *place is the instruction's place in the text. */
 const char *stf_program_run(const stf_program *program, sunrealtype t, int n, stf_series *stack,
                             int *place);
+/* What instruction k, an abs, min or max, asks the sign of at t: the argument, or the difference of the
+ * two; NaN where it has no value. */
+sunrealtype stf_program_switch(const stf_program *program, int k, sunrealtype t,
+                               stf_series *stack);
 
 /* ---- functions ------------------------------------------------------------------------------- */
 

@@ -47,6 +47,17 @@ static const char *two(enum stf_operation operation, int n, stf_series *a, const
   return wrong;
 }
 
+/* The smaller or larger of the two series on top, into a; at a breakpoint that to its right. */
+static const char *extreme(const stf_instruction *i, sunrealtype t, int n, stf_series *a,
+                           const stf_series *b)
+{
+  const bool known = !isnan(i->number), equal = a->c[0] == b->c[0];
+  if (!known && equal && n > 0) return "the derivative of min or max where both are equal";
+  const bool larger = known ? active(i, t) : a->c[0] > b->c[0];
+  if (larger == (i->operation == STF_MIN)) copy(n, b, a);
+  return NULL;
+}
+
 /* The series on top. */
 static const char *one(const stf_instruction *i, sunrealtype t, int n, stf_series *a,
                        stf_series *w)
@@ -64,7 +75,13 @@ static const char *one(const stf_instruction *i, sunrealtype t, int n, stf_serie
   case STF_POWER_REAL: wrong = stf_series_power(n, a, i->number, w); break;
   case STF_SQRT: wrong = stf_series_power(n, a, 0.5, w); break;
   case STF_LOG: wrong = stf_series_log(n, a, w); break;
-  case STF_ABS: wrong = stf_series_abs(n, a, w); break;
+  case STF_ABS:
+    if (isnan(i->number)) {
+      wrong = stf_series_abs(n, a, w);
+      break;
+    }
+    for (int k = 0; k <= n && !active(i, t); k++) a->c[k] = -a->c[k];
+    return NULL;
   case STF_EXP: stf_series_exp(n, a, w); break;
   case STF_SIN: stf_series_waves(n, a, -1, w, w + 1); break;
   case STF_COS: stf_series_waves(n, a, -1, w + 1, w); break;
@@ -100,6 +117,11 @@ const char *stf_program_run(const stf_program *program, sunrealtype t, int n, st
       top--;
       wrong = two(i->operation, n, top, top + 1, w);
       break;
+    case STF_MIN:
+    case STF_MAX:
+      top--;
+      wrong = extreme(i, t, n, top, top + 1);
+      break;
     default: wrong = one(i, t, n, top, w); break;
     }
     if (wrong) {
@@ -108,4 +130,26 @@ const char *stf_program_run(const stf_program *program, sunrealtype t, int n, st
     }
   }
   return NULL;
+}
+
+/* Series on the stack before instruction k. */
+static int height(const stf_program *program, int k)
+{
+  int count = 0;
+  for (int i = 0; i < k; i++) {
+    const enum stf_operation o = program->code[i].operation;
+    const bool pushes = o == STF_NUMBER || o == STF_TIME || o == STF_STEP;
+    count += pushes - (o >= STF_ADD && o <= STF_POWER && o != STF_NEGATE);
+  }
+  return count;
+}
+
+sunrealtype stf_program_switch(const stf_program *program, int k, sunrealtype t,
+                               stf_series *stack)
+{
+  int place;
+  const stf_program before = {program->code, k, program->depth};
+  if (stf_program_run(&before, t, 0, stack, &place)) return NAN;
+  const stf_series *top = stack + height(program, k) - 1;
+  return program->code[k].operation == STF_ABS ? top->c[0] : top[-1].c[0] - top->c[0];
 }

@@ -13,6 +13,7 @@ typedef struct stf_measure {
     *level;         /* n each: of every component; of the last run; its rounding */
   long double *sum; /* 4 x n: work, in the coordinates of the run */
   N_Vector room;    /* n */
+  sunrealtype h;    /* first step */
   int first, count; /* components paired */
   bool cq;
   bool longer; /* there is a second run in long double */

@@ -103,11 +103,12 @@ void stf_weak_judge(const stf_judged *j, steif_weak_result *r)
   const size_t room = sizeof r->verdict;
   if (isfinite(j->inside)) {
     undecided(r);
-    snprintf(
-      text, room,
-      "no order: the break of f at %.6g lies inside a step, an error bounded by O(h) that "
-      "depends on where; --h %.10g puts it on the mesh",
-      j->inside, j->fitting);
+    const int used = snprintf(text, room,
+                              "undecided: the break of f at %.6g lies inside a step, errors "
+                              "depend on where and have no order",
+                              j->inside);
+    if (isfinite(j->fitting))
+      snprintf(text + used, room - (size_t)used, "; --h %.17g puts it on the mesh", j->fitting);
     return;
   }
   if (usable < LEAST)

@@ -9,19 +9,28 @@
 
 #define USABLE 0.1   /* of an error, the most that rounding may be */
 #define UNSEEN 1e-10 /* of the size of g, derivatives that are none */
-enum { MOST_STEPS = 1 << 26, LOOKS = 500 };
+enum { STEPS = 64, MOST_STEPS = 1 << 26, LOOKS = 500 };
+
+/* The step of the first row. */
+static sunrealtype first_step(const steif_weak_query *q)
+{
+  const sunrealtype t1 = q->g ? q->g->t1 : 1, h = t1 / STEPS;
+  if (q->h != 0) return q->h;
+  const sunrealtype fitting = stf_break_step(q->break_count, q->breaks, t1, h);
+  return isfinite(fitting) ? fitting : h;
+}
 
 static int check_steps(steif_context *ctx, const steif_weak_query *q, sunrealtype t1)
 {
+  const sunrealtype h = first_step(q);
   STEIF_CHECK(t1 > 0 && isfinite(t1), ctx, STEIF_BAD_INPUT,
               "the test function ends at t1 = %g, which must be positive", t1);
-  STEIF_CHECK(q->h > 0 && q->h <= t1, ctx, STEIF_BAD_INPUT,
-              "the step h = %g must lie in (0, %g], the support of the test function", q->h,
-              t1);
-  STEIF_CHECK(ldexp(ceil(t1 / q->h), (int)fmin((double)q->rows, 64) - 1) <= MOST_STEPS, ctx,
+  STEIF_CHECK(h > 0 && h <= t1, ctx, STEIF_BAD_INPUT,
+              "the step h = %g must lie in (0, %g], the support of the test function", h, t1);
+  STEIF_CHECK(ldexp(ceil(t1 / h), (int)fmin((double)q->rows, 64) - 1) <= MOST_STEPS, ctx,
               STEIF_BAD_INPUT,
               "%zu rows from h = %g would take more than %d steps: ask for fewer rows", q->rows,
-              q->h, (int)MOST_STEPS);
+              h, (int)MOST_STEPS);
   return STEIF_OK;
 }
 
@@ -48,7 +57,7 @@ static int fill_row(stf_measure *w, size_t i, const steif_weak_result *result,
                     steif_weak_row *row)
 {
   const steif_weak_query *q = w->query;
-  const sunrealtype h = ldexp(q->h, -(int)i), t1 = (sunrealtype)w->subject.weight.t1;
+  const sunrealtype h = ldexp(w->h, -(int)i), t1 = (sunrealtype)w->subject.weight.t1;
   const bool all = q->component == STEIF_ALL;
   sunrealtype value = 0, error = 0, level = 0;
   STEIF_TRY(stf_measure_run(w, h, (size_t)ceil(t1 / h * (1 - 1e-9))));
@@ -145,6 +154,13 @@ static int conclude(const stf_measure *w, steif_weak_row *row, steif_weak_result
                   .size = fabs(result->exact),
                   .blind = -1,
                   .inside = NAN};
+  const steif_weak_query *q = w->query;
+  const sunrealtype t1 = (sunrealtype)s->weight.t1;
+  const size_t inside = stf_break_inside(q->break_count, q->breaks, t1, w->h);
+  if (inside < q->break_count) {
+    j.inside = q->breaks[inside];
+    j.fitting = stf_break_step(q->break_count, q->breaks, t1, w->h);
+  }
   STEIF_TRY(find_longest(w, &j));
   STEIF_TRY(find_blind(w, 0, s->block.k ? s->block.c : s->impulse.c, &j.blind));
   for (size_t b = 0; b < s->jumps; b++)
@@ -209,6 +225,7 @@ int steif_weak_measure(steif_context *ctx, const steif_weak_query *query, steif_
   STEIF_TRY(check(ctx, query));
   stf_measure w;
   int code = stf_measure_open(ctx, query, &w);
+  w.h = first_step(query);
   if (!code) code = measure_rows(&w, row, result);
   stf_measure_close(&w);
   return code;

@@ -57,6 +57,12 @@ int stf_trace_run(steif_context *ctx, const steif_problem *problem, const char *
 /* The trace starts with the value of convolution quadrature at t0 instead of x(0-). */
 bool stf_trace_is_cq(steif_context *ctx, const char *method, const char *start);
 
+/* The first break before t1 that is no whole number of steps h; count: none. */
+size_t stf_break_inside(size_t count, const sunrealtype *breaks, sunrealtype t1, sunrealtype h);
+/* A step near h with all of them on its mesh, NaN where there is none. */
+sunrealtype stf_break_step(size_t count, const sunrealtype *breaks, sunrealtype t1,
+                           sunrealtype h);
+
 /* What the rows of a measure are judged by. */
 typedef struct stf_judged {
   const steif_weak_row *row;

@@ -1,0 +1,179 @@
+/* test_breaks.c: f with jumps and kinks: impulses at its breaks, limits of a step, meshes.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "subject.h"
+#include "suite.h"
+#include <steif/input.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+enum { MOST = 4 };
+
+/* N x' + x = f of index n from 0, or the circuit below. */
+typedef struct system_of {
+  steif_context *ctx;
+  steif_linear linear;
+  steif_function *function;
+  sunrealtype x0[MOST], breaks[MOST];
+  size_t count;
+} system_of;
+
+static void open_system(system_of *s, int n, const char *f)
+{
+  *s = (system_of){.ctx = steif_context_new(NULL)};
+  s->linear.E = SUNDenseMatrix(n, n, steif_sundials(s->ctx));
+  s->linear.F = SUNDenseMatrix(n, n, steif_sundials(s->ctx));
+  for (int i = 0; i < n; i++) SM_ELEMENT_D(s->linear.F, i, i) = 1;
+  for (int i = 0; i + 1 < n; i++) SM_ELEMENT_D(s->linear.E, i, i + 1) = 1;
+  s->function = steif_function_parse(s->ctx, f, n, NULL);
+  CU_ASSERT_FATAL(s->function != NULL);
+  s->linear.f = steif_function_value, s->linear.user = s->function;
+  s->count = steif_function_breaks(s->function, 0, 1, MOST, s->breaks);
+}
+
+static void close_system(system_of *s)
+{
+  SUNMatDestroy(s->linear.E), SUNMatDestroy(s->linear.F);
+  steif_function_free(&s->function);
+  steif_context_free(&s->ctx);
+}
+
+/* Capacitor 1/2 across a source e = 2 step(t - 0.3), series R, L, C of 1 beside it: C v' = i_L,
+ * L i_L' + v + R i_L = e, i = e'/2 + i_L; unknowns v, i_L, e, i, index 2. */
+static void open_circuit(system_of *s)
+{
+  static const double F[4][4] = {{0, -1, 0, 0}, {1, 1, -1, 0}, {0, 0, 1, 0}, {0, 1, 0, -1}};
+  open_system(s, 4, "0;0;2*step(t-0.3);0");
+  SUNMatZero(s->linear.E);
+  SM_ELEMENT_D(s->linear.E, 0, 0) = SM_ELEMENT_D(s->linear.E, 1, 1) = 1;
+  SM_ELEMENT_D(s->linear.E, 3, 2) = 0.5;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) SM_ELEMENT_D(s->linear.F, i, j) = F[i][j];
+}
+
+/* int_a^1 (t - a)^q (1 - t)^8 / q! dt = 8! (1 - a)^(9 + q) / (9 + q)! */
+static double tail(double a, int q)
+{
+  double value = pow(1 - a, 9 + q);
+  for (int i = 9; i <= 9 + q; i++) value /= i;
+  return value;
+}
+
+static void expect(system_of *s, int n, const double *value, double tolerance)
+{
+  stf_subject subject;
+  double found[MOST], accuracy;
+  char how[160];
+  CU_ASSERT_FATAL(!stf_subject_open(s->ctx, NULL, &s->linear, s->x0, &subject));
+  subject.sides.count = s->count, subject.sides.breaks = s->breaks;
+  CHECK(!stf_subject_pair(&subject, found, &accuracy, how, sizeof how));
+  CHECK(subject.jumps == s->count && accuracy < 1e-12);
+  for (int m = 0; m < n; m++) CLOSE_FLOOR(found[m], value[m], tolerance, 1e-3);
+  stf_subject_close(&subject);
+  close_system(s);
+}
+
+static void impulses_at_breaks_are_paired(void)
+{
+  system_of s;
+  open_system(&s, 2, "0;step(t-0.3)"); /* x1 = -delta, x2 = step */
+  expect(&s, 2, (double[]){-pow(0.7, 8), tail(0.3, 0)}, 1e-13);
+  open_system(&s, 3, "0;ramp(t-1/4);step(t-1/2)"); /* x2 = ramp - delta, x1 = delta' - step */
+  expect(&s, 3,
+         (double[]){8 * pow(0.5, 7) - tail(0.25, 0), tail(0.25, 1) - pow(0.5, 8), tail(0.5, 0)},
+         1e-13);
+  open_system(&s, 3, "0;0;ramp(t-0.3)"); /* a kink is an impulse of index 3 */
+  expect(&s, 3, (double[]){pow(0.7, 8), -tail(0.3, 0), tail(0.3, 1)}, 1e-13);
+  /* 2 ramp(t - 0.3) + 0.6 - t: x3(0+) = 0.6 and x2(0+) = 1 are jumps, too */
+  open_system(&s, 3, "0;0;abs(t-0.3)+min(t,0.3)+max(0,0.3-t)");
+  CHECK(s.count == 1);
+  expect(&s, 3,
+         (double[]){0.6 * 8 + 2 * pow(0.7, 8) - 1, 1. / 9 - 2 * tail(0.3, 0) - 0.6,
+                    0.6 / 9 - tail(0, 1) + 2 * tail(0.3, 1)},
+         1e-13);
+}
+
+/* 40-digit quadrature of the closed solution. */
+static void a_circuit_with_a_switched_source(void)
+{
+  system_of s;
+  open_circuit(&s);
+  expect(&s, 4,
+         (double[]){3.762179308764653e-5, 5.878959908535827e-4, 0.008967468222222222,
+                    0.05823590599085358},
+         1e-12);
+}
+
+/* Of component 0 of N x' + x = f, where only the last f is not 0. */
+static steif_weak_result measure(const char *method, int n, const char *f,
+                                 enum steif_convention convention, sunrealtype h,
+                                 steif_weak_row *row, size_t rows)
+{
+  system_of s;
+  steif_weak_result result;
+  open_system(&s, n, f);
+  const steif_weak_query query = {.method = method,
+                                  .linear = &s.linear,
+                                  .x0 = s.x0,
+                                  .convention = convention,
+                                  .h = h,
+                                  .rows = rows,
+                                  .break_count = s.count,
+                                  .breaks = s.breaks};
+  CHECK(!steif_weak_measure(s.ctx, &query, row, &result));
+  close_system(&s);
+  return result;
+}
+
+/* Backward Euler: 1; Radau IIA of s stages, which restarts at the break since the stage at its end takes
+ * the limit from the left: s + 2 - k. */
+static void orders_on_the_mesh(void)
+{
+  static const struct {
+    const char *method, *f;
+    int k, order;
+  } known[] = {{"be", "0;step(t-0.3)", 2, 1},
+               {"be", "0;0;step(t-0.3)", 3, 1},
+               {"radau:s=2", "0;step(t-0.3)", 2, 2},
+               {"radau:s=2", "0;0;step(t-0.3)", 3, 1},
+               {"radau:s=2", "0;0;0;step(t-0.3)", 4, 0},
+               {"radau:s=3", "0;step(t-0.3)", 2, 3},
+               {"radau:s=3", "0;0;step(t-0.3)", 3, 2},
+               {"radau:s=3", "0;0;0;step(t-0.3)", 4, 1}};
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    steif_weak_row row[5];
+    const steif_weak_result r = measure(known[i].method, known[i].k, known[i].f,
+                                        i < 2 ? STEIF_R : STEIF_STAGE, 0, row, 5);
+    CHECK(r.converges == (known[i].order > 0));
+    CHECK(fabs(row[4].order - known[i].order) < 0.05);
+    CHECK(fabs(0.3 / row[0].h - round(0.3 / row[0].h)) < 1e-9);
+  }
+}
+
+/* Off the mesh errors jump: 113-bit arithmetic, h = 1/64 .. 1/1024. */
+static void no_order_off_the_mesh(void)
+{
+  static const double error[] = {.00295248, .000496064, -.000780842, -.000129853, .000192474};
+  steif_weak_row row[5];
+  const steif_weak_result r = measure("be", 2, "0;step(t-0.3)", STEIF_R, 1.0 / 64, row, 5);
+  CHECK(r.converges == -1 && strstr(r.verdict, "break of f at 0.3 lies inside a step") != NULL);
+  for (int i = 0; i < 5; i++) CLOSE(row[i].error, error[i], 1e-5);
+}
+
+static void meshes_hold_all_breaks(void)
+{
+  const sunrealtype both[] = {0.25, 0.3}, odd[] = {0.1, 0.31415926535897931};
+  const sunrealtype h = stf_break_step(2, both, 1, 1. / 64);
+  CHECK(stf_break_inside(2, both, 1, h) == 2 && h > 1. / 128 && h < 1. / 32);
+  CHECK(stf_break_inside(2, both, 1, 1. / 64) == 1 &&
+        stf_break_inside(2, both, 0.3, 1. / 64) == 2);
+  CHECK(isnan(stf_break_step(2, odd, 1, 1. / 64)));
+  CHECK(stf_break_step(0, NULL, 1, 1. / 64) == 1. / 64);
+}
+
+CU_TestInfo tests_of_breaks[] = {
+  {"impulses at breaks of f are paired", impulses_at_breaks_are_paired},
+  {"a circuit with a switched source pairs to 12 digits", a_circuit_with_a_switched_source},
+  {"breaks on the mesh leave orders as restarts do", orders_on_the_mesh},
+  {"breaks inside steps leave no order", no_order_off_the_mesh},
+  {"meshes hold all breaks", meshes_hold_all_breaks},
+  CU_TEST_INFO_NULL};
