@@ -2,39 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak.h"
 
-static void fill(steif_report *r, const struct call *call, const void *result)
-{
-  const struct weak *w = result;
-  (void)call;
-  steif_report_text(r, "method", w->query.method);
-  steif_report_whole(r, "index", w->k);
-  steif_report_text(r, "case", w->kind);
-  steif_report_text(r, "convention", convention_name(w->query.convention));
-  steif_report_real(r, "exact", w->result.exact);
-  for (size_t i = 0; i < w->query.rows; i++) {
-    weak_row_begin(r, w->row + i);
-    steif_report_real(r, "rows.value", w->row[i].value);
-    weak_row_end(r, w->row + i);
-  }
-  steif_report_text(r, "verdict", w->result.verdict);
-}
-
-static int on_block(struct call *call)
-{
-  struct weak w = weak_asked(call);
-  if (!w.k)
-    return bad_usage(call,
-                     "--index K is needed, the index of N x' + x = f, or a system to run on");
-  progress(call, "%s on index %ld", w.query.method, w.k);
-  if (weak_measure(call->ctx, &w) != STEIF_OK) return fail(call);
-  const int code = present_result(call, fill, &w);
-  return code ? code : weak_end(call, &w);
-}
-
 static int run(struct call *call)
 {
   const bool block = given(call, "--index") || given(call, "--case");
-  if (call->words == 1) return on_block(call);
+  if (call->words == 1) return weak_block(call);
   return block
            ? bad_usage(call, "--index and --case name a Jordan block; leave them out with a "
                              "system")
@@ -59,6 +30,11 @@ static const struct option options[] = {
    "times at which f or a derivative of it jumps (default: those of "
    "step, ramp, abs, min and max of what is linear in t)",
    NULL},
+  {"--g", WORD, "EXPR[;EXPR..]",
+   "test functions: expressions in t, or power:n=, bump:c=,w=, "
+   "expcos:a=,b=, hermite:n=,scale=",
+   "power:n=8"},
+  {"--t1", POSITIVE, "T", "they end at T (default: 1, or where they are 0)", NULL},
   {"--state-space", FLAG, NULL, "the second file is A of E x' = A x + f, so F = -A", NULL},
   START_OPTIONS,
   OPTIONS_END,

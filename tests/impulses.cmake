@@ -464,7 +464,17 @@ foreach(run "be;--index;12" "gauss:s=3;--index;5" "gauss:s=3;--index;4;--h;0.003
     message(SEND_ERROR "weak ${run}: ${verdict}")
   endif()
 endforeach()
-expect(5 weak be switchrlc --json) # its time constants are 7e-5 s
+expect(5 weak be switchrlc ERR "fastest finite eigenvalue.*--t1") # its time constants are 7e-5 s
+expect(0 weak be switchrlc --t1 1e-3)
+expect(5 weak radau:s=3 --index 5 --g bump ERR "does not see impulses")
+expect(0 weak bdf:p=2 --start cq --index 4 --g expcos:a=1,b=5 --h 0.03125 --halvings 4 --json)
+near(114658727836 exact)
+near(40 t1)
+expect(5 weak be --index 2 --g hermite:n=1,scale=0.3 ERR "impulses of order 0") # odd
+expect(2 weak be --index 3 --g "abs(t-0.3)" ERR "not smooth at t = 0.3")
+expect(2 weak be --index 3 --g bump:w=-1 ERR "bump takes c and w")
+expect(2 weak be --index 3 --g 1/t ERR "no derivatives")
+expect(2 weak be --index 3 --g sine ERR "sin")
 # f = (0, step(t - 0.3)): x_1 = -delta at 0.3, paired -0.7^8, and backward Euler has order 1 where the
 # break is on its mesh.
 matrix(E2.mtx 2 2 "1 2 1")

@@ -5,6 +5,7 @@
 
 #include "curves.h"
 #include "descriptor.h"
+#include "test_function.h"
 
 /* About a Jordan block, or a system. */
 struct weak {
@@ -14,18 +15,28 @@ struct weak {
   steif_weak_query query; /* method, start, h and rows are given, the rest is filled in */
   char problem[96];       /* of the Jordan block */
   double breaks[REALS_MOST];
+  struct test_function g; /* of --g and --t1 */
   steif_weak_row row[HALVINGS];
   steif_weak_result result;
 };
 
 int weak_measure(steif_context *ctx, struct weak *w);
+/* With what asks for the problem filled in: one test function and its rows by `fill`, or a family. Its
+ * exit code. */
+int weak_answer(struct call *call, struct weak *w, report_filler *fill, const void *result);
+/* Each of several test functions, in words separated by ';'. */
+int weak_family(struct call *call, struct weak *w, const char *words);
+/* Where the test functions end: the last of them. */
+int weak_end_of_test(struct call *call, double *t1);
 /* What a call asks for. */
 struct weak weak_asked(const struct call *call);
 /* A row of the report: what comes before its values, and after. */
 void weak_row_begin(steif_report *r, const steif_weak_row *row);
 void weak_row_end(steif_report *r, const steif_weak_row *row);
-/* The picture; EXIT_UNCERTIFIED where the verdict is open. */
-int weak_end(const struct call *call, const struct weak *w);
+/* The test function and the verdict. */
+void weak_verdict(steif_report *r, const struct weak *w);
+/* `steif weak METHOD --index K`; an exit code. */
+int weak_block(struct call *call);
 /* `steif weak METHOD E.mtx F.mtx` or PROBLEM: one component, or all; an exit code. */
 int weak_system(struct call *call);
 const char *convention_name(enum steif_convention convention);

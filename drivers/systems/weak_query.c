@@ -59,15 +59,45 @@ void weak_row_end(steif_report *r, const steif_weak_row *row)
   steif_report_real(r, "rows.order", row->usable ? row->order : NAN);
 }
 
-int weak_end(const struct call *call, const struct weak *w)
+void weak_verdict(steif_report *r, const struct weak *w)
+{
+  if (w->query.g) steif_report_text(r, "g", w->g.text);
+  if (w->query.g) steif_report_real(r, "t1", w->query.g->t1);
+  if (*w->result.note) steif_report_text(r, "note", w->result.note);
+  steif_report_text(r, "verdict", w->result.verdict);
+}
+
+/* The picture; EXIT_UNCERTIFIED where the verdict is open: one row asks for none. */
+static int end(const struct call *call, const struct weak *w)
 {
   error_curves errors = {.title = call->word[0], .y_label = "weak error"};
   errors_open(&errors, call->word[0]);
   for (size_t i = 0; i < w->query.rows; i++) errors_add(&errors, w->row[i].h, w->row[i].error);
   const int code = errors_plot(call, &errors, call->plot);
-  const bool open =
-    w->query.rows > 1 && w->result.converges < 0; /* one row asks for no verdict */
-  if (code || !open) return code;
+  if (code || w->query.rows == 1 || w->result.converges >= 0) return code;
   say(call, "%s [STEIF_NOT_CERTIFIED]", w->result.verdict);
   return EXIT_UNCERTIFIED;
+}
+
+/* --g, or the usual one on the interval of --t1. */
+static int find_test(struct call *call, struct weak *w)
+{
+  const bool asked = given(call, "--g") || given(call, "--t1");
+  const char *words = given(call, "--g") ? word_of(call, "--g") : "power";
+  if (!asked) return EXIT_OK;
+  const int code = test_function_open(call, words, real_of(call, "--t1"), &w->g);
+  w->query.g = &w->g.weight;
+  return code;
+}
+
+int weak_answer(struct call *call, struct weak *w, report_filler *fill, const void *result)
+{
+  const char *words = word_of(call, "--g");
+  if (words && strchr(words, ';')) return weak_family(call, w, words);
+  int code = find_test(call, w);
+  if (!code && weak_measure(call->ctx, w)) code = descriptor_fail(call);
+  if (!code) code = present_result(call, fill, result);
+  if (!code) code = end(call, w);
+  test_function_close(&w->g);
+  return code;
 }

@@ -50,16 +50,14 @@ static void fill(steif_report *r, const struct call *call, const void *result)
       steif_report_real(r, "rows.value", w->row[i].value);
     weak_row_end(r, w->row + i);
   }
-  steif_report_text(r, "verdict", w->result.verdict);
+  weak_verdict(r, w);
   steif_report_text(r, "message", w->result.source);
 }
 
 static int answer(struct call *call, struct weak *w, size_t n)
 {
   progress(call, "%s on %s", call->word[0], call->word[1]);
-  if (weak_measure(call->ctx, w)) return descriptor_fail(call);
-  const int code = present_result(call, fill, &(struct answer){w, n});
-  return code ? code : weak_end(call, w);
+  return weak_answer(call, w, fill, &(struct answer){w, n});
 }
 
 /* The first place where f turns between its breaks; NaN: none. */
@@ -78,8 +76,9 @@ static double turn(const struct descriptor *l, const struct weak *w, double t1)
 /* Breaks of f: those that its expressions declare, and --breaks. */
 static int find_breaks(struct call *call, const struct descriptor *l, struct weak *w)
 {
-  const double t1 = 1;
-  double *at = w->breaks;
+  double t1, *at = w->breaks;
+  const int code = weak_end_of_test(call, &t1);
+  if (code) return code;
   const size_t count = reals_of(call, "--breaks", at);
   const size_t own = steif_function_breaks(l->function, 0, t1, REALS_MOST - count, at + count);
   if (count + own > REALS_MOST)

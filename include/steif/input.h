@@ -84,6 +84,9 @@ STEIF_EXPORT void steif_function_free(steif_function **f);
  * NaN in these. */
 STEIF_EXPORT int steif_function_value(sunrealtype t, int derivative, N_Vector g,
                                       void *function);
+/* c_j = f^(j)(t) / j!, j = 0 .. order, of the first of the expressions; nonzero where there is none: fits steif_weight with the function as user data. */
+STEIF_EXPORT int steif_function_taylor(long double t, int order, long double *c,
+                                       void *function);
 /* u of f = B u, or f itself where there is no B: how many values, and these at t. */
 STEIF_EXPORT size_t steif_function_count(const steif_function *f);
 STEIF_EXPORT int steif_function_inputs(sunrealtype t, steif_function *f, sunrealtype *u);

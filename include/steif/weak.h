@@ -59,6 +59,7 @@ typedef struct steif_weak_result {
   sunrealtype accuracy; /* of exact, as far as seen; 0: closed formulas */
   char source[160];     /* how exact was found */
   int index;            /* of the system */
+  char note[160]; /* on the test function, where it does not end smoothly at t1; else empty */
 } steif_weak_result;
 
 enum { STEIF_ALL = -1 }; /* components */
@@ -70,6 +71,7 @@ typedef struct steif_weight {
   int (*taylor)(long double t, int order, long double *c, void *user);
   void *user;
   sunrealtype t1;
+  sunrealtype rounding; /* of its values, relative; 0: that of long double */
 } steif_weight;
 
 /* Pair component `component` (0-based) of runs with steps h, h/2, ... on [0, t1]: of a Jordan block,

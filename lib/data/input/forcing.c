@@ -311,6 +311,17 @@ static int expressions(steif_function *f, sunrealtype t, int derivative, sunreal
   return derivative && known ? STEIF_OK : wrong;
 }
 
+int steif_function_taylor(long double t, int order, long double *c, void *function)
+{
+  steif_function *f = function;
+  int place;
+  if (!f || order < 0 || order > STF_ORDER || f->samples.points) return STEIF_UNSUPPORTED;
+  if (stf_program_run(f->program, (sunrealtype)t, order, f->stack, &place))
+    return STEIF_NOT_FINITE;
+  for (int j = 0; j <= order; j++) c[j] = f->stack->c[j];
+  return STEIF_OK;
+}
+
 /* g = B u. */
 static void multiply(const steif_function *f, const sunrealtype *u, sunrealtype *g)
 {

@@ -10,7 +10,10 @@
 
 static void add(stf_pairing *p, long double weight, const long double *x)
 {
-  if (p->shaken) weight *= 1 + ROUNDING * LDBL_EPSILON * stf_random_in(p->shaken, -1, 1);
+  if (p->shaken) {
+    const long double part = p->g->given ? p->g->given->rounding : 0;
+    weight *= 1 + (part + ROUNDING * LDBL_EPSILON) * stf_random_in(p->shaken, -1, 1);
+  }
   for (int m = 0; m < p->n && weight != 0; m++) p->sum[m] += weight * x[m];
 }
 

@@ -75,9 +75,11 @@ static int too_few(const stf_judged *j, size_t from, size_t usable, steif_weak_r
   const size_t room = sizeof r->verdict;
   undecided(r);
   if (from == j->rows)
-    return snprintf(text, room,
-                    "undecided: steps of %.3g do not resolve %s; take them below %.2g",
-                    j->row[j->rows - 1].h, j->fastest, j->longest);
+    return snprintf(
+      text, room,
+      "undecided: steps of %.3g do not resolve %s; take them below %.2g (--h), or a "
+      "shorter interval (--t1)",
+      j->row[j->rows - 1].h, j->fastest, j->longest);
   if (zeros(j, from + usable)) {
     r->converges = 1;
     return usable ? snprintf(text, room, "converges weakly, below rounding from h = %.3g on",

@@ -5,11 +5,13 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "measure.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-#define USABLE 0.1   /* of an error, the most that rounding may be */
-#define UNSEEN 1e-10 /* of the size of g, derivatives that are none */
-enum { STEPS = 64, MOST_STEPS = 1 << 26, LOOKS = 500 };
+#define USABLE 0.1    /* of an error, the most that rounding may be */
+#define UNSEEN 1e-10  /* of the size of g, derivatives that are none */
+#define UNENDED 1e-12 /* of it, at the end of its interval */
+enum { LAYERS = 2, STEPS = 64, MOST_STEPS = 1 << 26, LOOKS = 500 };
 
 /* The step of the first row. */
 static sunrealtype first_step(const steif_weak_query *q)
@@ -100,6 +102,7 @@ static int rate_of_forcing(const stf_measure *w, sunrealtype *rate)
 
 static int find_longest(const stf_measure *w, stf_judged *j)
 {
+  const stf_subject *s = &w->subject;
   long double most, rate;
   sunrealtype of_f;
   STEIF_TRY(stf_weight_scale(&w->subject.weight, &most, &rate));
@@ -108,11 +111,13 @@ static int find_longest(const stf_measure *w, stf_judged *j)
     sunrealtype rate;
     const char *what;
   } known[] = {{(sunrealtype)rate, "the test function"},
+               {LAYERS * (s->index + 1) / (sunrealtype)s->weight.t1,
+                "the interval of the test function, which holds the layer"},
                {of_f, "the forcing"},
-               {w->subject.structure.finite > 0 ? w->subject.structure.radius : 0,
+               {s->structure.finite > 0 ? s->structure.radius : 0,
                 "the fastest finite eigenvalue of the system"}};
   j->longest = INFINITY;
-  for (int i = 0; i < 3; i++)
+  for (int i = 0; i < 4; i++)
     if (1 / known[i].rate < j->longest) {
       j->longest = 1 / known[i].rate;
       j->fastest = known[i].what;
@@ -138,11 +143,29 @@ static int find_blind(const stf_measure *w, sunrealtype t, const sunrealtype *c,
   STEIF_TRY(stf_weight_scale(&w->subject.weight, &most, &rate));
   if (k < 2) return STEIF_OK;
   STEIF_TRY(stf_weight_at(&w->subject.weight, t, k - 1, g));
-  for (int q = 0; q < k; q++, scale *= q / w->subject.weight.t1) {
+  for (int q = 0; q < k; q++, scale *= rate) {
     if (fabsl(g[q]) > (long double)UNSEEN * most * scale) continue;
     if ((q < k - 1 && !has_impulse(w, c, q)) || *blind >= 0) continue;
     *blind = q;
   }
+  return STEIF_OK;
+}
+
+/* Does g end with its first k - 1 derivatives at 0? */
+static int look_at_end(const stf_measure *w, char *note, size_t room)
+{
+  const int k = w->subject.index > 1 ? w->subject.index : 1;
+  const stf_weight *g = &w->subject.weight;
+  long double d[STF_DERIVATIVES], most, rate, scale = 1;
+  STEIF_TRY(stf_weight_scale(g, &most, &rate));
+  STEIF_CHECK(k < STF_DERIVATIVES, w->ctx, STEIF_UNSUPPORTED,
+              "index %d takes too many derivatives of the test function", k);
+  STEIF_TRY(stf_weight_end(g, k - 1, d));
+  for (int q = 0; q < k && !*note; q++, scale *= rate)
+    if (fabsl(d[q]) > UNENDED * most * scale)
+      snprintf(note, room,
+               "g%s%.0d(t1) = %.3Lg at t1 = %.3Lg is not 0: values belong to g cut off there",
+               q ? "^" : "", q, d[q], g->t1);
   return STEIF_OK;
 }
 
@@ -162,6 +185,7 @@ static int conclude(const stf_measure *w, steif_weak_row *row, steif_weak_result
     j.fitting = stf_break_step(q->break_count, q->breaks, t1, w->h);
   }
   STEIF_TRY(find_longest(w, &j));
+  STEIF_TRY(look_at_end(w, result->note, sizeof result->note));
   STEIF_TRY(find_blind(w, 0, s->block.k ? s->block.c : s->impulse.c, &j.blind));
   for (size_t b = 0; b < s->jumps; b++)
     STEIF_TRY(find_blind(w, s->jump[b].t, s->jump[b].at.c, &j.blind));
