@@ -20,7 +20,11 @@ struct weak {
   steif_weak_result result;
 };
 
+/* The convention and the name of the problem, then the measure. */
+int weak_prepare(steif_context *ctx, struct weak *w);
 int weak_measure(steif_context *ctx, struct weak *w);
+/* Norms in H^-m; m 0: the usual one. */
+int weak_ball(struct call *call, struct weak *w, int m);
 /* With what asks for the problem filled in: one test function and its rows by `fill`, or a family. Its
  * exit code. */
 int weak_answer(struct call *call, struct weak *w, report_filler *fill, const void *result);

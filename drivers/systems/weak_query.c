@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *const name[] = {"P", "R", "C", "stage"}; /* enum steif_convention */
@@ -30,7 +31,7 @@ static enum steif_convention usual(const char *method, const char *start,
   return m->stages > 1 || (table && strncmp(method, "radau:s=1", 9)) ? STEIF_STAGE : STEIF_R;
 }
 
-int weak_measure(steif_context *ctx, struct weak *w)
+int weak_prepare(steif_context *ctx, struct weak *w)
 {
   steif_method_info m;
   const int code = steif_method_find(ctx, w->query.method, &m);
@@ -42,7 +43,13 @@ int weak_measure(steif_context *ctx, struct weak *w)
   w->query.convention = usual(w->query.method, w->query.start, &m);
   for (int i = 0; w->convention && i < 4; i++)
     if (!strcmp(w->convention, name[i])) w->query.convention = (enum steif_convention)i;
-  return steif_weak_measure(ctx, &w->query, w->row, &w->result);
+  return STEIF_OK;
+}
+
+int weak_measure(steif_context *ctx, struct weak *w)
+{
+  const int code = weak_prepare(ctx, w);
+  return code ? code : steif_weak_measure(ctx, &w->query, w->row, &w->result);
 }
 
 void weak_row_begin(steif_report *r, const steif_weak_row *row)
@@ -83,7 +90,7 @@ static int end(const struct call *call, const struct weak *w)
 static int find_test(struct call *call, struct weak *w)
 {
   const bool asked = given(call, "--g") || given(call, "--t1");
-  const char *words = given(call, "--g") ? word_of(call, "--g") : "power";
+  const char *g = word_of(call, "--g"), *words = g && strncmp(g, "ball:", 5) ? g : "power";
   if (!asked) return EXIT_OK;
   const int code = test_function_open(call, words, real_of(call, "--t1"), &w->g);
   w->query.g = &w->g.weight;
@@ -93,8 +100,15 @@ static int find_test(struct call *call, struct weak *w)
 int weak_answer(struct call *call, struct weak *w, report_filler *fill, const void *result)
 {
   const char *words = word_of(call, "--g");
+  const bool ball = words && !strncmp(words, "ball:m=", 7);
   if (words && strchr(words, ';')) return weak_family(call, w, words);
   int code = find_test(call, w);
+  if (!code && (ball || given(call, "--ball"))) {
+    code = weak_ball(call, w,
+                     ball ? (int)strtol(words + 7, NULL, 10) : (int)whole_of(call, "--ball"));
+    test_function_close(&w->g);
+    return code;
+  }
   if (!code && weak_measure(call->ctx, w)) code = descriptor_fail(call);
   if (!code) code = present_result(call, fill, result);
   if (!code) code = end(call, w);

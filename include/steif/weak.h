@@ -102,6 +102,33 @@ typedef struct steif_weak_query {
 STEIF_EXPORT int steif_weak_measure(steif_context *ctx, const steif_weak_query *query,
                                     steif_weak_row *row, steif_weak_result *result);
 
+/* The worst case over all test functions: with |g|_m = t1^(m - 1/2) ||g^(m)||_L2(0, t1) for g that vanish
+ * with m - 1 derivatives at t1,
+ *   sup |<x_h - x, g>| / |g|_m = t1^(1/2 - m) ||I^m (x_h - x)||_L2(0, t1),
+ * I^m the m-fold integral from 0-; over several components 2-norms. H^-m holds the impulses of index k from
+ * m = k - 1 on, where the order is 1/2 at best; it is p from m = k + p - 1 on. Convergence for every smooth
+ * g is convergence in some H^-m. */
+typedef struct steif_ball_row {
+  sunrealtype h, norm, rounding, order;
+  int usable; /* rounding <= 0.1 norm */
+} steif_ball_row;
+typedef struct steif_ball_space {
+  int m;
+  sunrealtype norm, order; /* of the smallest usable step */
+  int converges;           /* 1, 0, or -1: undecided */
+} steif_ball_space;
+enum { STEIF_SPACES = 20 };
+typedef struct steif_weak_ball {
+  int index, m, count;
+  steif_ball_space space[STEIF_SPACES]; /* m = k - 1 .. k + p + 1, p the order of the method */
+  char verdict[256];
+  int converges; /* for every smooth g: 1, 0, or -1: undecided */
+} steif_weak_ball;
+/* Rows of H^-m (m = 0: k + p - 1) as the query asks for, and orders in all spaces. Of its g only t1
+ * counts; no breaks of f. For be, bdf and Runge-Kutta methods with regular A. */
+STEIF_EXPORT int steif_weak_measure_ball(steif_context *ctx, const steif_weak_query *query,
+                                         int m, steif_ball_row *row, steif_weak_ball *result);
+
 /* <x_h, g> of one component of a sequence x_0 .. x_m at times t_0 < ... < t_m (x by values of that
  * component) in convention P, R or C; box averages by Gauss quadrature of degree 15. */
 STEIF_EXPORT sunrealtype steif_pair(enum steif_convention convention, size_t m,

@@ -12,11 +12,110 @@
 /* Of differences between runs on multiples of the data, which see nothing of coefficients that are
  * rounded once and for all. */
 enum { DISTRUST = 16 };
+enum { LAYERS = 2, STEPS = 64, MOST_STEPS = 1 << 26, LOOKS = 500 };
+
+/* The step of the first row. */
+static sunrealtype first_step(const steif_weak_query *q)
+{
+  const sunrealtype t1 = q->g ? q->g->t1 : 1, h = t1 / STEPS;
+  if (q->h != 0) return q->h;
+  const sunrealtype fitting = stf_break_step(q->break_count, q->breaks, t1, h);
+  return isfinite(fitting) ? fitting : h;
+}
+
+static int check_steps(steif_context *ctx, const steif_weak_query *q, sunrealtype t1)
+{
+  const sunrealtype h = first_step(q);
+  STEIF_CHECK(t1 > 0 && isfinite(t1), ctx, STEIF_BAD_INPUT,
+              "the test function ends at t1 = %g, which must be positive", t1);
+  STEIF_CHECK(h > 0 && h <= t1, ctx, STEIF_BAD_INPUT,
+              "the step h = %g must lie in (0, %g], the support of the test function", h, t1);
+  STEIF_CHECK(ldexp(ceil(t1 / h), (int)fmin((double)q->rows, 64) - 1) <= MOST_STEPS, ctx,
+              STEIF_BAD_INPUT,
+              "%zu rows from h = %g would take more than %d steps: ask for fewer rows", q->rows,
+              h, (int)MOST_STEPS);
+  return STEIF_OK;
+}
+
+int stf_measure_check(steif_context *ctx, const steif_weak_query *q)
+{
+  STEIF_CHECK(q->method, ctx, STEIF_BAD_INPUT, "no method was named: give one such as \"be\"");
+  STEIF_CHECK(q->convention >= STEIF_P && q->convention <= STEIF_STAGE, ctx, STEIF_BAD_INPUT,
+              "convention %d is none of P, R, C and stage", (int)q->convention);
+  STEIF_CHECK(q->rows >= 1, ctx, STEIF_BAD_INPUT,
+              "no rows were asked for: three or more decide");
+  STEIF_CHECK(!q->break_count || q->linear, ctx, STEIF_BAD_INPUT,
+              "breaks belong to the forcing of a system of one's own");
+  for (size_t b = 0; b < q->break_count; b++)
+    STEIF_CHECK(q->breaks[b] > (b ? q->breaks[b - 1] : 0), ctx, STEIF_BAD_INPUT,
+                "breaks must be positive and ascend: %g comes after %g", q->breaks[b],
+                b ? q->breaks[b - 1] : 0);
+  return check_steps(ctx, q, q->g ? q->g->t1 : 1);
+}
+
+int stf_measure_components(stf_measure *w)
+{
+  const steif_weak_query *q = w->query;
+  const int n = w->subject.n;
+  STEIF_CHECK(q->component == STEIF_ALL || (q->component >= 0 && q->component < n), w->ctx,
+              STEIF_BAD_INPUT, "component %d is not one of the %d of '%s'", q->component + 1, n,
+              w->subject.problem.name);
+  w->first = q->component == STEIF_ALL ? 0 : q->component;
+  w->count = q->component == STEIF_ALL ? n : 1;
+  return STEIF_OK;
+}
+
+/* The largest rate at which f changes, 1/time: (|f^(j)| / |f|)^(1/j) over places of [0, t1]. */
+static int rate_of_forcing(const stf_measure *w, sunrealtype *rate)
+{
+  const stf_subject *s = &w->subject;
+  const steif_forcing f = s->block.k ? s->block.forcing : s->linear.f;
+  void *user = s->block.k ? s->block.user : s->linear.user;
+  sunrealtype most = 0;
+  *rate = 0;
+  for (int j = 0; f && j <= s->index; j++) {
+    sunrealtype largest = 0;
+    for (int i = 0; i < LOOKS; i++) {
+      const sunrealtype t = (sunrealtype)w->subject.weight.t1 * (i + 0.5) / LOOKS;
+      if (f(t, j, w->room, user)) return STEIF_OK; /* no more derivatives */
+      largest = fmax(largest, N_VMaxNorm(w->room));
+    }
+    if (j == 0) most = largest;
+    if (j > 0 && most > 0) *rate = fmax(*rate, pow(largest / most, 1.0 / j));
+  }
+  return STEIF_OK;
+}
+
+int stf_measure_longest(const stf_measure *w, sunrealtype *longest, const char **fastest)
+{
+  const stf_subject *s = &w->subject;
+  long double most, rate;
+  sunrealtype of_f;
+  STEIF_TRY(stf_weight_scale(&w->subject.weight, &most, &rate));
+  STEIF_TRY(rate_of_forcing(w, &of_f));
+  const struct {
+    sunrealtype rate;
+    const char *what;
+  } known[] = {{(sunrealtype)rate, "the test function"},
+               {LAYERS * (s->index + 1) / (sunrealtype)s->weight.t1,
+                "the interval of the test function, which holds the layer"},
+               {of_f, "the forcing"},
+               {s->structure.finite > 0 ? s->structure.radius : 0,
+                "the fastest finite eigenvalue of the system"}};
+  *longest = INFINITY;
+  for (int i = 0; i < 4; i++)
+    if (1 / known[i].rate < *longest) {
+      *longest = 1 / known[i].rate;
+      *fastest = known[i].what;
+    }
+  return STEIF_OK;
+}
 
 int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_measure *w)
 {
   *w = (stf_measure){.ctx = ctx, .query = query};
   w->cq = stf_trace_is_cq(ctx, query->method, query->start);
+  w->h = first_step(query);
   stf_subject *s = &w->subject;
   STEIF_TRY(stf_subject_open(ctx, query->problem, query->linear, query->x0, s));
   s->weight = stf_weight_of(ctx, query->g);
@@ -62,6 +161,7 @@ static stf_pairing pairing_of(stf_measure *w, long double h, size_t steps, int w
                    .n = w->subject.n,
                    .sum = w->sum + (size_t)which * n};
   memset(p.sum, 0, n * sizeof *p.sum);
+  if (w->events) p.events = w->events + which, p.events->count = 0;
   return p;
 }
 
@@ -160,12 +260,29 @@ static int level_by_multiples(stf_measure *w, stf_apart *apart, sunrealtype h, s
   return STEIF_OK;
 }
 
+/* Events in components of the problem. */
+static int leave(const stf_measure *w, const stf_apart *apart, const stf_events *events)
+{
+  const size_t n = (size_t)w->subject.n;
+  long double *x = stf_allocate(w->ctx, n, sizeof *x);
+  if (!x) return STEIF_NO_MEMORY;
+  for (size_t i = 0; i < events->count; i++) {
+    long double *z = events->value + i * n;
+    for (size_t m = 0; m < n; m++) x[m] = component(w, apart, (int)m, z);
+    memcpy(z, x, n * sizeof *x);
+  }
+  stf_release(w->ctx, x);
+  return STEIF_OK;
+}
+
 int stf_measure_run(stf_measure *w, sunrealtype h, size_t steps)
 {
   stf_subject *s = &w->subject;
   stf_apart *apart = stf_subject_apart(s, w->query->method, w->query->start);
   STEIF_TRY(in_double(w, &s->problem, apart, h, steps, 0));
   for (int m = 0; m < s->n; m++) w->value[m] = (sunrealtype)component(w, apart, m, w->sum);
-  return w->longer ? level_by_longer(w, apart, h, steps)
-                   : level_by_multiples(w, apart, h, steps);
+  STEIF_TRY(w->longer ? level_by_longer(w, apart, h, steps)
+                      : level_by_multiples(w, apart, h, steps));
+  for (int i = 0; w->events && apart && i < 3; i++) STEIF_TRY(leave(w, apart, w->events + i));
+  return STEIF_OK;
 }

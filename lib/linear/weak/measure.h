@@ -10,17 +10,24 @@ typedef struct stf_measure {
   const steif_weak_query *query;
   stf_subject subject;
   sunrealtype *exact, *value,
-    *level;         /* n each: of every component; of the last run; its rounding */
-  long double *sum; /* 4 x n: work, in the coordinates of the run */
-  N_Vector room;    /* n */
-  sunrealtype h;    /* first step */
-  int first, count; /* components paired */
+    *level;           /* n each: of every component; of the last run; its rounding */
+  long double *sum;   /* 4 x n: work, in the coordinates of the run */
+  N_Vector room;      /* n */
+  stf_events *events; /* 3: of the run in double, in long double, shaken; NULL: not wanted */
+  sunrealtype h;      /* first step */
+  int first, count;   /* components paired */
   bool cq;
   bool longer; /* there is a second run in long double */
 } stf_measure;
 
+/* Does the query make sense, as far as it can be seen without the system? */
+int stf_measure_check(steif_context *ctx, const steif_weak_query *query);
 int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_measure *measure);
 void stf_measure_close(stf_measure *measure);
+/* first and count. */
+int stf_measure_components(stf_measure *measure);
+/* The longest step that resolves the system, f and g, and what asks for it. */
+int stf_measure_longest(const stf_measure *measure, sunrealtype *longest, const char **fastest);
 /* A run with so many steps h: value and level. */
 int stf_measure_run(stf_measure *measure, sunrealtype h, size_t steps);
 

@@ -17,6 +17,23 @@ static void add(stf_pairing *p, long double weight, const long double *x)
   for (int m = 0; m < p->n && weight != 0; m++) p->sum[m] += weight * x[m];
 }
 
+static void keep(stf_pairing *p, long double at, long double weight, const long double *x)
+{
+  stf_events *e = p->events;
+  if (e->count == e->room) return;
+  e->at[e->count] = at;
+  for (int m = 0; m < p->n; m++) e->value[e->count * (size_t)p->n + (size_t)m] = weight * x[m];
+  e->count++;
+}
+
+/* The event of node i in convention P, R or C. */
+static void keep_node(stf_pairing *p, size_t i, const long double *x)
+{
+  const bool comb = p->convention == STEIF_C;
+  if (p->convention == STEIF_P ? i < p->steps : i > 0 || (comb && p->solved))
+    keep(p, (long double)i, comb ? p->h : 1, x);
+}
+
 int stf_pairing_node(stf_pairing *p, size_t i, const long double *x)
 {
   const long double t = (long double)i * p->h;
@@ -35,6 +52,7 @@ int stf_pairing_node(stf_pairing *p, size_t i, const long double *x)
   default: return STEIF_OK;
   }
   add(p, w, x);
+  if (p->events) keep_node(p, i, x);
   return STEIF_OK;
 }
 
@@ -45,5 +63,6 @@ int stf_pairing_stage(stf_pairing *p, size_t i, long double c, long double b,
   if (p->convention != STEIF_STAGE) return STEIF_OK;
   STEIF_TRY(stf_weight_at(p->g, ((long double)i + c) * p->h, 0, &w));
   add(p, p->h * b * w, X);
+  if (p->events) keep(p, (long double)i + c, p->h * b, X);
   return STEIF_OK;
 }

@@ -25,6 +25,15 @@ int stf_weight_box(const stf_weight *g, long double a, long double b, long doubl
  * |g'| and sqrt |g''| in units of it. */
 int stf_weight_scale(const stf_weight *g, long double *most, long double *rate);
 
+/* A run as a distribution, for norms: values of a constant density on each step, or masses at (i + c) h;
+ * rows of n. */
+typedef struct stf_events {
+  size_t count, room;
+  bool masses;
+  long double *at;    /* of masses: in steps */
+  long double *value; /* densities, or masses */
+} stf_events;
+
 /* Of values x_i at i h and stages. */
 typedef struct stf_pairing {
   const stf_weight *g;
@@ -33,7 +42,8 @@ typedef struct stf_pairing {
   size_t steps;
   long double h;
   int n;
-  long double *sum; /* n */
+  stf_events *events; /* all of it, too; NULL: not wanted */
+  long double *sum;   /* n */
   stf_random
     *shaken; /* weights are changed by random parts of their rounding; NULL: they are not */
 } stf_pairing;

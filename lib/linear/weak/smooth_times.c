@@ -5,7 +5,8 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
-enum { PARTS_MOST = 100000 };
+/* Parts of an interval between two times: many for few times, which may lie far apart. */
+enum { FEW = 512, PARTS = 8, PARTS_OF_MANY = 2, PARTS_MOST = 100000 };
 
 int stf_subject_carry(stf_subject *s, const sunrealtype *x0, size_t count,
                       const sunrealtype *mesh,
@@ -41,6 +42,12 @@ static int take_time(steif_solver *solver, sunrealtype t, N_Vector x, void *user
   stf_subject *s = w->subject;
   (void)solver;
   if (++w->at % w->parts) return 0;
+  if (s->reduced.linear.E ||
+      s->index <= 1) { /* the algebraic part is solved for in every step */
+    memcpy(w->x + w->at / w->parts * (size_t)s->n, N_VGetArrayPointer(x),
+           (size_t)s->n * sizeof *w->x);
+    return 0;
+  }
   steif_impulse i = {0};
   const int code = steif_impulse_find(s->ctx, s->linear.E, s->linear.F, N_VGetArrayPointer(x),
                                       t, s->linear.f, s->linear.user, NULL, &s->structure, &i);
@@ -55,7 +62,8 @@ int stf_subject_follow(stf_subject *s, size_t count, const sunrealtype *t, sunre
   walk w = {.subject = s, .t = t, .x = x};
   const sunrealtype wanted =
     4 * s->structure.radius * (t[count - 1] - t[0]) / (double)(count - 1);
-  w.parts = (size_t)fmin(fmax(ceil(wanted), 8), fmax(1, PARTS_MOST / (double)count));
+  w.parts = (size_t)fmin(fmax(ceil(wanted), count > FEW ? PARTS_OF_MANY : PARTS),
+                         fmax(1, PARTS_MOST / (double)count));
   const size_t steps = (count - 1) * w.parts;
   sunrealtype *mesh = stf_allocate(s->ctx, steps + 1, sizeof *mesh);
   if (!mesh) return STEIF_NO_MEMORY;

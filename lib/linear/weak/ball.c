@@ -1,0 +1,250 @@
+/* ball.c: order of a run in H^-m: the worst case over a ball of test functions.
+ *
+ * In the first layer the error is h^-(k-1) phi(t/h), and where the moments of phi below k - 1 + p are
+ * those of the impulses, its m-fold integral is h^(m-k+1) on an interval of length h: a norm of order
+ * min(p, m - k + 3/2). Distributions of one support converge weakly for every smooth g exactly if they
+ * converge in some H^-m (L. Schwartz, Theorie des distributions, 1966).
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "norm.h"
+#include <steif/method.h>
+#include "table.h"
+#include <math.h>
+#include <stdio.h>
+
+#define USABLE 0.1 /* of a norm, the most that rounding may be */
+/* Orders are multiples of 1/2 in the limit: AGREED apart they are one, beyond NEAR their distance from
+ * it must not grow. Smooth values have errors of TRUTH of the size of the run. */
+#define AGREED 0.25
+#define NEAR 0.03
+#define TRUTH 1e-15
+enum { LARGEST = 1 << 24, LEAST = 3 }; /* numbers of an array; rows */
+
+typedef struct ball {
+  stf_measure measure;
+  stf_events events[3]; /* in double, long double, shaken */
+  sunrealtype
+    *x; /* smooth values at STF_NODES points of each step, rows of n, from the second on */
+  sunrealtype *t;
+  size_t masses; /* of a step; 0: densities */
+  size_t steps;  /* of the last row */
+  int most;
+  steif_weak_ball *result;
+} ball;
+
+/* ---- room ------------------------------------------------------------------------------------- */
+
+static int claim(ball *b)
+{
+  stf_measure *w = &b->measure;
+  const size_t n = (size_t)w->subject.n, rows = b->steps * (b->masses ? b->masses : 1) + 1,
+               nodes = b->steps * STF_NODES + 1;
+  STEIF_CHECK(rows * n <= LARGEST && nodes * n <= LARGEST, w->ctx, STEIF_BAD_INPUT,
+              "%zu steps of %zu unknowns are too many for a norm: ask for fewer rows", b->steps,
+              n);
+  for (int i = 0; i < 3; i++) {
+    b->events[i].room = rows;
+    b->events[i].at = stf_allocate(w->ctx, rows * (n + 1), sizeof(long double));
+    if (!b->events[i].at) return STEIF_NO_MEMORY;
+    b->events[i].value = b->events[i].at + rows;
+  }
+  b->t = stf_allocate(w->ctx, nodes * (n + 1), sizeof *b->t);
+  if (!b->t) return STEIF_NO_MEMORY;
+  b->x = b->t + nodes;
+  return STEIF_OK;
+}
+
+static void release(ball *b)
+{
+  for (int i = 0; i < 3; i++) stf_release(b->measure.ctx, b->events[i].at);
+  stf_release(b->measure.ctx, b->t);
+}
+
+/* ---- one row ---------------------------------------------------------------------------------- */
+
+/* The smooth solution at 0 and at the nodes of all steps. */
+static int truth(ball *b, sunrealtype h)
+{
+  long double node[STF_NODES], weight[STF_NODES];
+  stf_gauss(STF_NODES, node, weight);
+  for (size_t i = 0; i < b->steps; i++)
+    for (size_t k = 0; k < STF_NODES; k++)
+      b->t[1 + i * STF_NODES + k] = (sunrealtype)(h * ((long double)i + node[k]));
+  return stf_subject_smooth(&b->measure.subject, b->steps * STF_NODES + 1, b->t, b->x);
+}
+
+/* a -= b */
+static void subtract(const stf_events *a, const stf_events *b, int n)
+{
+  for (size_t i = 0; i < a->count * (size_t)n; i++) a->value[i] -= b->value[i];
+}
+
+/* Norms of all components together. */
+static void norms(ball *b, const stf_events *events, const stf_limit *limit, sunrealtype h,
+                  long double *norm)
+{
+  const stf_measure *w = &b->measure;
+  long double one[STF_SPACES];
+  for (int m = 0; m < b->most; m++) norm[m] = 0;
+  for (int j = w->first; j < w->first + w->count; j++) {
+    stf_dual_norm(events, w->subject.n, j, limit, h, b->steps, w->subject.weight.t1, b->most,
+                  one);
+    for (int m = 0; m < b->most; m++) norm[m] = hypotl(norm[m], one[m]);
+  }
+}
+
+static int measure_row(ball *b, sunrealtype h, steif_ball_row *row)
+{
+  stf_measure *w = &b->measure;
+  const stf_subject *s = &w->subject;
+  const stf_limit limit = {s->block.k ? s->block.k - 1 : s->impulse.count,
+                           s->block.k ? s->block.c : s->impulse.c, b->x + s->n};
+  long double error[STF_SPACES], made[STF_SPACES], shaken[STF_SPACES], size[STF_SPACES];
+  w->events = b->events;
+  STEIF_TRY(stf_measure_run(w, h, b->steps));
+  STEIF_TRY(truth(b, h));
+  norms(b, b->events, &limit, h, error);
+  norms(b, b->events, NULL, h, size);
+  subtract(b->events + 2, b->events + 1, s->n);
+  subtract(b->events + 1, b->events, s->n);
+  norms(b, b->events + 1, NULL, h, made);
+  norms(b, b->events + 2, NULL, h, shaken);
+  for (int m = 0; m < b->most; m++) {
+    const long double level = made[m] + 2 * shaken[m] + TRUTH * size[m];
+    row[m] = (steif_ball_row){h, (sunrealtype)error[m], (sunrealtype)level, NAN, 0};
+    row[m].usable = isfinite(error[m]) && level <= USABLE * error[m];
+  }
+  return STEIF_OK;
+}
+
+/* ---- verdicts --------------------------------------------------------------------------------- */
+
+/* By rows h, h/2, ... of one m: order and converges of its space. */
+static void judge_space(const steif_ball_row *row, size_t rows, size_t stride,
+                        sunrealtype longest, steif_ball_space *space)
+{
+  size_t from = 0, usable = 0;
+  space->converges = -1, space->order = NAN, space->norm = NAN;
+  while (from < rows && row[from * stride].h > longest) from++;
+  while (from + usable < rows && row[(from + usable) * stride].usable) usable++;
+  if (usable == 0) return;
+  const steif_ball_row *last = row + (from + usable - 1) * stride;
+  space->norm = last->norm;
+  if (usable < LEAST) return;
+  const sunrealtype order = last->order, before = (last - stride)->order,
+                    near = round(2 * order) / 2, away = fabs(order - near);
+  space->order = order;
+  if (fabs(order - before) > AGREED || (away > NEAR && away > fabs(before - near))) return;
+  space->converges = near > 0;
+}
+
+static void say(steif_weak_ball *r)
+{
+  char *text = r->verdict;
+  const size_t room = sizeof r->verdict;
+  const steif_ball_space *asked = NULL, *good = NULL, *last = r->space + r->count - 1;
+  bool none = true;
+  for (int i = 0; i < r->count; i++) {
+    if (r->space[i].m == r->m) asked = r->space + i;
+    if (!good && r->space[i].converges == 1) good = r->space + i;
+    none = none && r->space[i].converges == 0;
+  }
+  r->converges = good ? 1 : none ? 0 : -1;
+  if (asked && asked->converges == 1)
+    snprintf(text, room, "converges weakly in H^-%d, order %.2f: for every smooth g", r->m,
+             asked->order);
+  else if (good)
+    snprintf(text, room,
+             "converges weakly for every smooth g: in H^-%d, order %.2f; %s in H^-%d", good->m,
+             good->order, asked && asked->converges == 0 ? "not" : "undecided", r->m);
+  else if (none)
+    snprintf(text, room, "does not converge in any H^-m up to %d: norm %.3g, order %.2f there",
+             last->m, last->norm, last->order);
+  else
+    snprintf(text, room,
+             "undecided: fewer than three norms above rounding, or their orders differ; take "
+             "larger steps or more rows");
+}
+
+/* ---- the measure ------------------------------------------------------------------------------ */
+
+static int check(const stf_measure *w, int m)
+{
+  const steif_weak_query *q = w->query;
+  const int k = w->subject.index;
+  STEIF_CHECK(
+    w->longer, w->ctx, STEIF_UNSUPPORTED,
+    "norms take a second run in long double, which there is of be, bdf and Runge-Kutta "
+    "methods with regular A, not of '%s'",
+    q->method);
+  STEIF_CHECK(!q->break_count, w->ctx, STEIF_UNSUPPORTED,
+              "norms are known without breaks of f; the first is at t = %g", q->breaks[0]);
+  STEIF_CHECK(m == 0 || (m >= 1 && m >= k - 1 && m <= STF_SPACES), w->ctx, STEIF_BAD_INPUT,
+              "H^-%d does not hold the impulses of index %d: m is %d to %d", m, k,
+              k > 2 ? k - 1 : 1, STF_SPACES);
+  return STEIF_OK;
+}
+
+static int measure(ball *b, steif_ball_row *row)
+{
+  stf_measure *w = &b->measure;
+  const steif_weak_query *q = w->query;
+  steif_weak_ball *r = b->result;
+  steif_ball_row all[STF_SPACES], *rows;
+  sunrealtype longest;
+  const char *fastest;
+  STEIF_TRY(stf_measure_components(w));
+  STEIF_TRY(stf_measure_longest(w, &longest, &fastest));
+  if (!(rows = stf_allocate(w->ctx, q->rows * STF_SPACES, sizeof *rows)))
+    return STEIF_NO_MEMORY;
+  int code = STEIF_OK;
+  for (size_t i = 0; i < q->rows && !code; i++) {
+    const sunrealtype h = ldexp(w->h, -(int)i), t1 = (sunrealtype)w->subject.weight.t1;
+    b->steps = (size_t)ceil(t1 / h * (1 - 1e-9));
+    code = claim(b);
+    if (!code) code = measure_row(b, h, all);
+    release(b);
+    for (int m = 0; m < b->most && !code; m++) {
+      steif_ball_row *to = rows + i * STF_SPACES + m;
+      *to = all[m];
+      if (i > 0) to->order = log2((to - STF_SPACES)->norm / to->norm);
+      if (m + 1 == r->m) row[i] = *to;
+    }
+  }
+  for (int j = 0; j < r->count && !code; j++)
+    judge_space(rows + r->space[j].m - 1, q->rows, STF_SPACES, longest, r->space + j);
+  if (!code) say(r);
+  stf_release(w->ctx, rows);
+  return code;
+}
+
+static int open(ball *b, int m)
+{
+  stf_measure *w = &b->measure;
+  steif_weak_ball *r = b->result;
+  steif_method_info info;
+  const int k = w->subject.index, least = k > 2 ? k - 1 : 1;
+  STEIF_TRY(steif_method_find(w->ctx, w->query->method, &info));
+  STEIF_TRY(check(w, m));
+  b->masses =
+    w->query->convention == STEIF_STAGE ? (size_t)info.stages : w->query->convention == STEIF_C;
+  r->index = k;
+  r->m = m ? m : (int)fmin(fmax(k + info.order - 1, least), STF_SPACES);
+  b->most = (int)fmin(fmax(k + info.order + 1, r->m), STF_SPACES);
+  r->count = b->most - least + 1;
+  for (int i = 0; i < r->count; i++) r->space[i] = (steif_ball_space){.m = least + i};
+  for (int i = 0; i < 3; i++) b->events[i].masses = b->masses > 0;
+  return STEIF_OK;
+}
+
+int steif_weak_measure_ball(steif_context *ctx, const steif_weak_query *query, int m,
+                            steif_ball_row *row, steif_weak_ball *result)
+{
+  ball b = {.result = result};
+  *result = (steif_weak_ball){.converges = -1};
+  STEIF_TRY(stf_measure_check(ctx, query));
+  int code = stf_measure_open(ctx, query, &b.measure);
+  if (!code) code = open(&b, m);
+  if (!code) code = measure(&b, row);
+  stf_measure_close(&b.measure);
+  return code;
+}
