@@ -2,6 +2,7 @@
  * turn.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak/data.h"
+#include <sunmatrix/sunmatrix_dense.h>
 
 /* <x_h, g> of backward Euler, convention R, x(0-) = (1, .., k), f = 0: the symbol (s_h/s) (I + s_h N)^-1 N
  * with s_h = (1 - e^{-sh})/h gives sum_q N^{q+1} x_0 sum_r beta_{q,r} h^r g^(q+r)(0) with
@@ -120,8 +121,36 @@ static void no_verdict_is_wrong(void)
   steif_context_free(&ctx);
 }
 
+/* Radau IIA with 3 stages on the block of index 5: impulses of order 0 dominate and converge with order 3,
+ * those of order 3 stay wrong by 1e3 c_3, which these steps do not show. */
+static void impulses_may_be_too_small_to_be_seen(void)
+{
+  enum { n = 5 };
+  steif_context *ctx = steif_context_new(NULL);
+  sunrealtype x0[n] = {0, 5, 0, 0, 1e-12};
+  const steif_linear l = {SUNDenseMatrix(n, n, steif_sundials(ctx)),
+                          SUNDenseMatrix(n, n, steif_sundials(ctx)), NULL, NULL};
+  for (int i = 0; i < n; i++) SM_ELEMENT_D(l.F, i, i) = 1;
+  for (int i = 0; i + 1 < n; i++) SM_ELEMENT_D(l.E, i, i + 1) = 1;
+  steif_weak_row row[4];
+  steif_weak_result result;
+  const steif_weak_query query = {.method = "radau:s=3",
+                                  .linear = &l,
+                                  .x0 = x0,
+                                  .convention = STEIF_STAGE,
+                                  .h = 1.0 / 64,
+                                  .rows = 4};
+  CHECK(!steif_weak_measure(ctx, &query, row, &result) && fabs(row[3].order - 3) < 0.05);
+  CHECK(result.converges == -1 && strstr(result.verdict, "order 3 by themselves") != NULL);
+  x0[4] = 0;
+  CHECK(!steif_weak_measure(ctx, &query, row, &result) && result.converges == 1);
+  SUNMatDestroy(l.E), SUNMatDestroy(l.F);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_rounding[] = {
   {"rounding levels are the differences to closed values", levels_are_those_of_closed_values},
   {"errors are right within their levels", errors_are_right_within_their_levels},
   {"no verdict is wrong", no_verdict_is_wrong},
+  {"impulses may be too small to be seen", impulses_may_be_too_small_to_be_seen},
   CU_TEST_INFO_NULL};

@@ -31,4 +31,7 @@ int stf_measure_longest(const stf_measure *measure, sunrealtype *longest, const 
 /* A run with so many steps h: value and level. */
 int stf_measure_run(stf_measure *measure, sunrealtype h, size_t steps);
 
+/* Takes back `converges` where impulses too small to be seen do not. */
+int stf_measure_orders(const stf_measure *measure, steif_weak_result *result);
+
 #endif

@@ -106,7 +106,7 @@ static int conclude(const stf_measure *w, steif_weak_row *row, steif_weak_result
   for (size_t i = 0; i < j.rows; i++)
     if (row[i].h > j.longest) row[i].usable = 0;
   stf_weak_judge(&j, result);
-  return STEIF_OK;
+  return result->converges == 1 ? stf_measure_orders(w, result) : STEIF_OK;
 }
 
 /* ---- the measure -------------------------------------------------------------------------- */
