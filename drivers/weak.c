@@ -48,8 +48,9 @@ static const struct rule rules[] = {
 
 const struct verb verb_weak = {
   .name = "weak",
-  .about =
-    "Measure weak convergence: <x_h, g> of a run against <x, g> of the exact distribution",
+  .about = "Measure weak convergence: <x_h, g> of a run against <x, g> of the exact "
+           "distribution; METHOD cobb: of "
+           "(E + h F) x' + F x = f",
   .usage = "METHOD --index K | E.mtx F.mtx --x0 X.mtx | PROBLEM [--convention V] [--start S] "
            "[--h H]",
   .least = 1,

@@ -471,6 +471,7 @@ expect(0 weak bdf:p=2 --start cq --index 4 --g expcos:a=1,b=5 --h 0.03125 --halv
 near(114658727836 exact)
 near(40 t1)
 expect(5 weak be --index 2 --g hermite:n=1,scale=0.3 ERR "impulses of order 0") # odd
+expect(0 weak cobb ut5)
 # Norms by m-fold integration in 113-bit arithmetic: 0.17443062, order 1/2 in H^-1.
 expect(0 weak be --index 2 --ball 1 --h 0.015625 --halvings 3 --json)
 about(17443062 rows 0 norm)

@@ -82,7 +82,8 @@ typedef struct steif_weight {
  * triangular: the same sequence, with rounding of eps h^-(k-1) where that of E and F as they are
  * given would be eps h^(-2 (k-1)). */
 typedef struct steif_weak_query {
-  const char *method;  /* "be", "bdf:p=3", "radau:s=2", ... */
+  const char
+    *method; /* "be", "bdf:p=3", "radau:s=2", ...; "cobb": (E + h F) x' + F x = f itself */
   const char *problem; /* "jordan:k=3,case=H-inc", "ut5" */
   enum steif_convention convention;
   const char *start; /* starting procedure, NULL: the method's */

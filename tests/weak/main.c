@@ -2,14 +2,14 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_bdf[], tests_of_breaks[], tests_of_duality[], tests_of_euler[],
-  tests_of_exact[], tests_of_functions[], tests_of_layer[], tests_of_mesh[], tests_of_moments[],
-  tests_of_norm[], tests_of_pair[], tests_of_rk[], tests_of_rounding[], tests_of_subject[],
-  tests_of_ut5[], tests_of_weak[];
+extern CU_TestInfo tests_of_bdf[], tests_of_breaks[], tests_of_cobb[], tests_of_duality[],
+  tests_of_euler[], tests_of_exact[], tests_of_functions[], tests_of_layer[], tests_of_mesh[],
+  tests_of_moments[], tests_of_norm[], tests_of_pair[], tests_of_rk[], tests_of_rounding[],
+  tests_of_subject[], tests_of_ut5[], tests_of_weak[];
 
 SUITE_MAIN(
   {.pName = "bdf", .pTests = tests_of_bdf}, {.pName = "breaks", .pTests = tests_of_breaks},
-  {.pName = "duality", .pTests = tests_of_duality},
+  {.pName = "cobb", .pTests = tests_of_cobb}, {.pName = "duality", .pTests = tests_of_duality},
   {.pName = "euler", .pTests = tests_of_euler}, {.pName = "exact", .pTests = tests_of_exact},
   {.pName = "functions", .pTests = tests_of_functions},
   {.pName = "layer", .pTests = tests_of_layer}, {.pName = "mesh", .pTests = tests_of_mesh},

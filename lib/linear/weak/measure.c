@@ -278,6 +278,7 @@ static int leave(const stf_measure *w, const stf_apart *apart, const stf_events 
 int stf_measure_run(stf_measure *w, sunrealtype h, size_t steps)
 {
   stf_subject *s = &w->subject;
+  if (stf_is_cobb(w->query->method)) return stf_cobb_run(w, h);
   stf_apart *apart = stf_subject_apart(s, w->query->method, w->query->start);
   STEIF_TRY(in_double(w, &s->problem, apart, h, steps, 0));
   for (int m = 0; m < s->n; m++) w->value[m] = (sunrealtype)component(w, apart, m, w->sum);

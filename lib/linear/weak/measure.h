@@ -34,4 +34,8 @@ int stf_measure_run(stf_measure *measure, sunrealtype h, size_t steps);
 /* Takes back `converges` where impulses too small to be seen do not. */
 int stf_measure_orders(const stf_measure *measure, steif_weak_result *result);
 
+/* The method "cobb": value and level of (E + eps F) x' + F x = f. */
+bool stf_is_cobb(const char *method);
+int stf_cobb_run(stf_measure *measure, sunrealtype eps);
+
 #endif
