@@ -46,6 +46,7 @@ steif_options options_of(const struct call *call)
   o.max_seconds = real_of(call, "--max-seconds");
   o.stop = &stop_flag;
   o.start = word_of(call, "--start");
+  if (given(call, "--initial")) o.initial = (enum steif_initial)choice_of(call, "--initial");
   o.force_storage = given(call, "--storage");
   if (o.force_storage) o.storage = storage[choice_of(call, "--storage")];
   return o;

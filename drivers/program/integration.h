@@ -23,6 +23,9 @@ typedef struct outcome {
   {"--h-max", POSITIVE, "H", "largest step of an adaptive step size (default: none)", NULL},   \
   {"--start", WORD, "S",                                                                       \
    "starting procedure of multistep methods: exact, ramp, constant, cq", NULL},                \
+  {"--initial", CHOICE, "repair|check|given",                                                  \
+   "an inconsistent start of a DAE: moved to the nearest consistent one, an error, or kept",   \
+   NULL},                                                                                      \
   {"--max-steps", COUNT, "N",                                                                  \
    "give up after N steps (default: 1000000; with --h: 1000000000)", NULL},                     \
   {"--max-seconds", POSITIVE, "S", "give up after S seconds of wall-clock time", NULL},        \

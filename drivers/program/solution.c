@@ -36,6 +36,10 @@ static void fill(steif_report *r, const char *const *word, const outcome *o, ste
   if (s && strcmp(word[1], steif_method_used(s)))
     steif_report_text(r, "used", steif_method_used(s));
   report_status(r, "", o);
+  if (s && steif_initial_used(s)->message[0])
+    steif_report_text(r, "initial", steif_initial_used(s)->message);
+  if (s && steif_initial_used(s)->index > 1)
+    steif_report_whole(r, "index_found", steif_initial_used(s)->index);
   if (o->why[0]) steif_report_text(r, "failure", o->why);
   steif_report_real(r, "t", o->t);
   fill_steps(r, o, tr);

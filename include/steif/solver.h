@@ -36,7 +36,7 @@
 #ifndef STEIF_SOLVER_H
 #define STEIF_SOLVER_H
 
-#include <steif/problem.h>
+#include <steif/consistent.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -91,6 +91,9 @@ typedef struct steif_options {
    * components that are then wrong may stop the run. */
   int (*reinitialise)(steif_context *ctx, const steif_problem *problem, sunrealtype t,
                       sunrealtype rtol, N_Vector y, N_Vector yp);
+  enum steif_initial
+    initial; /* what is done about an inconsistent start (consistent.h); 0: repair */
+  const int *attributes;    /* n of enum steif_attribute: what may move then; NULL: guesses */
   sunrealtype max_seconds;  /* limit on the wall-clock time of a call; 0: none */
   const volatile int *stop; /* set to nonzero, by a signal handler for example, it lets
                                          the call return STEIF_STOPPED after the step at hand */
@@ -114,6 +117,9 @@ STEIF_EXPORT steif_options steif_defaults(void);
 STEIF_EXPORT steif_solver *steif_solver_new(steif_context *ctx, const steif_problem *problem,
                                             const char *method, const steif_options *options);
 STEIF_EXPORT void steif_solver_free(steif_solver **s);
+
+/* What the solver did about its start; never NULL for a solver. */
+STEIF_EXPORT const steif_repair *steif_initial_used(const steif_solver *s);
 
 /* Advance until t and put the solution there (dense output between steps). STEIF_EVENT: a terminal
  * event came first, its time and solution are shown. After STEIF_TIME_LIMIT, STEIF_STOPPED and a

@@ -284,7 +284,7 @@ int steif_explain(steif_context *ctx, const steif_problem *problem, const steif_
 {
   STEIF_CHECK(scene && (scene->count == 0 || (scene->t && scene->y && scene->yp)), ctx,
               STEIF_BAD_INPUT,
-              "a scene with its accepted points is needed to explain a failure");
+              "a history with its accepted points is needed to explain a failure");
   STEIF_CHECK(scene->rtol >= 0 && (scene->rtol > 0 || scene->atol > 0 || scene->atols), ctx,
               STEIF_BAD_INPUT, "the tolerances of the failed run are needed, got rtol = %g",
               scene->rtol);

@@ -100,7 +100,7 @@ int stf_baseline_open(stf_baseline *base, stf_run *run, const char *package,
       base->storage == STEIF_KRYLOV,
     run->ctx, STEIF_UNSUPPORTED,
     "%s takes the matrices as the problem stores them, dense, or Krylov; other forced "
-    "storage is refused",
+    "storage is rejected",
     package);
   base->preconditioned = base->storage == STEIF_KRYLOV && run->problem->precsolve;
   if (!(base->work = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;

@@ -72,7 +72,7 @@ static int left(steif_solver *s, sunindextype i, sunrealtype y, sunrealtype h)
     s->ctx, STEIF_INFEASIBLE,
     "component %lld of problem '%s' becomes %.9g in the step of %.3g from t = "
     "%.12g, and is declared to be %s: the solution leaves the constraint there, "
-    "or the tolerance (with given steps the step) is too large",
+    "or the tolerance (with prescribed steps the step) is too large",
     (long long)i, s->problem->name, y, h, s->step.t, sign_of(s->problem->constraint[i]));
 }
 

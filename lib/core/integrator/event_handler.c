@@ -89,7 +89,7 @@ static int react(steif_solver *s, sunrealtype t)
   N_VLinearSum(1, w->after, -1, w->y, w->y);
   w->moved = !(N_VMaxNorm(w->y) <= 0);
   STEIF_CHECK(wish >= STEIF_CONTINUE && wish <= STEIF_FINISH, s->ctx, STEIF_CALLBACK,
-              "react of problem '%s' returned %d at the event %s, t = %.12g", p->name, wish,
+              "handle_event of problem '%s' returned %d at the event %s, t = %.12g", p->name, wish,
               w->name, t);
   s->finished = wish == STEIF_FINISH, w->silent = s->finished;
   w->cut = wish == STEIF_RESTART;
@@ -99,7 +99,7 @@ static int react(steif_solver *s, sunrealtype t)
   stf_space space;
   stf_space_open(&space, w->after);
   STEIF_CHECK(stf_finite(&space, w->after), s->ctx, STEIF_NOT_FINITE,
-              "react of problem '%s' left a component that is not finite, at t = %.12g",
+              "handle_event of problem '%s' left a component that is not finite, at t = %.12g",
               p->name, t);
   return w->cut ? check_gathering(s, t) : STEIF_OK;
 }

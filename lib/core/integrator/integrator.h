@@ -6,6 +6,7 @@
 #include "engine.h"
 #include "event.h"
 #include "method.h"
+#include "repair.h"
 #include <steif/solver.h>
 
 typedef struct stf_switching stf_switching;
@@ -24,7 +25,8 @@ struct steif_solver {
   stf_pool *pool;
   const steif_problem *problem;
   steif_problem semilinear; /* the problem with its linear part as the matrix */
-  steif_options options;    /* complete */
+  stf_repair repair;     /* of its start; the problem in use is its copy where one was made */
+  steif_options options; /* complete */
   sunrealtype t1;
   N_Vector serial, shown, dense,
     atols; /* serial: our own prototype vector, if none was given */

@@ -211,6 +211,29 @@ static int check_ewt(steif_solver *s, N_Vector y)
   return STEIF_OK;
 }
 
+/* The start of a DAE, for methods of ours with adaptive steps; linear systems have their jump. */
+static int look_at_start(steif_solver *s, int form)
+{
+  const steif_options *o = &s->options;
+  const steif_problem *p = s->problem;
+  const bool dae = form == STEIF_MASS || form == STEIF_IMPLICIT;
+  const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
+  if (!dae || o->initial == STEIF_AS_GIVEN || o->h > 0 || o->mesh || o->like || p->start ||
+      storage == STEIF_KRYLOV || p->storage == STEIF_KRYLOV)
+    return STEIF_OK;
+  s->repair = (stf_repair){.ctx = s->ctx,
+                           .pool = s->pool,
+                           .given = p,
+                           .policy = o->initial,
+                           .attribute = o->attributes,
+                           .rtol = o->rtol,
+                           .atol = o->atol,
+                           .atols = o->atols};
+  STEIF_TRY(stf_repair_start(&s->repair));
+  s->problem = &s->repair.problem;
+  return STEIF_OK;
+}
+
 static int open(steif_solver *s, const char *method)
 {
   steif_spec spec;
@@ -223,6 +246,8 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(open_vectors(s, &y, &yp));
   snprintf(s->method, sizeof s->method, "%s", method);
   const bool automatic = !strcmp(method, "auto");
+  STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
+  if (automatic || !stf_engine_find(spec.name)) STEIF_TRY(look_at_start(s, form));
   if (automatic)
     method = stf_choose(s->problem, &s->options, form, s->method, sizeof s->method);
   STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
@@ -266,4 +291,9 @@ void steif_solver_free(steif_solver **s)
   stf_pool_free(&(*s)->pool);
   stf_release(ctx, *s);
   *s = NULL;
+}
+
+const steif_repair *steif_initial_used(const steif_solver *s)
+{
+  return s ? &s->repair.report : NULL;
 }

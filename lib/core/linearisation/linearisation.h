@@ -17,6 +17,7 @@ typedef struct stf_point {
   stf_system system;
   size_t n;
   bool analytic; /* E and A come from callbacks */
+  bool quick; /* views of any n as the time loop sees E and A, not by differences of order 4 */
   N_Vector y, yp, r;
   sunrealtype t, *y0, *yp0;  /* the point */
   sunrealtype *floor, *size; /* size = |y0| + floor, or so */

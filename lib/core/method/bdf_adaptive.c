@@ -221,7 +221,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   const bool be = !strcmp(spec->name, "be");
   const char *start = s->options->start ? s->options->start : stf_spec_word(spec, "start");
   STEIF_CHECK(!start || !strcmp(start, "ramp"), s->ctx, STEIF_UNSUPPORTED,
-              "start=%s is for given steps: set h", start);
+              "start=%s is for prescribed steps: set h", start);
   STEIF_TRY(stf_spec_int(s->ctx, spec, "p", 1, 6, be ? 1 : HIGHEST, &e->p));
   if (e->p > HIGHEST) e->p = HIGHEST;
   STEIF_TRY(stf_transform_single(s->pool, 1, &transform));

@@ -246,7 +246,7 @@ static int refuse(stf_newton *newton, const stf_stages *g, int iterations, sunre
   if (!isfinite(norm)) return refuse_values(newton, g);
   return STEIF_RECOVER(
     ctx, STEIF_NO_CONVERGENCE,
-    "Newton's iteration was refused for problem '%s' in the step from t = %.12g "
+    "Newton's iteration did not converge for problem '%s' in the step from t = %.12g "
     "with h = %.6g: after %d iterations the correction is %.3g of its tolerance, "
     "rate %.2g; make the step smaller or check the Jacobian",
     newton->system->problem->name, g->t, g->h, iterations, norm / newton->tolerance, theta);

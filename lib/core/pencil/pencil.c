@@ -193,7 +193,7 @@ static int explain(steif_pencil *p, steif_shift s, const stf_outcome *o)
       n, s.re, s.im);
   default:
     return STEIF_FAIL(p->ctx, o->code,
-                      "the %s factorisation refused s E - A at s = %.10g%+.10gi; check the "
+                      "the %s factorisation rejected s E - A at s = %.10g%+.10gi; check the "
                       "matrix's index arrays",
                       p->backend->name, s.re, s.im);
   }

@@ -16,7 +16,7 @@ static int settle(steif_context *ctx, const steif_problem *problem, sunrealtype 
   STEIF_TRY(steif_jump_find(ctx, problem, &at, &request, &jump));
   int code = STEIF_OK;
   if (!jump.unique && !stages)
-    code = STEIF_FAIL(ctx, STEIF_NOT_CERTIFIED, "behind t = %.12g of problem '%s': %s", t,
+    code = STEIF_FAIL(ctx, STEIF_NOT_CERTIFIED, "after t = %.12g of problem '%s': %s", t,
                       problem->name, jump.message);
   const size_t bytes = (size_t)problem->n * sizeof *to;
   if (!code) memcpy(to, jump.y, bytes), memcpy(slope, jump.yp, bytes);

@@ -200,7 +200,7 @@ int stf_layers_open(steif_context *ctx, const steif_linear *l, const sunrealtype
   STEIF_CHECK(options && method, ctx, STEIF_BAD_INPUT,
               "a method and options with t1 are needed, one is NULL");
   STEIF_CHECK(!(options->h > 0) && !options->mesh, ctx, STEIF_BAD_INPUT,
-              "steps are chosen here: h and mesh belong to steif_solver_new");
+              "steps are adaptive here: h and mesh belong to steif_solver_new");
   STEIF_TRY(steif_linear_problem(ctx, l, x0, t0, options->t1, &p));
   *w = (stf_layers){.linear = *l,
                     .ctx = ctx,

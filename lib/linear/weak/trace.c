@@ -61,7 +61,7 @@ static int follow(steif_context *ctx, steif_solver *s, const char *method, sunre
     const sunrealtype made = steif_time(s) - t;
     STEIF_CHECK(fabs(made - h) <= 1e-6 * h, ctx, STEIF_UNSUPPORTED,
                 "%s made a step of %g at t = %g where %g was asked for; weak convergence is "
-                "measured with constant steps",
+                "measured with a constant step size",
                 method, made, t, h);
     t = steif_time(s);
     STEIF_TRY(keep(trace, room, i, t, steif_solution(s)));

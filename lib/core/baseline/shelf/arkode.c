@@ -34,7 +34,7 @@ static const stf_flag flags[] = {
            "try newton=1e-5 in the spec, or another method"),
   STF_FLAG(ARK_CONV_FAILURE, STEIF_BASELINE,
            "Newton's iteration failed repeatedly or the step reached its minimum",
-           "Check df/dy against differences; with given steps make h smaller"),
+           "Check df/dy against differences; with prescribed steps make h smaller"),
   STF_FLAG(ARK_CONSTR_FAIL, STEIF_INFEASIBLE,
            "a declared constraint was not kept however small the step",
            "The solution leaves .constraint here, or the tolerances are too loose"),
@@ -58,13 +58,13 @@ static const stf_flag flags[] = {
   STF_FLAG(ARK_MASSSOLVE_FAIL, STEIF_BASELINE, "a solve with the mass matrix E failed",
            "ARKODE needs a nonsingular E: use ida or a steif method"),
   STF_FLAG(ARK_MEM_FAIL, STEIF_NO_MEMORY, "memory is short", "Make the problem smaller"),
-  STF_FLAG(ARK_ILL_INPUT, STEIF_BASELINE, "an argument was refused",
+  STF_FLAG(ARK_ILL_INPUT, STEIF_BASELINE, "an argument was rejected",
            "An error weight that is not positive does this: raise atol above 0"),
   STF_FLAG(ARK_TOO_CLOSE, STEIF_STEP_SIZE, "the end is too close to the start",
            "Make the interval longer than rounding"),
   STF_FLAG(ARK_VECTOROP_ERR, STEIF_BASELINE, "a vector operation failed",
            "A mass matrix that is singular does this: use ida or a steif method"),
-  STF_FLAG(ARK_INVALID_TABLE, STEIF_BASELINE, "the table was refused",
+  STF_FLAG(ARK_INVALID_TABLE, STEIF_BASELINE, "the table was rejected",
            "It must be diagonally implicit, and embedded unless h is given"),
   {0, 0, NULL, NULL, NULL}};
 
@@ -112,7 +112,7 @@ static int take_table(arkode *s, const steif_table *t)
   STEIF_CHECK(t->kind == STEIF_DIRK, ctx, STEIF_UNSUPPORTED,
               "table '%s' is not diagonally implicit: ARKODE cannot run it", t->name);
   STEIF_CHECK(given || t->bhat, ctx, STEIF_UNSUPPORTED,
-              "table '%s' has no embedded weights: give h (--h) for equal steps", t->name);
+              "table '%s' has no embedded weights: give h (--h) for constant steps", t->name);
   sunrealtype c[STEIF_STAGES], A[STEIF_STAGES * STEIF_STAGES], b[STEIF_STAGES], d[STEIF_STAGES];
   for (int i = 0; i < t->s; i++) {
     b[i] = t->b[i], d[i] = t->bhat ? t->bhat[i] : 0, c[i] = 0;
@@ -125,7 +125,7 @@ static int take_table(arkode *s, const steif_table *t)
   const int flag = ARKStepSetTables(s->memory, B->q, B->p, B, NULL);
   ARKodeButcherTable_Free(B);
   s->order = t->order;
-  STEIF_CHECK(flag >= 0, ctx, STEIF_BASELINE, "ARKODE refused table '%s' (flag %d): %s",
+  STEIF_CHECK(flag >= 0, ctx, STEIF_BASELINE, "ARKODE rejected table '%s' (flag %d): %s",
               t->name, flag, s->base.said);
   return STEIF_OK;
 }
@@ -136,7 +136,7 @@ static int choose_table(arkode *s, const steif_spec *spec)
   const char *name = stf_spec_word(spec, "table");
   if (!name) {
     const int flag = ARK(SetOrder)(s->memory, s->order);
-    STEIF_CHECK(flag >= 0, ctx, STEIF_BASELINE, "ARKODE refused order %d", s->order);
+    STEIF_CHECK(flag >= 0, ctx, STEIF_BASELINE, "ARKODE rejected order %d", s->order);
     return STEIF_OK;
   }
   STEIF_CHECK(!stf_spec_word(spec, "order"), ctx, STEIF_BAD_INPUT,

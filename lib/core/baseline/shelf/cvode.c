@@ -46,7 +46,7 @@ static const stf_flag flags[] = {
   STF_FLAG(CV_UNREC_RHSFUNC_ERR, STEIF_CALLBACK, "f failed where the step cannot be repeated",
            "The solution may leave the domain of f here"),
   STF_FLAG(CV_MEM_FAIL, STEIF_NO_MEMORY, "memory is short", "Make the problem smaller"),
-  STF_FLAG(CV_ILL_INPUT, STEIF_BASELINE, "an argument was refused",
+  STF_FLAG(CV_ILL_INPUT, STEIF_BASELINE, "an argument was rejected",
            "An error weight that is not positive does this: raise atol above 0"),
   STF_FLAG(CV_TOO_CLOSE, STEIF_STEP_SIZE, "the end is too close to the start",
            "Make the interval longer than rounding"),

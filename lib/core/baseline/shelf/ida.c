@@ -56,7 +56,7 @@ static const stf_flag flags[] = {
   STF_FLAG(IDA_BAD_EWT, STEIF_BASELINE, "an error weight is not positive",
            "Raise atol above 0 for components that may vanish"),
   STF_FLAG(IDA_MEM_FAIL, STEIF_NO_MEMORY, "memory is short", "Make the problem smaller"),
-  STF_FLAG(IDA_ILL_INPUT, STEIF_BASELINE, "an argument was refused",
+  STF_FLAG(IDA_ILL_INPUT, STEIF_BASELINE, "an argument was rejected",
            "Raise atol above 0 for components that may vanish"),
   {0, 0, NULL, NULL, NULL}};
 

@@ -61,7 +61,7 @@ static int refuse(stf_step *s, double h, double norm, double theta, double shrin
       s->problem->name, s->t, h);
   return STEIF_RECOVER(
     s->ctx, STEIF_NO_CONVERGENCE,
-    "Newton's iteration was refused for problem '%s' in the step from t = %.12g "
+    "Newton's iteration did not converge for problem '%s' in the step from t = %.12g "
     "with h = %.6g: after %d iterations the correction is %.3g of its tolerance, "
     "rate %.2g; check the Jacobian",
     s->problem->name, s->t, h, e->iterations, norm / e->kappa, theta);

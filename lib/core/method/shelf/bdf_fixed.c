@@ -139,7 +139,7 @@ static int begin_anew(stf_step *s)
   state *e = s->state;
   STEIF_CHECK(
     e->start != CQ, s->ctx, STEIF_UNSUPPORTED,
-    "start=cq of problem '%s' cannot begin anew after an event, at t = %.12g: its weights "
+    "start=cq of problem '%s' cannot restart after an event, at t = %.12g: its weights "
     "are those of one start",
     s->problem->name, s->t);
   e->points = 1, e->t[0] = s->t, e->start = RAMP;
@@ -190,7 +190,7 @@ static int open_cq(stf_step *s)
   state *e = s->state;
   const sunrealtype h = s->h_equal;
   STEIF_CHECK(s->system.form == STEIF_DESCRIPTOR && h > 0, s->ctx, STEIF_UNSUPPORTED,
-              "start=cq is for E x' = A x + g(t) with equal steps; problem '%s' has form %s%s",
+              "start=cq is for E x' = A x + g(t) with a constant step size; problem '%s' has form %s%s",
               s->problem->name, steif_form_name(s->system.form), h > 0 ? "" : " and no h");
   e->k = e->p;
   past(s, h);

@@ -40,7 +40,7 @@ static int check(const stf_run *run)
   const steif_options *o = run->options;
   STEIF_CHECK(!(o->h > 0) && !o->mesh, run->ctx, STEIF_UNSUPPORTED,
               "'descriptor' chooses its steps: leave h and mesh out, or take a method such as "
-              "radau:s=3, which makes given steps on '%s' as it is",
+              "radau:s=3, which makes prescribed steps on '%s' as it is",
               run->problem->name);
   STEIF_CHECK(
     !o->ewt && !run->problem->constraint, run->ctx, STEIF_UNSUPPORTED,
@@ -177,7 +177,7 @@ static int renew(stf_run *run, void *state)
 const steif_engine steif_engine_descriptor = {
   .family = "descriptor",
   .about =
-    "E x' = A x + g of any index from any x(t-): impulses from the pencil, chosen steps on a "
+    "E x' = A x + g of any index from any x(t-): impulses from the pencil, adaptive steps on a "
     "system of index 1 with the same smooth solutions (S. L. Campbell, Singular Systems of "
     "Differential Equations, Pitman 1980)",
   .forms = STEIF_DESCRIPTOR,

@@ -1,0 +1,314 @@
+/* repair.c: the start of a run, on one page: index 1 by Newton's iteration; else the index of the components,
+ * a look whether hidden constraints hold, and stages where they do not.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "array_start.h"
+#include "repair.h"
+#include <math.h>
+#include <string.h>
+
+/* -- opening ----------------------------------------------------------------------------- */
+
+static int allocate(stf_repair *r)
+{
+  const size_t n = r->point.n;
+  r->y = stf_pool_array(r->pool, 3 * n, sizeof *r->y);
+  r->algebraic = stf_pool_array(r->pool, n, sizeof *r->algebraic);
+  if (!r->y || !r->algebraic) return STEIF_NO_MEMORY;
+  r->yp = r->y + n, r->weight = r->y + 2 * n;
+  for (size_t j = 0; j < n; j++) {
+    r->y[j] = r->point.y0[j], r->yp[j] = r->point.yp0[j];
+    r->weight[j] = r->rtol * fabs(r->y[j]) + (r->atols ? r->atols[j] : r->atol);
+  }
+  return STEIF_OK;
+}
+
+static int look(stf_repair *r)
+{
+  STEIF_TRY(allocate(r));
+  STEIF_TRY(stf_view_take(&r->point, r->point.t, r->y, r->yp, &r->view));
+  r->count = 0;
+  for (size_t j = 0; j < r->view.n; j++) {
+    bool there = false;
+    for (sunindextype k = r->view.column[j]; k < r->view.column[j + 1]; k++)
+      there = there || (r->view.has[k] & 1);
+    r->algebraic[j] = !there;
+    r->count += !there;
+  }
+  return STEIF_OK;
+}
+
+static bool fixed(const stf_repair *r, size_t j)
+{
+  return r->attribute && r->attribute[j] == STEIF_FIXED;
+}
+
+static bool any_fixed(const stf_repair *r)
+{
+  for (size_t j = 0; j < r->point.n; j++)
+    if (r->algebraic[j] && fixed(r, j)) return true;
+  return false;
+}
+
+/* -- what was done ----------------------------------------------------------------------- */
+
+/* Count what moved, and name the components that moved most. */
+static void list_moved(stf_repair *r, const sunrealtype *y)
+{
+  enum { SHOWN = 5 };
+  char room[STEIF_SPEC_WORD], *text = r->report.message;
+  sunrealtype below = INFINITY;
+  for (size_t j = 0; j < r->point.n; j++) {
+    const sunrealtype part = fabs(y[j] - r->point.y0[j]) / r->weight[j];
+    r->report.moved += part > 1;
+    r->report.largest = fmax(r->report.largest, part);
+  }
+  for (int shown = 0; shown < SHOWN && shown < r->report.moved; shown++) {
+    size_t at = 0;
+    sunrealtype most = -1;
+    for (size_t j = 0; j < r->point.n; j++) {
+      const sunrealtype part = fabs(y[j] - r->point.y0[j]) / r->weight[j];
+      if (part < below && part > most) most = part, at = j;
+    }
+    below = most;
+    stf_point_say(text, "%s%s by %.3g", shown ? ", " : "start: moved ",
+                  stf_point_unknown(&r->point, at, room), y[at] - r->point.y0[at]);
+  }
+  if (r->report.moved > SHOWN) stf_point_say(text, " and %d more", r->report.moved - SHOWN);
+}
+
+/* The equations without derivatives that the given start violates most. */
+static int list_violated(stf_repair *r)
+{
+  enum { SHOWN = 3 };
+  stf_point *s = &r->point;
+  char room[STEIF_SPEC_WORD];
+  sunrealtype *F = stf_allocate(r->ctx, s->n, sizeof *F), below = INFINITY;
+  if (!F) return STEIF_NO_MEMORY;
+  int code = stf_point_residual(s, s->t, s->y0, s->yp0, F);
+  for (sunindextype k = 0; k < r->view.column[s->n] && !code; k++)
+    if (r->view.has[k] & 1) F[r->view.row[k]] = 0;
+  for (int shown = 0; shown < SHOWN && !code; shown++) {
+    size_t at = 0;
+    sunrealtype most = 0;
+    for (size_t i = 0; i < s->n; i++)
+      if (fabs(F[i]) < below && fabs(F[i]) > most) most = fabs(F[i]), at = i;
+    if (!(most > 0)) break;
+    below = most;
+    stf_point_say(r->report.message, "%s%s (off by %.2g)", shown ? ", " : " to fulfil ",
+                  stf_point_equation(s, at, room), most);
+  }
+  stf_release(r->ctx, F);
+  return code < 0 ? code : STEIF_OK;
+}
+
+/* Hidden constraints: those whose derivatives the stages have enforced. */
+static void list_enforced(stf_repair *r, const int *enforced)
+{
+  enum { SHOWN = 3 };
+  char room[STEIF_SPEC_WORD];
+  int shown = 0, most = 0;
+  for (size_t i = 0; i < r->point.n; i++) most = enforced[i] > most ? enforced[i] : most;
+  for (size_t i = 0; i < r->point.n && most > 0; i++) {
+    if (enforced[i] < most) continue;
+    if (shown++ < SHOWN)
+      stf_point_say(r->report.message, "%s%s",
+                    shown > 1 ? ", " : "; kept with their derivatives: ",
+                    stf_point_equation(&r->point, i, room));
+  }
+  if (shown > SHOWN) stf_point_say(r->report.message, " and %d more", shown - SHOWN);
+}
+
+/* Energy and other invariants that the movement has changed. */
+static int list_invariants(stf_repair *r, const sunrealtype *y)
+{
+  const steif_problem *p = r->given;
+  if (p->invariants <= 0 || !p->invariant) return STEIF_OK;
+  const size_t count = (size_t)p->invariants;
+  sunrealtype *a = stf_allocate(r->ctx, 2 * count, sizeof *a);
+  if (!a) return STEIF_NO_MEMORY;
+  memcpy(N_VGetArrayPointer(r->point.y), r->point.y0, r->point.n * sizeof *y);
+  int code = p->invariant(r->point.t, r->point.y, a, p->user);
+  memcpy(N_VGetArrayPointer(r->point.y), y, r->point.n * sizeof *y);
+  if (!code) code = p->invariant(r->point.t, r->point.y, a + count, p->user);
+  for (size_t k = 0; k < count && !code; k++)
+    if (fabs(a[count + k] - a[k]) > r->rtol * (fabs(a[k]) + 1))
+      stf_point_say(r->report.message, "; invariant %zu changes by %.3g", k + 1,
+                    a[count + k] - a[k]);
+  stf_release(r->ctx, a);
+  return STEIF_OK;
+}
+
+/* Take y as the start: of the copy of the problem, or as an error where only a check is wanted. enforced: of
+ * each equation, its derivatives kept by stages; NULL: none. */
+static int use(stf_repair *r, const sunrealtype *y, const sunrealtype *yp, const int *enforced)
+{
+  list_moved(r, y);
+  if (!r->report.moved) {
+    r->report.message[0] = 0;
+    return STEIF_OK;
+  }
+  STEIF_TRY(list_violated(r));
+  if (enforced) list_enforced(r, enforced);
+  STEIF_TRY(list_invariants(r, y));
+  STEIF_CHECK(
+    r->policy == STEIF_REPAIR, r->ctx, STEIF_BAD_INPUT,
+    "the start of '%s' is not consistent; a repair would have %s: give this start, or "
+    "ask for the repair (options.initial, --initial repair)",
+    r->given->name, r->report.message + strlen("start: "));
+  sunrealtype *kept = stf_pool_array(r->pool, 2 * r->point.n, sizeof *kept);
+  if (!kept) return STEIF_NO_MEMORY;
+  memcpy(kept, y, r->point.n * sizeof *y);
+  r->problem.y0 = r->report.y = kept;
+  if (!r->given->yp0) return STEIF_OK;
+  memcpy(kept + r->point.n, yp, r->point.n * sizeof *yp);
+  r->problem.yp0 = kept + r->point.n;
+  return STEIF_OK;
+}
+
+/* -- index above 1 ----------------------------------------------------------------------- */
+
+static int use_index(stf_repair *r, const steif_diagnosis *d)
+{
+  const size_t n = r->point.n;
+  if (d->index < 0 || d->confidence == STEIF_UNDECIDED || d->index > 3) return STEIF_OK;
+  r->report.index = r->problem.dae_index = d->index;
+  int *number = stf_pool_array(r->pool, n, sizeof *number), high = 0;
+  if (!number) return STEIF_NO_MEMORY;
+  for (size_t j = 0; j < n; j++) {
+    number[j] = d->number[j] < 1 ? 1 : d->number[j] > 3 ? 3 : d->number[j];
+    high = number[j] > high ? number[j] : high;
+  }
+  r->report.number = number;
+  if (high > 1) r->problem.index = number;
+  return STEIF_OK;
+}
+
+/* Positions of a system of index 3 are no guesses of velocities: they move within errors of data only. */
+static int check_positions(stf_repair *r, const steif_diagnosis *d, const steif_start *start)
+{
+  static const sunrealtype most = 1e-2;
+  char room[STEIF_SPEC_WORD];
+  sunrealtype size = 0, moved = 0;
+  size_t at = 0;
+  for (size_t j = 0; j < r->point.n && d->index >= 3; j++) {
+    if (d->number[j] != 1) continue;
+    size = fmax(size, fabs(r->point.y0[j]));
+    if (fabs(start->moved[j]) > moved) moved = fabs(start->moved[j]), at = j;
+  }
+  STEIF_CHECK(
+    !(moved > most * size), r->ctx, STEIF_BAD_INPUT,
+    "the start of '%s' lies off its constraints: position %s would have to move by %.3g, "
+    "above %g of the largest, %.3g; correct it, or compute one by steif_consistent",
+    r->given->name, stf_point_unknown(&r->point, at, room), start->moved[at], most, size);
+  return STEIF_OK;
+}
+
+/* Least movement in the norm of E: with masses on its diagonal M (v(t+) - v(t-)) = -G^T Lambda, as after an
+ * impact. */
+static void weigh(const stf_repair *r, sunrealtype *weight)
+{
+  const stf_view *v = &r->view;
+  for (size_t j = 0; j < v->n; j++) {
+    sunrealtype top = 0;
+    for (sunindextype k = v->column[j]; k < v->column[j + 1]; k++)
+      top = fmax(top, fabs(v->e[k]));
+    weight[j] = top > 0 ? sqrt(top) : 1;
+  }
+}
+
+static int by_stages(stf_repair *r, stf_evidence *e, const steif_diagnosis *d)
+{
+  const size_t n = r->point.n;
+  steif_start start = {0};
+  sunrealtype *weight = stf_pool_array(r->pool, n, sizeof *weight);
+  enum steif_attribute *attribute = stf_pool_array(r->pool, n, sizeof *attribute);
+  if (!weight || !attribute) return STEIF_NO_MEMORY;
+  weigh(r, weight);
+  for (size_t j = 0; j < n; j++)
+    attribute[j] = r->attribute ? (enum steif_attribute)r->attribute[j] : STEIF_GUESS;
+  const steif_request request = {.attribute = attribute, .weight = weight};
+  STEIF_TRY(stf_start_from(e, d, &request, &start));
+  int code = check_positions(r, d, &start);
+  if (!code) code = use(r, start.y, start.yp, start.enforced);
+  steif_start_clear(&start);
+  return code;
+}
+
+static int diagnosed(stf_repair *r, bool wanted)
+{
+  stf_evidence evidence;
+  steif_diagnosis d = {.index = -1};
+  sunrealtype jump = 0;
+  r->point.quick = false;
+  int code = stf_diagnose(&r->point, &evidence, &d);
+  if (!code && wanted) code = use_index(r, &d);
+  if (!code) code = stf_first_jump(r, &jump);
+  if (!code && (jump > 1 || any_fixed(r)) && r->point.n <= STEIF_DIAGNOSE_LARGEST &&
+      d.index >= 0)
+    code = by_stages(r, &evidence, &d);
+  stf_evidence_free(&evidence);
+  steif_diagnosis_clear(&d);
+  return code;
+}
+
+/* Hidden constraints may be violated; of a declared index, a cheap look first. */
+static int higher_index(stf_repair *r)
+{
+  const bool declared = r->given->index || r->given->dae_index >= 1;
+  sunrealtype jump = INFINITY;
+  if (declared) STEIF_TRY(stf_first_jump(r, &jump));
+  return jump > 1 ? diagnosed(r, !declared) : STEIF_OK;
+}
+
+/* -- the start --------------------------------------------------------------------------- */
+
+static int index_one(stf_repair *r)
+{
+  sunrealtype first = 0;
+  if (any_fixed(r)) return diagnosed(r, false);
+  const int code = stf_algebraic_newton(r, &first);
+  STEIF_CHECK(code <= 0, r->ctx, STEIF_NO_CONVERGENCE,
+              "the start of '%s' is not consistent, and Newton's iteration for the components "
+              "without a derivative does not converge from it: give better guesses of them",
+              r->given->name);
+  STEIF_TRY(code);
+  return first > 1 ? use(r, r->y, r->yp, NULL) : STEIF_OK;
+}
+
+static int start(stf_repair *r)
+{
+  bool regular = false;
+  STEIF_TRY(look(r));
+  STEIF_TRY(stf_index_one(r, &regular));
+  if (!regular) return higher_index(r);
+  return r->count ? index_one(r) : STEIF_OK;
+}
+
+/* What a look cannot evaluate, the run meets itself and tells better. */
+static int pass(stf_repair *r, int code)
+{
+  const bool ours = code == STEIF_NO_MEMORY || code == STEIF_BAD_INPUT || code == STEIF_OK ||
+                    (code == STEIF_NO_CONVERGENCE && r->policy == STEIF_CHECK);
+  if (ours) return code;
+  steif_forget(r->ctx);
+  r->problem = *r->given;
+  r->report = (steif_repair){0};
+  return STEIF_OK;
+}
+
+int stf_repair_start(stf_repair *r)
+{
+  r->problem = *r->given;
+  r->report = (steif_repair){0};
+  if (stf_point_open(r->ctx, r->given, NULL, &r->point)) {
+    const int code = steif_status(r->ctx) == STEIF_NO_MEMORY ? STEIF_NO_MEMORY : STEIF_OK;
+    if (!code) steif_forget(r->ctx);
+    return code;
+  }
+  r->point.quick = true;
+  r->view = (stf_view){0};
+  const int code = pass(r, start(r));
+  stf_view_free(&r->point, &r->view);
+  stf_point_close(&r->point);
+  return code;
+}

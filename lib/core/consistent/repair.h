@@ -1,0 +1,53 @@
+/* repair.h: the start of a run: is it consistent, and the nearest start that is.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_REPAIR_H
+#define STF_REPAIR_H
+
+#include "sparse_view.h"
+
+/* One look at a start. problem is a copy of the given one whose y0, index and dae_index are those to be
+ * used; its arrays are of the pool. */
+typedef struct stf_repair {
+  steif_context *ctx;
+  stf_pool *pool;
+  const steif_problem *given;
+  enum steif_initial policy;
+  const int *attribute; /* n of enum steif_attribute; NULL: all guesses */
+  sunrealtype rtol, atol;
+  const sunrealtype *atols;
+  steif_problem problem;
+  steif_repair report;
+  /* work */
+  stf_point point;
+  stf_view view;
+  sunrealtype *y, *yp, *weight; /* n each; weight: rtol |y| + atol */
+  bool *algebraic;              /* n: the column of E is zero */
+  size_t count;                 /* of those */
+} stf_repair;
+
+/* Look at the start of `given`; changes only repair->problem and repair->report. */
+int stf_repair_start(stf_repair *repair);
+
+/* algebraic_newton.c: C = (columns of F_y' with entries | columns of F_y of the others), by which F = 0
+ * is solved for y_d' and y_a. *regular: the DAE has index 1 (0 without algebraic components). */
+int stf_index_one(stf_repair *repair, bool *regular);
+/* Solve for y_a; the first correction is in *first, in tolerances: at most 1, and y stays as it is. */
+int stf_algebraic_newton(stf_repair *repair, sunrealtype *first);
+
+/* first_jump.c: the largest jump of an unknown with a derivative in a step of backward Euler as h -> 0, in
+ * tolerances. Zero for consistent starts of any index. */
+int stf_first_jump(stf_repair *repair, sunrealtype *largest);
+
+/* Matrices C and zero by columns for a pencil, whose shift 1 is C. */
+typedef struct stf_view_factor {
+  SUNMatrix C, zero;
+  steif_pencil *pencil;
+} stf_view_factor;
+/* e_j of the view times `derivative` plus b_j times `value`, chosen by column j; factored. STEIF_SINGULAR
+ * leaves no sentence. */
+int stf_view_factor_open(stf_repair *repair, sunrealtype derivative, const bool *by_value,
+                         sunrealtype value, stf_view_factor *columns);
+void stf_view_factor_close(stf_view_factor *columns);
+
+#endif
