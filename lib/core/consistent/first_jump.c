@@ -1,6 +1,6 @@
 /* first_jump.c: does a start lie on the hidden constraints? A step of backward Euler of length h, linearised at
- * the start, moves y by delta(h) = -(E/h + B)^{-1} F(t, y, 0). Unknowns with a derivative move by
- * jump + h y' + O(h^2), jump = 0 if and only if the linearised constraints up to those on them hold;
+ * the start, moves y by delta(h) = -(E/h + B)^{-1} F(t + h, y, 0). Unknowns with a derivative move by
+ * jump + h y' + O(h^2) with F at t + h, jump = 0 if and only if the linearised constraints up to those on them hold;
  * 2 delta(h) - delta(2 h) is free of h y'.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "repair.h"
@@ -10,11 +10,14 @@
 /* Of the interval: rounding of velocities is eps/h, what is left of smooth motion h^2. */
 static const sunrealtype part = 1e-6;
 
-static int move(stf_repair *r, sunrealtype h, const sunrealtype *F, sunrealtype *delta)
+/* work: 2 n */
+static int move(stf_repair *r, sunrealtype h, sunrealtype *work, sunrealtype *delta)
 {
   stf_view_factor c;
   int code = stf_view_factor_open(r, 1 / h, NULL, 1, &c);
   N_Vector x = r->point.r;
+  sunrealtype *rest = work, *F = work + r->point.n;
+  if (!code) code = stf_point_residual(&r->point, r->point.t + h, r->y, rest, F);
   if (!code) {
     memcpy(N_VGetArrayPointer(x), F, r->point.n * sizeof *F);
     code = steif_pencil_solve(c.pencil, 0, 1, &x, NULL);
@@ -26,16 +29,14 @@ static int move(stf_repair *r, sunrealtype h, const sunrealtype *F, sunrealtype 
 
 int stf_first_jump(stf_repair *r, sunrealtype *largest)
 {
-  stf_point *s = &r->point;
-  const size_t n = s->n;
+  const size_t n = r->point.n;
   sunrealtype *work = stf_allocate(r->ctx, 4 * n, sizeof *work);
   *largest = 0;
   if (!work) return STEIF_NO_MEMORY;
-  sunrealtype *rest = work, *F = work + n, *once = work + 2 * n, *twice = work + 3 * n;
+  sunrealtype *once = work + 2 * n, *twice = work + 3 * n;
   const sunrealtype h = part * (r->given->t1 - r->given->t0);
-  int code = stf_point_residual(s, s->t, r->y, rest, F);
-  if (!code) code = move(r, h, F, once);
-  if (!code) code = move(r, 2 * h, F, twice);
+  int code = move(r, h, work, once);
+  if (!code) code = move(r, 2 * h, work, twice);
   for (size_t j = 0; j < n && !code; j++)
     if (!r->algebraic[j])
       *largest = fmax(*largest, fabs(2 * once[j] - twice[j]) / r->weight[j]);

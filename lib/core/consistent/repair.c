@@ -240,6 +240,7 @@ static int diagnosed(stf_repair *r, bool wanted)
   steif_diagnosis d = {.index = -1};
   sunrealtype jump = 0;
   r->point.quick = false;
+  r->point.views++;
   int code = stf_diagnose(&r->point, &evidence, &d);
   if (!code && wanted) code = use_index(r, &d);
   if (!code) code = stf_first_jump(r, &jump);
@@ -262,17 +263,32 @@ static int higher_index(stf_repair *r)
 
 /* -- the start --------------------------------------------------------------------------- */
 
+/* Differential components stay, and algebraic ones follow from them. */
+static int check_fixed(stf_repair *r)
+{
+  char room[STEIF_SPEC_WORD];
+  for (size_t j = 0; j < r->point.n; j++)
+    STEIF_CHECK(
+      !r->algebraic[j] || !fixed(r, j) || fabs(r->y[j] - r->point.y0[j]) <= r->weight[j],
+      r->ctx, STEIF_BAD_INPUT,
+      "the start of '%s' fixes %s, which would have to move by %.3g to fulfil the "
+      "equations with the components that have a derivative: free it, or change those",
+      r->given->name, stf_point_unknown(&r->point, j, room), r->y[j] - r->point.y0[j]);
+  return STEIF_OK;
+}
+
 static int index_one(stf_repair *r)
 {
   sunrealtype first = 0;
-  if (any_fixed(r)) return diagnosed(r, false);
   const int code = stf_algebraic_newton(r, &first);
   STEIF_CHECK(code <= 0, r->ctx, STEIF_NO_CONVERGENCE,
               "the start of '%s' is not consistent, and Newton's iteration for the components "
               "without a derivative does not converge from it: give better guesses of them",
               r->given->name);
   STEIF_TRY(code);
-  return first > 1 ? use(r, r->y, r->yp, NULL) : STEIF_OK;
+  if (first <= 1) return STEIF_OK;
+  STEIF_TRY(check_fixed(r));
+  return use(r, r->y, r->yp, NULL);
 }
 
 static int start(stf_repair *r)
@@ -296,19 +312,23 @@ static int pass(stf_repair *r, int code)
   return STEIF_OK;
 }
 
+static void close_point(void *point) { stf_point_close(point); }
+
 int stf_repair_start(stf_repair *r)
 {
   r->problem = *r->given;
   r->report = (steif_repair){0};
-  if (stf_point_open(r->ctx, r->given, NULL, &r->point)) {
-    const int code = steif_status(r->ctx) == STEIF_NO_MEMORY ? STEIF_NO_MEMORY : STEIF_OK;
-    if (!code) steif_forget(r->ctx);
-    return code;
-  }
+  sunrealtype *size = stf_allocate(r->ctx, (size_t)r->given->n, sizeof *size);
+  if (!size) return STEIF_NO_MEMORY;
+  for (sunindextype j = 0; j < r->given->n; j++) size[j] = r->atol / r->rtol;
+  int code = stf_point_open(r->ctx, r->given, &(steif_point){.size = size}, &r->point);
+  stf_release(r->ctx, size);
+  if (code) return pass(r, code == STEIF_BAD_INPUT ? STEIF_RETRY : code);
+  code = stf_pool_adopt(r->pool, &r->point, close_point);
+  if (code) return code;
   r->point.quick = true;
   r->view = (stf_view){0};
-  const int code = pass(r, start(r));
+  code = pass(r, start(r));
   stf_view_free(&r->point, &r->view);
-  stf_point_close(&r->point);
   return code;
 }

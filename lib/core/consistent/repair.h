@@ -26,7 +26,8 @@ typedef struct stf_repair {
   size_t count;                 /* of those */
 } stf_repair;
 
-/* Look at the start of `given`; changes only repair->problem and repair->report. */
+/* Look at the start of `given`: repair->problem and repair->report. The point stays open, as long as the pool
+ * lives: a run may take its system over. */
 int stf_repair_start(stf_repair *repair);
 
 /* algebraic_newton.c: C = (columns of F_y' with entries | columns of F_y of the others), by which F = 0

@@ -144,11 +144,27 @@ static const steif_problem *semilinear(steif_solver *s)
   return &s->semilinear;
 }
 
+/* The one by which the start was looked at. */
+static int take_system(steif_solver *s, N_Vector y, N_Vector yp)
+{
+  stf_system *system = &s->step.system;
+  *system = s->repair.point.system;
+  system->problem = s->problem;
+  if (s->problem->index) STEIF_TRY(stf_index_check(system));
+  if (s->repair.point.views <= 1) return STEIF_OK;
+  system->filled = system->filled && system->linear;
+  const int code = stf_system_linearise(system, s->problem->t0, y, yp);
+  return code > 0 ? STEIF_CALLBACK : code;
+}
+
 static int open_system(steif_solver *s, int form, N_Vector y, N_Vector yp)
 {
   stf_step *step = &s->step;
   const steif_options *o = &s->options;
   const sunrealtype scale = o->atol / o->rtol;
+  const unsigned other = STF_EXPLICIT | STF_SEMILINEAR;
+  if (s->repair.point.pool && !o->force_storage && !(step->method->traits & other))
+    return take_system(s, y, yp);
   if (!(step->method->traits & STF_EXPLICIT))
     return stf_system_open(
       s->pool, s->ctx, step->method->traits & STF_SEMILINEAR ? semilinear(s) : s->problem, form,
