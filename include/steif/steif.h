@@ -8,6 +8,7 @@
 #include <steif/problem.h>
 #include <steif/index.h>
 #include <steif/consistent.h>
+#include <steif/initial.h>
 #include <steif/method.h>
 #include <steif/pencil.h>
 #include <steif/phi.h>

@@ -27,19 +27,36 @@ static int move(stf_repair *r, sunrealtype h, sunrealtype *work, sunrealtype *de
   return code;
 }
 
-int stf_first_jump(stf_repair *r, sunrealtype *largest)
+/* Steps of h and 2 h; work: 4 n. */
+static int pair(stf_repair *r, sunrealtype h, sunrealtype *work, sunrealtype *largest)
 {
   const size_t n = r->point.n;
-  sunrealtype *work = stf_allocate(r->ctx, 4 * n, sizeof *work);
-  *largest = 0;
-  if (!work) return STEIF_NO_MEMORY;
   sunrealtype *once = work + 2 * n, *twice = work + 3 * n;
-  const sunrealtype h = part * (r->given->t1 - r->given->t0);
-  int code = move(r, h, work, once);
-  if (!code) code = move(r, 2 * h, work, twice);
-  for (size_t j = 0; j < n && !code; j++)
+  STEIF_TRY(move(r, h, work, once));
+  STEIF_TRY(move(r, 2 * h, work, twice));
+  *largest = 0;
+  for (size_t j = 0; j < n; j++)
     if (!r->algebraic[j])
       *largest = fmax(*largest, fabs(2 * once[j] - twice[j]) / r->weight[j]);
+  return STEIF_OK;
+}
+
+/* A jump is there for every h; motion and rounding are not: several are tried before one is believed. */
+int stf_first_jump(stf_repair *r, sunrealtype *largest)
+{
+  sunrealtype *work = stf_allocate(r->ctx, 4 * r->point.n, sizeof *work), slow, fast;
+  if (!work) return STEIF_NO_MEMORY;
+  const sunrealtype span = r->given->t1 - r->given->t0;
+  stf_view_rates(&r->point, &r->view, &slow, &fast);
+  const sunrealtype h[] = {part * span, part / sqrt(slow * fast), part / fast,
+                           1e-3 * part * span};
+  int code = STEIF_OK;
+  *largest = INFINITY;
+  for (size_t k = 0; k<sizeof h / sizeof *h && * largest> 1 && !code; k++) {
+    sunrealtype found = INFINITY;
+    if (h[k] > 0 && h[k] < span) code = pair(r, h[k], work, &found);
+    *largest = fmin(*largest, found);
+  }
   stf_release(r->ctx, work);
   return code;
 }
