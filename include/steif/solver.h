@@ -93,9 +93,9 @@ typedef struct steif_options {
   int (*reinitialise)(steif_context *ctx, const steif_problem *problem, sunrealtype t,
                       sunrealtype rtol, N_Vector y, N_Vector yp);
   enum steif_initial
-    initial; /* what is done about an inconsistent start (initial.h); 0: repair */
-  const int *attributes;    /* n of enum steif_attribute: what may move then; NULL: guesses */
-  sunrealtype max_seconds;  /* limit on the wall-clock time of a call; 0: none */
+    initial;               /* what is done about an inconsistent start (initial.h); 0: repair */
+  const int *attributes;   /* n of enum steif_attribute: what may move then; NULL: guesses */
+  sunrealtype max_seconds; /* limit on the wall-clock time of a call; 0: none */
   const volatile int *stop; /* set to nonzero, by a signal handler for example, it lets
                                          the call return STEIF_STOPPED after the step at hand */
 } steif_options;

@@ -12,7 +12,8 @@ static void a_wrong_sign_is_refused(void)
     room_open(&s, &r, specs[k], 0, 0.073);
     CHECK(stf_newton_solve(&s.newton, &s.stages) == STEIF_RETRY);
     CHECK(steif_status(s.ctx) == STEIF_NO_CONVERGENCE);
-    CHECK(strstr(steif_message(s.ctx), "not converge for problem 'ring' in the step from t = 0.2") &&
+    CHECK(strstr(steif_message(s.ctx),
+                 "not converge for problem 'ring' in the step from t = 0.2") &&
           strstr(steif_message(s.ctx), "h = 0.073") &&
           strstr(steif_message(s.ctx), "Jacobian"));
     CHECK(s.newton.theta >= 1 && s.newton.fails == 1);

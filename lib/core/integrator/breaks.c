@@ -77,7 +77,8 @@ static int check_index(const steif_solver *s)
     step->count > 0 || !step->adaptive || s->problem->dae_index <= HIGHEST_INDEX ||
       step->system.linear,
     s->ctx, STEIF_UNSUPPORTED,
-    "problem '%s' has index %d: adaptive steps for nonlinear equations are made up to index %d; "
+    "problem '%s' has index %d: adaptive steps for nonlinear equations are made up to index "
+    "%d; "
     "differentiate the equations that steif_diagnose names, or prescribe steps with h",
     s->problem->name, s->problem->dae_index, HIGHEST_INDEX);
   return STEIF_OK;

@@ -89,8 +89,8 @@ static int react(steif_solver *s, sunrealtype t)
   N_VLinearSum(1, w->after, -1, w->y, w->y);
   w->moved = !(N_VMaxNorm(w->y) <= 0);
   STEIF_CHECK(wish >= STEIF_CONTINUE && wish <= STEIF_FINISH, s->ctx, STEIF_CALLBACK,
-              "handle_event of problem '%s' returned %d at the event %s, t = %.12g", p->name, wish,
-              w->name, t);
+              "handle_event of problem '%s' returned %d at the event %s, t = %.12g", p->name,
+              wish, w->name, t);
   s->finished = wish == STEIF_FINISH, w->silent = s->finished;
   w->cut = wish == STEIF_RESTART;
   if (wish == STEIF_CONTINUE) return STEIF_OK;

@@ -189,9 +189,10 @@ static int open_cq(stf_step *s)
   static const sunrealtype c[] = {0};
   state *e = s->state;
   const sunrealtype h = s->h_equal;
-  STEIF_CHECK(s->system.form == STEIF_DESCRIPTOR && h > 0, s->ctx, STEIF_UNSUPPORTED,
-              "start=cq is for E x' = A x + g(t) with a constant step size; problem '%s' has form %s%s",
-              s->problem->name, steif_form_name(s->system.form), h > 0 ? "" : " and no h");
+  STEIF_CHECK(
+    s->system.form == STEIF_DESCRIPTOR && h > 0, s->ctx, STEIF_UNSUPPORTED,
+    "start=cq is for E x' = A x + g(t) with a constant step size; problem '%s' has form %s%s",
+    s->problem->name, steif_form_name(s->system.form), h > 0 ? "" : " and no h");
   e->k = e->p;
   past(s, h);
   coefficients(s, h, e->p);
