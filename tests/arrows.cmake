@@ -20,6 +20,7 @@ set(room_of_initial problem)
 set(room_of_stability region)
 set(room_of_counterexample lyapunov)
 set(room_of_supervisor lyapunov)
+set(room_of_decay lyapunov)
 set(room_of_energy hamiltonian)
 
 # Umbrellas: each includes public headers only.

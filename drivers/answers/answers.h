@@ -42,9 +42,13 @@ struct lyapunov_answer {
   steif_lyapunov_facts facts;
   steif_growth_facts growth;
   bool measured; /* growth */
+  steif_decay decay;
+  bool judged, decided; /* decay is there; and says something, or is not for this problem */
   steif_lyapunov_check *check;
   int checks;
 };
+/* Everything but the room, by the options of the call; then presented. */
+int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_answer *a);
 int lyapunov_present(const struct call *call, const struct lyapunov_answer *a);
 
 /* The windows of one run, and ln |w| at their ends: count + 1 points. */

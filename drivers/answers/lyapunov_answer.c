@@ -48,15 +48,51 @@ static void diagnostics(steif_report *r, const steif_growth_facts *g)
   }
 }
 
+/* The equation, the numbers and what that says of the step. */
+static void fill_decay(steif_report *r, const struct lyapunov_answer *a)
+{
+  static const struct member rates[] = {
+    MEMBER(steif_decay, lambda, A_REAL),
+    MEMBER(steif_decay, lambda_error, A_REAL),
+    {"numbers", A_REAL, offsetof(steif_decay, mu)},
+    {"numbers_error", A_REAL, offsetof(steif_decay, mu_error)},
+    MEMBER(steif_decay, rise, A_REAL),
+    MEMBER(steif_decay, rise_numbers, A_REAL),
+    MEMBERS_END};
+  const steif_decay *d = &a->decay;
+  steif_report_text(r, "verdict", d->sentence);
+  if (!a->judged) return;
+  steif_report_whole(r, "decision", d->verdict);
+  report_members(r, "", rates, d);
+  if (d->period > 0) steif_report_real(r, "period", d->period);
+  if (d->h_good > 0) {
+    steif_report_real(r, "h_star", d->h_good);
+    report_maybe(r, "", "h_too_long", d->h_bad < 1e300, d->h_bad);
+  }
+  if (d->most > 0) {
+    steif_report_whole(r, "steps_least", d->least);
+    steif_report_whole(r, "steps_most", d->most);
+    steif_report_truth(r, "tail", d->tail);
+  }
+}
+
+/* The mean of trace J: of the equation, and at the stages of the steps. */
+static void fill_trace(steif_report *r, const struct lyapunov_answer *a)
+{
+  const bool known = a->checks > 0 && a->check[0].law == STEIF_SUM_LAW;
+  report_maybe(r, "", "trace", known, known ? a->check[0].expected : 0);
+  steif_report_real(r, "trace_sampled", a->facts.trace);
+}
+
 static void fill(steif_report *r, const struct call *call, const void *result)
 {
   static const struct member members[] = {
-    MEMBER(steif_lyapunov_facts, sum, A_REAL), MEMBER(steif_lyapunov_facts, trace, A_REAL),
-    MEMBER(steif_lyapunov_facts, linear, A_TRUTH), MEMBER(steif_lyapunov_facts, steps, A_LONG),
-    MEMBERS_END};
+    MEMBER(steif_lyapunov_facts, sum, A_REAL), MEMBER(steif_lyapunov_facts, linear, A_TRUTH),
+    MEMBER(steif_lyapunov_facts, steps, A_LONG), MEMBERS_END};
   const struct lyapunov_answer *a = result;
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
+  fill_decay(r, a);
   steif_report_list(r, "exponents", a->count, a->exponent);
   steif_report_list(r, "errors", a->count, a->error);
   steif_report_matrix(r, "intervals", a->count, 2, a->interval);
@@ -66,6 +102,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   report_maybe(r, "", "lte_max", a->measured, a->growth.lte_max);
   report_maybe(r, "", "tau_max", a->measured, a->growth.tau_max);
   report_members(r, "", members, &a->facts);
+  fill_trace(r, a);
   report_steps(
     r,
     &(struct steps_made){
@@ -90,5 +127,8 @@ static void fill_rows(steif_report *r, const struct call *call, const void *resu
 int lyapunov_present(const struct call *call, const struct lyapunov_answer *a)
 {
   const int code = show_result(call, fill, a);
-  return code ? code : save_rows(call, fill_rows, a);
+  const int saved = code ? code : save_rows(call, fill_rows, a);
+  if (saved || a->decided) return saved;
+  say(call, "%s", a->decay.sentence);
+  return EXIT_UNCERTIFIED;
 }

@@ -6,6 +6,7 @@
 #include <steif/region.h>
 #include <steif/counterexample.h>
 #include <steif/lyapunov.h>
+#include <steif/decay.h>
 #include <steif/supervisor.h>
 #include <steif/energy.h>
 #include <steif/hamiltonian.h>

@@ -59,9 +59,12 @@ typedef struct steif_lyapunov_facts {
   sunrealtype h, time; /* step, time averaged over */
   sunrealtype end;     /* of the last step: t1, or less where h does not divide the run */
   sunrealtype sum; /* of the exponents; with all n it equals, to the order of the method, ... */
-  sunrealtype trace; /* ... the mean of trace J; NaN for a DAE */
-  sunrealtype mu;    /* largest running average of the first exponent in the second half */
-  sunrealtype flow;  /* ln(|y'| in the last step / in the first) / time: y' of an autonomous
+  sunrealtype
+    trace; /* ... the mean of trace J, here at the stages of the method: as blind as these;
+                        NaN for a DAE. steif_lyapunov_verify has its own */
+  sunrealtype rise; /* largest ln(|w(t)| / |w(s)|), s < t, of the first direction w */
+  sunrealtype mu;   /* largest running average of the first exponent in the second half */
+  sunrealtype flow; /* ln(|y'| in the last step / in the first) / time: y' of an autonomous
                         problem solves W' = J W. NaN for others, and where J is free of y */
   sunrealtype
     dimension; /* Kaplan and Yorke's j + (sum of the j largest) / |the next|, j the last
@@ -80,15 +83,19 @@ STEIF_EXPORT int steif_lyapunov(steif_context *ctx, const steif_problem *problem
 
 /* What holds for exact exponents, and whether it does for those found. */
 enum steif_lyapunov_law {
-  STEIF_SUM_LAW, /* the sum of all n is the mean of trace J: needs an ode and count = n */
+  STEIF_SUM_LAW, /* the sum of all n is the mean of trace J: needs an ode and count = n. The trace does
+                      not come from the steps of the method: adaptive quadrature of tr A(t), or along
+                      a run of its own with rtol 1e-8 */
   STEIF_FLOW_LAW, /* one is 0 along a solution of an autonomous problem that does not come to rest,
                        |y'| staying above 1e-6 of what it was; the nearest to 0 is taken */
-  STEIF_FLOQUET_LAW /* x' = A(t) x of a given period P = m h': each is ln |multiplier| / P of m steps of
-                       the method; multipliers below 1e-9 of the largest are lost in rounding */
+  STEIF_RECURRENCE_LAW /* x' = A(t) x of a given period P = m h': each is ln |multiplier| / P of m
+                            steps of the method itself: this checks the exponents of the recurrence
+                            and says nothing of the step. Multipliers below 1e-9 of the largest are
+                            lost in rounding */
 };
 typedef struct steif_lyapunov_check {
   enum steif_lyapunov_law law;
-  const char *name; /* "sum", "flow", "floquet" */
+  const char *name; /* "sum", "flow", "recurrence" */
   int which;        /* exponent, from 1; 0: all of them */
   /* tolerance: accuracy max |exponent| for the sum; else four standard errors, and for the flow
      |facts.flow| besides, since a run is finite: 1e-9 (1 + |expected|) at least. */

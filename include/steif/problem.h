@@ -139,6 +139,7 @@ struct steif_problem {
                                 -2: < 0, 0: none; kept at the ends of steps; NULL: none */
   int dae_index;         /* 0: ODE; differentiation index where known, -1: not stated */
   int autonomous;        /* 1: f does not depend on t */
+  sunrealtype period;    /* of f in t where it is known, else 0 */
   int linear;            /* 1: F is affine in (y, y') with constant coefficients */
 
   steif_state exact; /* closed solution, if there is one */

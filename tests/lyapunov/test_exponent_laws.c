@@ -53,7 +53,7 @@ static void floquet_agrees_with_qr(void)
     CLOSE(r.check[0].tolerance, 0.01 * fmax(-r.exponent[0], -r.exponent[1]), 1e-12);
     for (int j = 0; j < 2; j++) {
       const steif_lyapunov_check *c = &r.check[1 + j];
-      CHECK(c->law == STEIF_FLOQUET_LAW && c->which == j + 1 && c->holds);
+      CHECK(c->law == STEIF_RECURRENCE_LAW && c->which == j + 1 && c->holds);
       CHECK(c->value == r.exponent[j]);
       CLOSE_FLOOR(c->expected, c->value, 1e-9, 1);
     }

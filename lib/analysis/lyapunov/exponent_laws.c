@@ -1,5 +1,6 @@
 /* exponent_laws.c: what exact Lyapunov exponents satisfy: Liouville's formula for their sum, the exponent 0
- * of a flow, Floquet's multipliers.
+ * of a flow, multipliers of
+ * the recurrence.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "lyapunov_thresholds.h"
 #include "variation.h"
@@ -22,19 +23,24 @@ typedef struct trial {
 static void judge(trial *t, enum steif_lyapunov_law law, int which, sunrealtype value,
                   sunrealtype expected, sunrealtype tolerance)
 {
-  static const char *const name[] = {"sum", "flow", "floquet"}; /* enum steif_lyapunov_law */
+  static const char *const name[] = {"sum", "flow", "recurrence"}; /* enum steif_lyapunov_law */
   const sunrealtype bound = fmax(tolerance, STF_EXPONENT_ROUNDING * (1 + fabs(expected)));
   t->check[*t->count] = (steif_lyapunov_check){
     law, name[law], which, value, expected, bound, fabs(value - expected) <= bound};
   ++*t->count;
 }
 
-static void sum(trial *t, const steif_problem *p, sunrealtype accuracy)
+static int sum(trial *t, const steif_problem *p, sunrealtype accuracy)
 {
+  stf_mean_trace trace;
   sunrealtype most = 0;
-  if (t->m < (int)p->n || isnan(t->facts->trace)) return;
+  if (t->m < (int)p->n || isnan(t->facts->trace)) return STEIF_OK;
+  STEIF_TRY(stf_mean_trace_find(t->ctx, p, t->facts->end - t->facts->time, t->facts->end,
+                                t->facts->linear, &trace));
+  if (!trace.known) return STEIF_OK;
   for (int i = 0; i < t->m; i++) most = fmax(most, fabs(t->exponent[i]));
-  judge(t, STEIF_SUM_LAW, 0, t->facts->sum, t->facts->trace, accuracy * most);
+  judge(t, STEIF_SUM_LAW, 0, t->facts->sum, trace.value, accuracy * most + trace.error);
+  return STEIF_OK;
 }
 
 static void flow(trial *t)
@@ -71,19 +77,20 @@ static int multipliers(steif_context *ctx, int d, sunrealtype *Phi, sunrealtype 
   return STEIF_OK;
 }
 
-static int floquet(stf_pool *pool, trial *t, const steif_problem *p, const char *method,
-                   sunrealtype period)
+static int recurrence(stf_pool *pool, trial *t, const steif_problem *p, const char *method,
+                      sunrealtype period)
 {
   const size_t d = (size_t)p->n;
   const sunrealtype m = round(period / t->facts->h);
   STEIF_CHECK(t->facts->linear && !p->E && !p->F, t->ctx, STEIF_UNSUPPORTED,
               "'%s' is not x' = A(t) x, whose multipliers are found: leave the period %g out",
               p->name, period);
-  STEIF_CHECK(
-    m >= 1 && fabs(period - m * t->facts->h) <= STF_PERIOD_OFF * period, t->ctx,
-    STEIF_BAD_INPUT,
-    "the period %.12g is %.6g steps of h = %.12g, which must be a whole number: choose h so",
-    period, period / t->facts->h, t->facts->h);
+  STEIF_CHECK(m >= 1 && fabs(period - m * t->facts->h) <= STF_PERIOD_OFF * period, t->ctx,
+              STEIF_BAD_INPUT,
+              "%.6g steps of h = %.12g make the period %.12g, which must be a whole number: h "
+              "= %.17g makes "
+              "%.0f",
+              period / t->facts->h, t->facts->h, period, period / fmax(m, 1), fmax(m, 1));
   sunrealtype *Phi = stf_pool_array(pool, d * d + (2 + WORK) * d, sizeof *Phi);
   if (!Phi) return STEIF_NO_MEMORY;
   sunrealtype *rate = Phi + d * d;
@@ -91,7 +98,7 @@ static int floquet(stf_pool *pool, trial *t, const steif_problem *p, const char 
   STEIF_TRY(multipliers(t->ctx, (int)d, Phi, period, rate, rate + d));
   for (int i = 0; i < t->m; i++)
     if (isfinite(rate[i]))
-      judge(t, STEIF_FLOQUET_LAW, i + 1, t->exponent[i], rate[i],
+      judge(t, STEIF_RECURRENCE_LAW, i + 1, t->exponent[i], rate[i],
             ERRORS * t->options->error[i]);
   return STEIF_OK;
 }
@@ -113,12 +120,12 @@ int steif_lyapunov_verify(steif_context *ctx, const steif_problem *problem, cons
   t.check = check;
   t.count = count;
   *count = 0;
-  sum(&t, problem, accuracy > 0 ? accuracy : 0.01);
+  STEIF_TRY(sum(&t, problem, accuracy > 0 ? accuracy : 0.01));
   flow(&t);
   if (period == 0) return STEIF_OK;
   stf_pool *pool = stf_pool_new(ctx);
   if (!pool) return STEIF_NO_MEMORY;
-  const int code = floquet(pool, &t, problem, method, period);
+  const int code = recurrence(pool, &t, problem, method, period);
   stf_pool_free(&pool);
   return code > 0 ? steif_status(ctx) : code;
 }

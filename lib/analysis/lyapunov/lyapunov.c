@@ -21,6 +21,7 @@ typedef struct spectrum {
   int parts;
   long part_begun;
   sunrealtype trace, mu;
+  sunrealtype climb, rise;     /* ln |w| above its least so far; the most of that */
   sunrealtype *y, first, last; /* y before a step, |h y'| of the first and the last step */
 } spectrum;
 
@@ -141,7 +142,9 @@ static void record(spectrum *s, long n)
   const long slots = s->window + 1;
   sunrealtype *now = s->ring + (n % slots) * m, *then = s->ring + ((n + 1) % slots) * m;
   for (int i = 0; i < m; i++) {
-    add(&s->sum[i], &s->rest[i], log(s->R[i * m + i]));
+    const sunrealtype gain = log(s->R[i * m + i]);
+    add(&s->sum[i], &s->rest[i], gain);
+    if (i == 0) s->climb = fmax(0, s->climb + gain);
     now[i] = s->sum[i] + s->rest[i];
     if (n < s->window) continue;
     const sunrealtype rate = (now[i] - then[i]) / ((sunrealtype)s->window * h);
@@ -150,6 +153,7 @@ static void record(spectrum *s, long n)
   }
   if (s->steps >= 2 * PARTS && n * PARTS >= (s->parts + 1) * s->steps) close_part(s, n, now);
   if (2 * n >= s->steps) s->mu = fmax(s->mu, now[0] / ((sunrealtype)n * h));
+  s->rise = fmax(s->rise, s->climb);
   s->trace += (trace(&s->v) - s->trace) / (sunrealtype)n;
 }
 
@@ -182,6 +186,7 @@ static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype
   out.end = s->constant.end;
   out.trace = s->trace;
   out.mu = s->mu;
+  out.rise = s->rise;
   out.flow =
     s->v.problem->autonomous && !s->v.linear ? log(s->last / s->first) / out.time : NAN;
   for (int i = 0; i < s->v.m; i++) {

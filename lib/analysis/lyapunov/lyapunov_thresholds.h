@@ -27,6 +27,14 @@
 #define STF_SQUARES_LEAST 1e-130
 #define STF_SQUARES_MOST 1e130
 
+/* Lengths of refined divisions have this ratio, the one that whole numbers fit worst. */
+#define STF_GOLDEN 1.6180339887498949
+/* Quadrature of trace J: error of a panel relative to 1 + |mean|, and how far two divisions may be apart. */
+#define STF_TRACE_PANEL 1e-9
+#define STF_TRACE_AGREES 1e-6
+/* Tolerance of runs that stand for the solution of a problem. */
+#define STF_REFERENCE_RTOL 1e-8
+
 /* Exponents: differences below this part of 1 + |value| are rounding of long sums of logarithms. */
 #define STF_EXPONENT_ROUNDING 1e-9
 /* |y'| below this part of its start: the solution has come to rest, and no exponent has to be 0. */
@@ -34,7 +42,7 @@
 /* Multipliers below this part of the largest are rounding of the map of a period. */
 #define STF_MULTIPLIER_ROUNDING 1e-9
 /* A period is a whole number of steps to this part of it. */
-#define STF_PERIOD_OFF 1e-9
+#define STF_PERIOD_OFF 1e-12
 
 /* The supervisor scales w when |w| leaves this range, far from the ends of double precision. */
 #define STF_W_SMALLEST 1e-100

@@ -15,7 +15,7 @@ typedef struct underlying {
 
 /* Twice the n from where on second^n < 1e-15: at h > 0 the parasitic modes decay more slowly.
  * */
-static long usual_burn_in(const steif_glm *g)
+long stf_burn_in(const steif_glm *g)
 {
   enum { LEAST = 64 };
   const long n = g->second > 0 ? 2 * (long)ceil(log(STF_PARASITIC_GONE) / log(g->second)) : 0;
@@ -110,7 +110,7 @@ int stf_period_map(stf_pool *pool, steif_context *ctx, const steif_problem *p,
 {
   underlying u = {.d = 0};
   STEIF_TRY(open(pool, ctx, p, method, h, &u));
-  STEIF_TRY(burn(&u, usual_burn_in(u.v.g)));
+  STEIF_TRY(burn(&u, stf_burn_in(u.v.g)));
   stf_variation_principal(&u.v, u.W);
   for (long n = 0; n < steps; n++) STEIF_TRY(stf_variation_step(&u.v));
   stf_variation_principal(&u.v, u.work);
@@ -130,7 +130,7 @@ int steif_underlying_find(steif_context *ctx, const steif_problem *problem, cons
   if (code == STEIF_OK) {
     const size_t bytes = (size_t)(u.v.g->k * u.d * u.d) * sizeof *start;
     if (start) memcpy(u.v.X, start, bytes);
-    if (out->burn_in == 0) out->burn_in = usual_burn_in(u.v.g);
+    if (out->burn_in == 0) out->burn_in = stf_burn_in(u.v.g);
     code = maps(&u, out);
   }
   stf_pool_free(&pool);

@@ -90,10 +90,21 @@ N_Vector stf_variation_state(const stf_variation *v);
  * as many as take the parasitic modes below rounding. */
 int stf_period_map(stf_pool *pool, steif_context *ctx, const steif_problem *problem,
                    const char *method, sunrealtype h, long steps, sunrealtype *Phi);
+/* Steps that take the parasitic modes below rounding. */
+long stf_burn_in(const steif_glm *g);
 /* |J| of the last step by row sums, and the steps of Gauss's method of order 12 over h in which
  * h |J| is below 1/2, as long as 64 do: its error is then that of rounding. */
 sunrealtype stf_variation_size(const stf_variation *v);
 int stf_variation_substeps(const stf_variation *v, sunrealtype h);
+
+/* mean_trace.c: (1/(t1 - t0)) int trace J dt of an ode, along the solution where J depends on y. error: how far
+ * two quadratures are apart. known = false: they disagree, or cost too much. */
+typedef struct stf_mean_trace {
+  sunrealtype value, error;
+  bool known;
+} stf_mean_trace;
+int stf_mean_trace_find(steif_context *ctx, const steif_problem *problem, sunrealtype t0,
+                        sunrealtype t1, bool linear, stf_mean_trace *trace);
 
 /* LU of A (n x n by rows) in place, rows exchanged; false when a pivot is 0 or NaN. B := A^{-1} B by
  * rows, n x m. */

@@ -58,6 +58,7 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   STEIF_TRY(stf_spec_real(ctx, spec, "period", 1e-12, 1e6, 0.1, &s.period));
   if (!stf_collection_allocate(ctx, self, sizeof s, 0)) return STEIF_NO_MEMORY;
   *(setting *)self->user = s;
+  self->period = s.period;
   return STEIF_OK;
 }
 

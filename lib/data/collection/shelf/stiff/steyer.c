@@ -81,6 +81,7 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   STEIF_TRY(stf_spec_int(ctx, spec, "column", 1, 2, 1, &s.column));
   if (!stf_collection_allocate(ctx, self, sizeof s, 0)) return STEIF_NO_MEMORY;
   *(setting *)self->user = s;
+  self->period = 2 * s.omega == nearbyint(2 * s.omega) ? 6.2831853071795864769 : 0;
   self->y0 = unit + (s.column == 1 ? 0 : 1);
   return STEIF_OK;
 }

@@ -1,0 +1,46 @@
+/* lyapunov_run.c: what `steif lyapunov` measures: exponents, the verdict on the step, one solution.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "answers.h"
+
+/* The step: its verdict, or why there is none. */
+static void decide(struct call *call, const steif_problem *p, const steif_lyapunov_options *o,
+                   struct lyapunov_answer *a)
+{
+  steif_decay *d = &a->decay;
+  const int code = steif_decay_find(call->ctx, p, call->word[1], o, real_of(call, "--period"),
+                                    given(call, "--search"), d);
+  a->judged = code == STEIF_OK;
+  a->decided = (a->judged && d->verdict != STEIF_DECAY_UNDECIDED) || code == STEIF_UNSUPPORTED;
+  if (code)
+    snprintf(d->sentence, sizeof d->sentence, "undecided: %s", steif_message(call->ctx));
+  steif_forget(call->ctx);
+}
+
+/* --h, or the period by --steps. */
+static double step_of(const struct call *call)
+{
+  return given(call, "--h") ? real_of(call, "--h")
+                            : real_of(call, "--period") / (double)whole_of(call, "--steps");
+}
+
+int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_answer *a)
+{
+  const steif_lyapunov_options o = {.h = step_of(call),
+                                    .t1 = real_of(call, "--t1"),
+                                    .transient = real_of(call, "--transient"),
+                                    .window = real_of(call, "--window"),
+                                    .count = (int)a->count,
+                                    .error = a->error};
+  const char *method = call->word[1];
+  progress(call, "%s on %s", method, call->word[0]);
+  if (steif_lyapunov(call->ctx, p, method, &o, a->exponent, a->interval, &a->facts) ||
+      steif_lyapunov_verify(call->ctx, p, method, &o, real_of(call, "--accuracy"),
+                            real_of(call, "--period"), a->exponent, &a->facts, a->check,
+                            &a->checks))
+    return fail(call);
+  /* One solution of a linear problem can be followed as long as it neither overflows nor is 0. */
+  decide(call, p, &o, a);
+  a->measured = a->facts.linear && !steif_growth_measure(call->ctx, p, method, &o, &a->growth);
+  steif_forget(call->ctx);
+  return lyapunov_present(call, a);
+}

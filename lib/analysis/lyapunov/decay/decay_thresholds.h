@@ -1,0 +1,40 @@
+/* decay_thresholds.h: the numbers that step verdicts depend on, and why they are what they are.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_DECAY_THRESHOLDS_H
+#define STF_DECAY_THRESHOLDS_H
+
+/* Unknowns of maps over a period: dense, n^3 a step. */
+#define STF_DECAY_UNKNOWNS 64
+/* A step is a fraction of the period to this, with numerators up to that many periods. */
+#define STF_FRACTION_OFF 1e-12
+#define STF_TURNS_MOST 4096
+/* Multipliers of the equation agree relative to 1 + |exponent|; exponents by QR, which a finite run blurs. */
+#define STF_MONODROMY_AGREES 1e-10
+#define STF_FLOW_AGREES 1e-6
+/* Refinements of the flow, and steps of one run: what a verdict may cost. */
+#define STF_REFINEMENTS 8
+#define STF_FLOW_STEPS 40000
+/* Half-width of 95 % by Student's t with 15 degrees of freedom: exponents from 16 parts of a run. */
+#define STF_STUDENT 2.131
+/* The numbers decay as the equation does: to a tenth, and with no rise above e times its own. */
+#define STF_DECAY_SHARE 0.1
+#define STF_RISE_MORE 1.0
+/* Errors that a sign is to be away from 0 in the search for h*. */
+#define STF_SIGN_ERRORS 4
+/* A step this near a fraction of the period samples it alike for 1000 steps. */
+#define STF_NEAR_FRACTION 1e-3
+/* The search: factor downwards, good steps in a row, steps of the grid in an octave, octaves, relative width of
+ * the bracket, smallest step as a part of the first, and steps in all, which take some seconds. */
+#define STF_SEARCH_DOWN 0.618
+#define STF_SEARCH_ROW 3
+#define STF_SEARCH_GRID 24
+#define STF_SEARCH_OCTAVES 4
+#define STF_SEARCH_WIDTH 1e-3
+#define STF_SEARCH_LEAST 1e-4
+#define STF_SEARCH_STEPS 4000000
+/* Steps this close are one. */
+#define STF_SEARCH_SMALLEST 1e-5
+/* The tail: orders seen on two octaves agree to this. */
+#define STF_TAIL_AGREES 0.2
+
+#endif
