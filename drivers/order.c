@@ -15,6 +15,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_text(r, "method", call->word[0]);
   steif_report_text(r, "problem", word_of(call, "--problem"));
   if (a->method.order) steif_report_whole(r, "claimed", a->method.order);
+  steif_report_truth(r, "compensated", a->row[0].compensated);
   report_steps(r, &a->made);
   steif_report_text(r, "start", word_of(call, "--start"));
   for (size_t i = 0; i < a->count; i++) {

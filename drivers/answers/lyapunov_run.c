@@ -29,7 +29,7 @@ int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_
                                     .t1 = real_of(call, "--t1"),
                                     .transient = real_of(call, "--transient"),
                                     .window = real_of(call, "--window"),
-                                    .count = (int)a->count,
+                                    .count = (int)whole_or(call, "--count", 0),
                                     .error = a->error};
   const char *method = call->word[1];
   progress(call, "%s on %s", method, call->word[0]);
@@ -39,6 +39,7 @@ int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_
                             &a->checks))
     return fail(call);
   /* One solution of a linear problem can be followed as long as it neither overflows nor is 0. */
+  a->count = (size_t)a->facts.count;
   decide(call, p, &o, a);
   a->measured = a->facts.linear && !steif_growth_measure(call->ctx, p, method, &o, &a->growth);
   steif_forget(call->ctx);

@@ -14,9 +14,14 @@
  *   sunrealtype exponent[3];
  *   steif_lyapunov(ctx, &lorenz, "rk4", &o, exponent, NULL, NULL);
  *
- * The problem is an ode with .f and .jac on serial vectors, or a DAE of index 1 in the mass form or as
- * F(t, y, y') = 0 with .idajac and a constant dF/dy'. Then there are as many exponents as its rank,
- * which options.count must say, and the method has to forget algebraic errors: M(inf) = 0. Tables
+ * The problem is an ode with .f and .jac on serial vectors, or a DAE in the mass form or as
+ * F(t, y, y') = 0 with .idajac and a constant dF/dy'. A DAE has as many exponents as degrees of freedom: at
+ * index 1 the rank of dF/dy', at index 2 and 3 the start values that can be prescribed
+ * (steif_diagnose; a wrong number of them is STEIF_BAD_INPUT). Steps carry directions into the tangent
+ * space of all constraints, hidden ones too, after `index` steps, with which averages begin; the method
+ * has to forget algebraic errors: M(inf) = 0. The part of a linear DAE that it drives to 0 is nilpotent,
+ * so the exponents are ln |R(h s)| / h exactly, s a finite eigenvalue. Forms of lower index have more
+ * exponents: the modes of their drift, which are not those of the problem. Tables
  * (gauss:s=2, dirk:alexander2, rk4, ...), be, bdf:p=2 .. 6 and glm:TABLE have such a recurrence;
  * others give STEIF_UNSUPPORTED.
  *
@@ -42,7 +47,7 @@ typedef struct steif_lyapunov_options {
   sunrealtype transient; /* time before the averages begin */
   sunrealtype
     window;       /* length of the windows of the intervals; 0: a tenth of what is averaged */
-  int count;      /* exponents wanted, the largest first; 0: all n */
+  int count;      /* exponents wanted, the largest first; 0: all, which needs room for n */
   int linear;     /* 1: J does not depend on y, and no trajectory is run; -1: it does;
                             0: as J at three random y tells */
   int weak_start; /* 1: the history of a BDF by rk4 without its last stage, weights
@@ -54,6 +59,7 @@ typedef struct steif_lyapunov_options {
 } steif_lyapunov_options;
 
 typedef struct steif_lyapunov_facts {
+  int count;           /* exponents found */
   long steps;          /* averaged */
   int linear;          /* was J taken as free of y? */
   sunrealtype h, time; /* step, time averaged over */

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "region.h"
 #include "suite.h"
+#include <steif/data.h>
 #include <nvector/nvector_serial.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -114,6 +115,36 @@ static void without_a_step_the_order_decides(void)
   steif_context_free(&ctx);
 }
 
+/* The sum of 15 stages loses seven digits unless it is compensated. */
+static void gauss_of_order_30_reaches_rounding(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_order_row row[2];
+  CHECK(!steif_problem_find(ctx, "harmonic", &p));
+  CHECK(steif_order_measure(ctx, &p, "gauss:s=15", NULL, 0.75, 2, row) == STEIF_OK);
+  CHECK(row[0].error < 4e-15 && row[1].error < 4e-15 && row[0].compensated &&
+        row[1].end == 1.5);
+  CHECK(steif_order_measure(ctx, &p, "gauss:s=15,compensated=0", NULL, 0.75, 1, row) ==
+        STEIF_OK);
+  CHECK(row[0].error > 1e-12 && !row[0].compensated);
+  CHECK(steif_order_measure(ctx, &p, "radau:s=8", NULL, 0.75, 1, row) == STEIF_OK);
+  CHECK(row[0].error < 1e-13 && !row[0].compensated);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* Steps are used as they are: 0.3 makes 13 in 4, and 0.15 makes 26. */
+static void steps_that_do_not_fit_end_before(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_order_row row[2];
+  CHECK(steif_order_measure(ctx, &pair, "gauss:s=2", NULL, 0.3, 2, row) == STEIF_OK);
+  CHECK(row[0].h == 0.3 && row[1].h == 0.15);
+  CLOSE(row[0].end, pair.t0 + floor((pair.t1 - pair.t0) / 0.3) * 0.3, 1e-15);
+  steif_context_free(&ctx);
+}
+
 static void bad_questions_are_rejected(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -130,5 +161,7 @@ CU_TestInfo tests_of_order[] = {
   {"errors of a stiff pair at t = 4 are the closed ones", errors_of_a_stiff_pair},
   {"a reference value serves as well as a closed solution", reference_serves_as_well},
   {"without a step size the order decides", without_a_step_the_order_decides},
+  {"Gauss of order 30 reaches rounding", gauss_of_order_30_reaches_rounding},
+  {"steps that do not fit end before t1", steps_that_do_not_fit_end_before},
   {"bad questions are rejected", bad_questions_are_rejected},
   CU_TEST_INFO_NULL};

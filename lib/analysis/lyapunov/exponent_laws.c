@@ -116,7 +116,7 @@ int steif_lyapunov_verify(steif_context *ctx, const steif_problem *problem, cons
   STEIF_CHECK(accuracy >= 0 && period >= 0 && isfinite(period), ctx, STEIF_BAD_INPUT,
               "accuracy = %g and period = %g must not be negative", accuracy, period);
   trial t = {.ctx = ctx, .options = options, .exponent = exponent, .facts = facts};
-  t.m = options->count != 0 ? options->count : (int)problem->n;
+  t.m = facts->count;
   t.check = check;
   t.count = count;
   *count = 0;

@@ -181,7 +181,8 @@ static sunrealtype dimension(const spectrum *s, const sunrealtype *exponent,
 static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype *exponent,
                  sunrealtype *interval, steif_lyapunov_facts *facts)
 {
-  steif_lyapunov_facts out = {.steps = s->steps, .linear = s->v.linear, .h = s->v.h};
+  steif_lyapunov_facts out = {
+    .count = s->v.m, .steps = s->steps, .linear = s->v.linear, .h = s->v.h};
   out.time = (sunrealtype)s->steps * s->v.h;
   out.end = s->constant.end;
   out.trace = s->trace;
@@ -203,13 +204,29 @@ static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype
   if (facts) *facts = out;
 }
 
+/* Directions that are no solutions of a DAE of index above 1 are gone after `index` steps of the whole
+ * history, impulses in them too: averages begin behind these. */
+static int forget_start(spectrum *s)
+{
+  const stf_variation *v = &s->v;
+  const long least = v->index > 1 ? (long)v->index * v->g->k : 0, more = least - s->transient;
+  if (more <= 0) return STEIF_OK;
+  s->transient += more, s->steps -= more;
+  STEIF_CHECK(s->steps >= 1, v->ctx, STEIF_BAD_INPUT,
+              "the first %ld steps of h = %g make directions of '%s', which has index %d, "
+              "consistent, and none is left: end the run later",
+              least, v->h, v->problem->name, v->index);
+  if (s->window > s->steps) s->window = s->steps;
+  return STEIF_OK;
+}
+
 static int run(stf_pool *pool, steif_context *ctx, const steif_problem *p, const char *method,
                const steif_lyapunov_options *o, spectrum *s)
 {
   STEIF_TRY(plan(ctx, p, o, s));
-  const int count = o->count != 0 ? o->count : (int)p->n;
-  STEIF_TRY(stf_variation_open(pool, ctx, p, method, s->constant.h, s->constant.end, count,
+  STEIF_TRY(stf_variation_open(pool, ctx, p, method, s->constant.h, s->constant.end, o->count,
                                o->linear, &s->v));
+  STEIF_TRY(forget_start(s));
   STEIF_TRY(room(pool, s));
   stf_variation_scatter(&s->v);
   STEIF_TRY(straighten(s));

@@ -47,7 +47,8 @@ typedef struct stf_variation {
   sunrealtype weight[STEIF_STAGES]; /* ell D */
   sunrealtype finish[STF_LEAST];    /* the solution in (X+; K; X) */
   int d, m;
-  int finite; /* rank of E */
+  int finite,
+    index; /* degrees of freedom of a DAE: the rank of E at index 1; n of an ode, index 0 */
   bool linear, filled;
   sunrealtype h, t, t0; /* t = t0 + count h */
   long count;
@@ -62,7 +63,7 @@ typedef struct stf_variation {
   steif_solver *solver;     /* implicit trajectories */
 } stf_variation;
 
-/* m columns. linear as in the options. Everything is owned by the pool. */
+/* m columns; 0: as many as degrees of freedom. linear as in the options. Everything is owned by the pool. */
 int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem,
                        const char *method, sunrealtype h, sunrealtype t1, int m, int linear,
                        stf_variation *v);

@@ -3,6 +3,7 @@
 #include "lyapunov_thresholds.h"
 #include "region.h"
 #include "variation.h"
+#include <steif/index.h>
 #include <limits.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
@@ -66,6 +67,16 @@ static SUNMatrix matrix(stf_pool *pool, const stf_variation *v, sunindextype ent
                           entries > stated ? entries : stated);
 }
 
+static int open_matrices(stf_pool *pool, stf_variation *v)
+{
+  const size_t r = (size_t)v->g->r, count = r > 2 ? r : 2;
+  v->J = stf_pool_array(pool, count, sizeof *v->J);
+  if (!v->J) return STEIF_NO_MEMORY;
+  for (size_t i = 0; i < count; i++)
+    if (!(v->J[i] = matrix(pool, v, v->problem->nnz))) return STEIF_NO_MEMORY;
+  return STEIF_OK;
+}
+
 static int open_blocks(stf_pool *pool, stf_variation *v)
 {
   const steif_glm *g = v->g;
@@ -74,10 +85,25 @@ static int open_blocks(stf_pool *pool, stf_variation *v)
   v->next = stf_pool_array(pool, k * d * m, sizeof *v->X);
   v->K = stf_pool_array(pool, r * d * m, sizeof *v->X);
   v->base = stf_pool_array(pool, d * m, sizeof *v->X);
-  v->J = stf_pool_array(pool, r > 2 ? r : 2, sizeof *v->J);
-  if (!v->X || !v->next || !v->K || !v->base || !v->J) return STEIF_NO_MEMORY;
-  for (size_t i = 0; i < (r > 2 ? r : 2); i++)
-    if (!(v->J[i] = matrix(pool, v, v->problem->nnz))) return STEIF_NO_MEMORY;
+  return v->X && v->next && v->K && v->base ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+/* Of a DAE whose index is above 1, or not stated: the start values that can be prescribed. */
+static int degrees_of_freedom(stf_variation *v)
+{
+  const steif_problem *p = v->problem;
+  v->index = v->finite < v->d ? 1 : 0;
+  if (v->finite == v->d || p->dae_index == 1) return STEIF_OK;
+  steif_diagnosis found = {0};
+  const int code = steif_diagnose(v->ctx, p, &(steif_point){0}, &found);
+  const bool known = !code && found.verdict == STEIF_REGULAR && found.freedom > 0;
+  if (known) v->finite = (int)found.freedom, v->index = found.index;
+  steif_diagnosis_clear(&found);
+  STEIF_CHECK(
+    known, v->ctx, code ? code : STEIF_NOT_CERTIFIED,
+    "how many degrees of freedom '%s' has is not known%s%s: an equivalent problem of index "
+    "1 has as many exponents as the rank of its leading matrix",
+    p->name, code ? "; " : "", code ? steif_message(v->ctx) : "");
   return STEIF_OK;
 }
 
@@ -104,6 +130,22 @@ static int open_algebraic(stf_pool *pool, stf_variation *v)
     "%s keeps |M(inf)| = %g of what is wrong in algebraic components such as those of "
     "'%s': take bdf or a Radau IIA or SDIRK method",
     v->method, left, p->name);
+  return degrees_of_freedom(v);
+}
+
+/* As many columns as exponents are asked for; 0: as there are. */
+static int open_columns(stf_variation *v)
+{
+  if (v->m == 0) v->m = v->finite;
+  STEIF_CHECK(v->m >= 1 && v->m <= v->d, v->ctx, STEIF_BAD_INPUT,
+              "%d exponents were asked for: '%s' has 1 to %d", v->m, v->problem->name, v->d);
+  STEIF_CHECK(v->m <= v->finite, v->ctx, STEIF_BAD_INPUT,
+              "%d exponents were asked for: '%s' has index %d with %d degrees of freedom: %d "
+              "exponents",
+              v->m, v->problem->name, v->index, v->finite, v->finite);
+  STEIF_CHECK(v->m <= STF_DENSE_MOST, v->ctx, STEIF_UNSUPPORTED,
+              "%d exponents of '%s' are too many at once: ask for up to %d", v->m,
+              v->problem->name, STF_DENSE_MOST);
   return STEIF_OK;
 }
 
@@ -189,17 +231,12 @@ int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *
   STEIF_TRY(open_method(pool, v));
   v->d = (int)problem->n;
   v->t = v->t0 = problem->t0;
-  STEIF_CHECK(m >= 1 && m <= v->d, ctx, STEIF_BAD_INPUT,
-              "%d exponents were asked for: '%s' has 1 to %d", m, problem->name, v->d);
-  STEIF_CHECK(m <= STF_DENSE_MOST, ctx, STEIF_UNSUPPORTED,
-              "%d exponents of '%s' are too many at once: ask for up to %d", m, problem->name,
-              STF_DENSE_MOST);
   STEIF_TRY(open_vectors(pool, v));
-  STEIF_TRY(open_blocks(pool, v));
+  STEIF_TRY(open_matrices(pool, v));
   STEIF_TRY(open_algebraic(pool, v));
-  STEIF_CHECK(m <= v->finite, ctx, STEIF_BAD_INPUT,
-              "%d exponents were asked for: '%s' has 1 to %d, the rank of its leading matrix",
-              m, problem->name, v->finite);
+  STEIF_TRY(open_columns(v));
+  m = v->m;
+  STEIF_TRY(open_blocks(pool, v));
   STEIF_TRY(stf_stage_system_open(pool, v));
   STEIF_TRY(stf_algebra_open(pool, v->system.order, v->d, m, &v->algebra));
   v->linear = linear > 0 || problem->linear;

@@ -3,6 +3,8 @@
 #include "region.h"
 #include "region_thresholds.h"
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 static int at_end(steif_context *ctx, const steif_problem *problem, sunrealtype t1,
                   N_Vector exact)
@@ -71,6 +73,16 @@ static int usual_step(steif_context *ctx, const char *method, sunrealtype span, 
   return STEIF_OK;
 }
 
+/* The method with compensated sums, where these are its family's and the spec does not say. */
+static const char *compensated(steif_context *ctx, const steif_problem *problem,
+                               const char *method, size_t room, char *spec)
+{
+  const bool sums = !strncmp(method, "gauss:", 6) && !strstr(method, "compensated") &&
+                    steif_problem_form(ctx, problem) != STEIF_DESCRIPTOR;
+  const int length = sums ? snprintf(spec, room, "%s,compensated=1", method) : 0;
+  return length > 0 && (size_t)length < room ? spec : method;
+}
+
 int steif_order_measure(steif_context *ctx, const steif_problem *problem, const char *method,
                         const steif_options *options, sunrealtype h, size_t rows,
                         steif_order_row *row)
@@ -92,10 +104,12 @@ int steif_order_measure(steif_context *ctx, const steif_problem *problem, const 
   o.t1 = whole.end;
   o.mesh = NULL;
   o.mesh_size = 0;
+  char spec[2 * STEIF_SPEC_WORD];
+  const char *used = compensated(ctx, problem, method, sizeof spec, spec);
   for (size_t i = 0; i < rows; i++) {
-    row[i] = (steif_order_row){ldexp(h, -(int)i), NAN, NAN, o.t1};
+    row[i] = (steif_order_row){ldexp(h, -(int)i), NAN, NAN, o.t1, used != method};
     o.h = row[i].h;
-    STEIF_TRY(run(ctx, problem, method, &o, &row[i].error));
+    STEIF_TRY(run(ctx, problem, used, &o, &row[i].error));
     if (i > 0) row[i].order = log2(row[i - 1].error / row[i].error);
   }
   return STEIF_OK;
