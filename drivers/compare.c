@@ -17,7 +17,7 @@ static int run(struct call *call)
   steif_problem_clear(call->ctx, &c.problem);
   if (interrupted()) {
     say(call, "interrupted: runs that were left are not made [STEIF_STOPPED]");
-    return EXIT_INTERRUPTED;
+    return exit_of(STEIF_STOPPED);
   }
   if (!code) code = work_plot(call, &c.work, call->word[0], call->plot);
   if (code || c.good) return code;

@@ -8,16 +8,16 @@
 static int find(struct call *call, struct energy_answer *a)
 {
   const steif_options o = options_of(call);
+  stop_on_signals();
   steif_energy *e = &a->energy;
   e->drift = calloc(a->columns, sizeof *e->drift);
   e->row = calloc(e->rows * a->columns, sizeof *e->row);
   int code = EXIT_FAILED;
   if (!e->drift || !e->row)
     code = no_memory(call, "the rows", "ask for fewer with --rows");
-  else if (steif_energy_measure(call->ctx, a->problem, call->word[1], &o, e) != STEIF_OK)
-    code = fail(call);
   else
-    code = energy_present(call, a);
+    code =
+      energy_shown(call, a, steif_energy_measure(call->ctx, a->problem, call->word[1], &o, e));
   free(e->row);
   free(e->drift);
   return code;
@@ -28,6 +28,7 @@ static int select_invariant(struct call *call, const steif_problem *p)
   const long which = whole_of(call, "--invariant");
   struct energy_answer a = {
     .problem = p,
+    .t1 = real_or(call, "--t1", p->t1),
     .which = (size_t)which,
     .columns = 1 + (size_t)p->invariants,
     .energy = {.period = real_of(call, "--period"), .rows = (size_t)whole_of(call, "--rows")}};

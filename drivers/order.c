@@ -4,7 +4,7 @@
 
 struct answer {
   steif_method_info method;
-  size_t count;
+  size_t count;           /* of rows asked for; a signal leaves the last ones without error */
   struct steps_made made; /* by the first row */
   steif_order_row row[HALVINGS];
 };
@@ -18,7 +18,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_truth(r, "compensated", a->row[0].compensated);
   report_steps(r, &a->made);
   steif_report_text(r, "start", word_of(call, "--start"));
-  for (size_t i = 0; i < a->count; i++) {
+  for (size_t i = 0; i < a->count && a->row[i].error >= 0; i++) {
     steif_report_row(r, "rows");
     steif_report_real(r, "rows.h", a->row[i].h);
     steif_report_real(r, "rows.error", a->row[i].error);
@@ -36,25 +36,24 @@ static int draw(const struct call *call, const struct answer *a)
 
 static int present_rows(const struct call *call, const steif_problem *p, struct answer *a)
 {
-  const double h = a->row[0].h, end = a->row[0].end;
-  a->made = (struct steps_made){
-    .t0 = p->t0, .h = h, .end = end, .last_h = h, .asked = real_or(call, "--t1", p->t1)};
+  const double h = a->row[0].h, t1 = real_or(call, "--t1", p->t1);
+  a->made = (struct steps_made){p->t0, h, a->row[0].end, h, t1, 0};
   return present_result(call, fill, a);
 }
 
 static int run(struct call *call)
 {
-  const char *name = word_of(call, "--problem"), *method = call->word[0];
   struct answer a = {.count = (size_t)whole_of(call, "--halvings") + 1};
   const steif_options o = options_of(call);
   steif_problem p;
-  if (steif_method_find(call->ctx, method, &a.method) != STEIF_OK) return fail(call);
-  if (steif_problem_find(call->ctx, name, &p) != STEIF_OK) return fail(call);
-  progress(call, "%s on %s", method, name);
-  const int code =
-    steif_order_measure(call->ctx, &p, method, &o, real_of(call, "--h"), a.count, a.row)
-      ? fail(call)
-      : present_rows(call, &p, &a);
+  if (steif_method_find(call->ctx, call->word[0], &a.method)) return fail(call);
+  if (steif_problem_find(call->ctx, word_of(call, "--problem"), &p)) return fail(call);
+  progress(call, "%s on %s", call->word[0], p.name);
+  stop_on_signals();
+  int code =
+    steif_order_measure(call->ctx, &p, call->word[0], &o, real_of(call, "--h"), a.count, a.row);
+  if (code == STEIF_STOPPED && a.row[0].error >= 0) present_rows(call, &p, &a);
+  code = code ? fail(call) : present_rows(call, &p, &a);
   steif_problem_clear(call->ctx, &p);
   return code ? code : draw(call, &a);
 }

@@ -5,32 +5,6 @@
 #include "problem.h"
 #include <stdlib.h>
 
-static void run_once(struct call *call, const steif_problem *p,
-                     enum steif_supervision_rule rule, double *y, struct supervise_run *j)
-{
-  const bool alone = rule == STEIF_SUPERVISE_NONE;
-  const steif_options o = options_of(call);
-  const steif_supervision how = {.rule = rule,
-                                 .rate = real_of(call, "--rate"),
-                                 .window = real_of(call, "--window"),
-                                 .swing = real_of(call, "--swing"),
-                                 .tell = supervise_keep,
-                                 .user = j};
-  progress(call, "%s on %s%s", call->word[1], call->word[0],
-           alone ? ", error control alone" : ", supervised");
-  j->t[0] = p->t0;
-  j->code = steif_supervise(call->ctx, p, call->word[1], &o, &how, y, &j->facts);
-}
-
-static int both(struct call *call, const steif_problem *p, struct supervise_answer *a)
-{
-  static const enum steif_supervision_rule rule[] = {STEIF_SUPERVISE_WINDOWS,
-                                                     STEIF_SUPERVISE_SUM};
-  run_once(call, p, STEIF_SUPERVISE_NONE, a->y, &a->alone); /* it may well overflow */
-  run_once(call, p, rule[choice_of(call, "--watch")], a->y, &a->kept);
-  return a->kept.code == STEIF_OK ? supervise_present(call, a) : fail(call);
-}
-
 static int find(struct call *call, const steif_problem *p)
 {
   const double window = real_of(call, "--window");
@@ -41,7 +15,7 @@ static int find(struct call *call, const steif_problem *p)
   struct supervise_answer a = {.n = (size_t)p->n, .y = calloc((size_t)p->n, sizeof *a.y)};
   const bool alone = supervise_open(&a.alone, room), kept = supervise_open(&a.kept, room);
   const int code = a.y && alone && kept
-                     ? both(call, p, &a)
+                     ? supervise_both(call, p, &a)
                      : no_memory(call, "the windows", "take a longer --window");
   supervise_close(&a.alone);
   supervise_close(&a.kept);

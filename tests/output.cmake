@@ -113,6 +113,23 @@ if(TIMEOUT)
          ERR "stopped from outside at t = ")
   member(stopped status)
   member("*" stats steps)
+  expect(143 --preserve-status -s TERM 0.5 ${program} solve bruss2d:n=16 be --h 1e-7 --json
+         ERR "stopped from outside at t = ")
+  member("*" stats steps)
+  expect(130 --preserve-status -s INT 0.7 ${program} lyapunov lorenz rk4 --h 0.01 --t1 1e6 --json
+         ERR "steps averaged")
+  begins("0." exponents 0) # 0.9
+  begins("undecided: the run was stopped" verdict)
+  expect(143 --preserve-status -s TERM 0.7 ${program} energy kepler verlet --h 0.01 --t1 1e6 --json
+         ERR "stopped from outside at t = ")
+  member("*" mean)
+  member("*" end)
+  expect(130 --preserve-status -s INT 0.7 ${program} order rk4 --h 0.01 --halvings 39 --json
+         ERR "stopped from outside at t = ")
+  member("*" rows 5 order)
+  expect(130 --preserve-status -s INT 0.7 ${program} supervise steyer bdf:p=2 --rtol 1e-4 --rate 0.035
+         --window 12.566 --t1 1e6 --json ERR "stopped from outside")
+  member("*" rows 0 mu_errors)
   # What was computed is shown, and no further run is begun.
   expect(130 --preserve-status -s INT 0.5 ${program} compare lorenz96 bdf cvode --rtols 1e-12,1e-11
          --t1 1e5 --json ERR "runs that were left are not made")

@@ -30,10 +30,13 @@ int counterexample_present(const struct call *call, const struct counterexample_
 
 struct energy_answer {
   const steif_problem *problem;
+  double t1;             /* as asked for, or where a signal came */
   size_t which, columns; /* the invariant shown, from 1; of a row: t and every invariant */
   steif_energy energy;
 };
 int energy_present(struct call *call, const struct energy_answer *a);
+/* The same after the code of steif_energy_measure: what a run has seen that a signal has stopped, too. */
+int energy_shown(struct call *call, struct energy_answer *a, int code);
 
 struct lyapunov_answer {
   size_t count;
@@ -69,6 +72,8 @@ struct supervise_answer {
   double *y;
   struct supervise_run alone, kept; /* by error control alone, and supervised */
 };
+/* Both runs by the options of the call, presented. */
+int supervise_both(struct call *call, const steif_problem *p, struct supervise_answer *a);
 int supervise_present(const struct call *call, const struct supervise_answer *a);
 
 struct discrete_answer {

@@ -43,7 +43,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
                                          .h = e->h,
                                          .end = e->end,
                                          .last_h = e->h,
-                                         .asked = real_or(call, "--t1", a->problem->t1),
+                                         .asked = a->t1,
                                          .steps = e->steps});
   for (size_t i = 0; i < e->rows; i++) {
     steif_report_row(r, "rows");
@@ -82,4 +82,17 @@ int energy_present(struct call *call, const struct energy_answer *a)
 {
   const int code = present_result(call, fill, a);
   return code || !call->plot ? code : draw(call, a);
+}
+
+/* A run that a signal has stopped shows what it has seen. */
+int energy_shown(struct call *call, struct energy_answer *a, int code)
+{
+  char why[240];
+  if (code != STEIF_OK && !(code == STEIF_STOPPED && a->energy.steps > 0)) return fail(call);
+  if (code == STEIF_OK) return energy_present(call, a);
+  snprintf(why, sizeof why, "%s", steif_message(call->ctx));
+  a->t1 = a->energy.end;
+  const int output = energy_present(call, a);
+  say(call, "%s", why);
+  return output ? output : exit_of(code);
 }

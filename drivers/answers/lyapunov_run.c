@@ -1,6 +1,7 @@
 /* lyapunov_run.c: what `steif lyapunov` measures: exponents, the verdict on the step, one solution.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
+#include "integration.h"
 
 /* The step: its verdict, or why there is none. */
 static void decide(struct call *call, const steif_problem *p, const steif_lyapunov_options *o,
@@ -23,6 +24,17 @@ static double step_of(const struct call *call)
                             : real_of(call, "--period") / (double)whole_of(call, "--steps");
 }
 
+/* Of a run that a signal has stopped: what is known, and no verdict. */
+static int present_part(struct call *call, struct lyapunov_answer *a)
+{
+  snprintf(a->decay.sentence, sizeof a->decay.sentence, "undecided: %s",
+           steif_message(call->ctx));
+  a->decided = true;
+  a->t1 = a->facts.end;
+  const int output = lyapunov_present(call, a);
+  return output ? output : fail(call);
+}
+
 int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_answer *a)
 {
   const steif_lyapunov_options o = {.h = step_of(call),
@@ -30,17 +42,20 @@ int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_
                                     .transient = real_of(call, "--transient"),
                                     .window = real_of(call, "--window"),
                                     .count = (int)whole_or(call, "--count", 0),
-                                    .error = a->error};
+                                    .error = a->error,
+                                    .stop = stop_on_signals()};
   const char *method = call->word[1];
   progress(call, "%s on %s", method, call->word[0]);
-  if (steif_lyapunov(call->ctx, p, method, &o, a->exponent, a->interval, &a->facts) ||
-      steif_lyapunov_verify(call->ctx, p, method, &o, real_of(call, "--accuracy"),
-                            real_of(call, "--period"), a->exponent, &a->facts, a->check,
-                            &a->checks))
-    return fail(call);
-  /* One solution of a linear problem can be followed as long as it neither overflows nor is 0. */
+  const int code =
+    steif_lyapunov(call->ctx, p, method, &o, a->exponent, a->interval, &a->facts);
   a->count = (size_t)a->facts.count;
+  if (code == STEIF_STOPPED && a->facts.steps > 0) return present_part(call, a);
+  if (code || steif_lyapunov_verify(call->ctx, p, method, &o, real_of(call, "--accuracy"),
+                                    real_of(call, "--period"), a->exponent, &a->facts, a->check,
+                                    &a->checks))
+    return fail(call);
   decide(call, p, &o, a);
+  /* One solution of a linear problem can be followed as long as it neither overflows nor is 0. */
   a->measured = a->facts.linear && !steif_growth_measure(call->ctx, p, method, &o, &a->growth);
   steif_forget(call->ctx);
   return lyapunov_present(call, a);

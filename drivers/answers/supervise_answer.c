@@ -50,27 +50,29 @@ static void cost(steif_report *r, const char *control, const struct supervise_ru
 
 static void window(steif_report *r, const struct supervise_answer *a, size_t i)
 {
-  const steif_supervised_window *w = &a->kept.window[i];
-  const bool beside = i < a->alone.count;
+  const bool kept = i < a->kept.count, beside = i < a->alone.count;
+  const steif_supervised_window *w = kept ? &a->kept.window[i] : &a->alone.window[i];
   steif_report_row(r, "rows");
   steif_report_real(r, "rows.t", w->t);
-  steif_report_real(r, "rows.mu", w->mu);
+  report_maybe(r, "rows.", "mu", kept, w->mu);
   report_maybe(r, "rows.", "mu_errors", beside, beside ? a->alone.window[i].mu : 0);
   steif_report_real(r, "rows.h", w->h);
   steif_report_whole(r, "rows.redone", w->redone);
   steif_report_truth(r, "rows.real", w->real);
 }
 
+/* A signal may have come in the run by error control alone: then the other one is not there. */
 static void fill(steif_report *r, const struct call *call, const void *result)
 {
   const struct supervise_answer *a = result;
+  const bool stopped = a->alone.code == STEIF_STOPPED;
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
   steif_report_real(r, "rate", real_of(call, "--rate"));
   steif_report_real(r, "window", real_of(call, "--window"));
-  if (a->alone.code == STEIF_OK) cost(r, "errors", &a->alone, false);
-  cost(r, word_of(call, "--watch"), &a->kept, true);
-  for (size_t i = 0; i < a->kept.count; i++) window(r, a, i);
+  if (stopped || a->alone.code == STEIF_OK) cost(r, "errors", &a->alone, false);
+  if (!stopped) cost(r, word_of(call, "--watch"), &a->kept, true);
+  for (size_t i = 0; i < (stopped ? a->alone.count : a->kept.count); i++) window(r, a, i);
   steif_report_list(r, "y", a->n, a->y);
 }
 

@@ -14,7 +14,7 @@ static double seconds_since(const struct timespec *then)
   return (double)(now.tv_sec - then->tv_sec) + 1e-9 * (double)(now.tv_nsec - then->tv_nsec);
 }
 
-/* The first SIGINT ends the run after a step, a later one the program. Half a second belongs to
+/* The first SIGINT or SIGTERM ends the run after a step, a later one the program. Half a second belongs to
  * the first: timeout(1) and other parents send it to the child and to its group. */
 static void on_interrupt(int number)
 {
@@ -25,6 +25,22 @@ static void on_interrupt(int number)
     raise(number);
   }
   stop_flag = 1;
+  stopped_by(number);
+}
+
+static void take(int number, struct sigaction *before)
+{
+  const struct sigaction ours = {.sa_handler = on_interrupt};
+  sigaction(number, NULL, before);
+  if (before->sa_handler != SIG_IGN) sigaction(number, &ours, NULL);
+}
+
+const volatile int *stop_on_signals(void)
+{
+  struct sigaction before;
+  take(SIGINT, &before);
+  take(SIGTERM, &before);
+  return &stop_flag;
 }
 
 bool interrupted(void) { return stop_flag; }
@@ -67,12 +83,12 @@ static void explain(steif_context *ctx, const steif_problem *problem, const char
 
 static int solve(steif_solver *s, double t1)
 {
-  const struct sigaction ours = {.sa_handler = on_interrupt};
-  struct sigaction before;
-  sigaction(SIGINT, NULL, &before);
-  if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &ours, NULL);
+  struct sigaction before[2];
+  take(SIGINT, &before[0]);
+  take(SIGTERM, &before[1]);
   const int code = steif_solve_to(s, t1);
-  sigaction(SIGINT, &before, NULL);
+  sigaction(SIGINT, &before[0], NULL);
+  sigaction(SIGTERM, &before[1], NULL);
   return code;
 }
 

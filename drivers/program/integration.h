@@ -38,7 +38,7 @@ steif_options options_of(const struct call *call);
 
 /* Integrate to options->t1 (the problem's when 0), the start shown to options->observe first. The
  * solver is kept in *solver unless that is NULL; it may be NULL afterwards when it could not be made.
- * The context's message is forgotten. SIGINT ends the run after a step. */
+ * The context's message is forgotten. SIGINT and SIGTERM end the run after a step. */
 outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
                   const steif_options *options, steif_solver **solver);
 /* The same; begun is told of the solver at the start, as the method has made it, and a run that fails is not
@@ -46,7 +46,9 @@ outcome integrate(steif_context *ctx, const steif_problem *problem, const char *
 outcome integrate_from(steif_context *ctx, const steif_problem *problem, const char *method,
                        const steif_options *options, steif_solver **solver,
                        void (*begun)(steif_solver *s, void *user), void *user);
-/* Was a run stopped by SIGINT? */
+/* From now on SIGINT and SIGTERM set what is returned, an option .stop: a verb then shows what it has. */
+const volatile int *stop_on_signals(void);
+/* Was a run stopped by a signal? */
 bool interrupted(void);
 
 /* atol/rtol of a run: how much of the size of a component counts as nothing. */

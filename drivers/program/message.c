@@ -1,10 +1,15 @@
 /* message.c: exit codes, sentences on stderr, the progress line.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "message.h"
+#include <signal.h>
 #include <stdarg.h>
 #include <string.h>
 #include <steif/report.h>
 #include <unistd.h>
+
+static volatile sig_atomic_t exit_stopped = EXIT_INTERRUPTED;
+
+void stopped_by(int signal_number) { exit_stopped = 128 + signal_number; }
 
 int exit_of(int code)
 {
@@ -16,7 +21,7 @@ int exit_of(int code)
   case STEIF_IO: return EXIT_FILE;
   case STEIF_SINGULAR: return EXIT_SINGULAR;
   case STEIF_NOT_CERTIFIED: return EXIT_UNCERTIFIED;
-  case STEIF_STOPPED: return EXIT_INTERRUPTED;
+  case STEIF_STOPPED: return exit_stopped;
   default: return EXIT_FAILED;
   }
 }

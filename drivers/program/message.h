@@ -10,6 +10,8 @@
 
 enum { EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_FILE, EXIT_SINGULAR, EXIT_UNCERTIFIED };
 enum { EXIT_INTERRUPTED = 130 }; /* 128 + SIGINT, as shells have it */
+/* STEIF_STOPPED from now on exits with 128 + the number of this signal. */
+void stopped_by(int signal_number);
 
 /* Of an enum steif_code. */
 int exit_of(int code);

@@ -7,7 +7,7 @@
 static void remark(const struct steps_made *m, size_t room, char *text)
 {
   const long steps = m->steps ? m->steps : lround((m->end - m->t0) / m->h);
-  const double rounding = 1e-9, over = m->t0 + (double)steps * m->h - m->end,
+  const double rounding = 1e-6, over = m->t0 + (double)steps * m->h - m->end,
                whole = m->t0 + (double)(steps - 1) * m->h;
   *text = 0;
   if (m->asked - m->end > rounding * m->h)

@@ -46,7 +46,7 @@ typedef struct steif_energy {
 } steif_energy;
 
 /* Integrate to options.t1 (0: the problem's), with a constant step to the last whole step that is not
- * after it, and measure the drifts. options.observe is called as in any run. */
+ * after it, and measure the drifts. options.observe is called as in any run. After STEIF_STOPPED (options.stop) all of this is of the steps made; steps = 0: of none. */
 STEIF_EXPORT int steif_energy_measure(steif_context *ctx, const steif_problem *problem,
                                       const char *method, const steif_options *options,
                                       steif_energy *energy);

@@ -56,6 +56,9 @@ typedef struct steif_lyapunov_options {
                             parts of the run: the exponent of the recurrence lies within 1 of them
                             in 2/3 of all runs, within 2.131 in 19/20 (Student's t), or more often;
                             NaN below 32 steps. NULL: not wanted */
+  const volatile int
+    *stop; /* nonzero: steif_lyapunov returns STEIF_STOPPED after the step at hand, with
+                               the averages of the steps made; without any where facts.steps is 0 */
 } steif_lyapunov_options;
 
 typedef struct steif_lyapunov_facts {

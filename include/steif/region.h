@@ -42,7 +42,8 @@ STEIF_EXPORT int steif_spectral_radius(steif_context *ctx, const char *method,
  * the largest step that divides the interval up to 1/16; 1/4 for methods of order 3 to 5 and 1/2 above,
  * which reach rounding errors soon. A reference has one time: STEIF_BAD_INPUT where h does not divide
  * the way to it. The end of a step of gauss:s= is a sum that loses digits, 1e6 roundings at s = 15: it is run with
- * compensated=1 (method.h) unless the spec says otherwise. */
+ * compensated=1 (method.h) unless the spec says otherwise.
+ * STEIF_STOPPED (options.stop): the rows made are there, the others have NaN. */
 typedef struct steif_order_row {
   sunrealtype h, error, order, end;
   int compensated; /* 1: with compensated sums, see below */

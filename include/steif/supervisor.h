@@ -72,7 +72,9 @@ typedef struct steif_supervised {
   sunrealtype peak;       /* largest ln (|w| / |w_0|) */
   sunrealtype cap;        /* on the step at the end; infinite: none */
   int direct;             /* 1: w is y */
-  steif_stats cost;       /* all of it, what was undone included */
+  sunrealtype
+    end; /* t1; less after STEIF_STOPPED (options.stop), when all this is of [t0, end] */
+  steif_stats cost; /* all of it, what was undone included */
 } steif_supervised;
 
 /* Integrates from t0 to t1 with an adaptive step size; options as for a solver, but not

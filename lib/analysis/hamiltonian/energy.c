@@ -162,8 +162,9 @@ static int run(record *w, const char *method)
   if (!s) return steif_status(w->ctx);
   int code = point(w, w->problem->t0, steif_solution(s));
   if (code == STEIF_OK) code = steif_solve_to(s, o.t1);
+  if (code == STEIF_STOPPED) w->energy->end = steif_time(s);
   steif_solver_free(&s);
-  if (code == STEIF_OK) finish(w);
+  if (code == STEIF_OK || (code == STEIF_STOPPED && w->points > 1)) finish(w);
   return code;
 }
 

@@ -12,6 +12,7 @@ typedef struct spectrum {
   stf_variation v;
   stf_constant constant;
   long steps, transient, window; /* averaged; before; of an interval */
+  long made;                     /* averaged until the run was stopped */
   sunrealtype *w, *R;
   sunrealtype *sum, *rest; /* of ln R_ii, compensated */
   sunrealtype *ring;       /* the last window + 1 sums */
@@ -220,6 +221,17 @@ static int forget_start(spectrum *s)
   return STEIF_OK;
 }
 
+/* What is known after n steps is the result. */
+static int stopped(spectrum *s, long n)
+{
+  const stf_variation *v = &s->v;
+  s->constant.end = v->t, s->last = NAN, s->made = n;
+  return STEIF_FAIL(
+    v->ctx, STEIF_STOPPED,
+    "the run was stopped from outside at t = %.12g, after %ld of %ld steps averaged", v->t, n,
+    s->steps);
+}
+
 static int run(stf_pool *pool, steif_context *ctx, const steif_problem *p, const char *method,
                const steif_lyapunov_options *o, spectrum *s)
 {
@@ -230,11 +242,15 @@ static int run(stf_pool *pool, steif_context *ctx, const steif_problem *p, const
   STEIF_TRY(room(pool, s));
   stf_variation_scatter(&s->v);
   STEIF_TRY(straighten(s));
-  for (long n = 0; n < s->transient; n++) STEIF_TRY(turn(s));
+  for (long n = 0; n < s->transient; n++) {
+    STEIF_TRY(turn(s));
+    if (o->stop && *o->stop) return stopped(s, 0);
+  }
   for (long n = 1; n <= s->steps; n++) {
     sunrealtype *moved = n == 1 ? &s->first : n == s->steps ? &s->last : NULL;
     STEIF_TRY(moved ? turn_and_move(s, moved) : turn(s));
     record(s, n);
+    if (o->stop && *o->stop) return stopped(s, n);
   }
   return STEIF_OK;
 }
@@ -244,12 +260,15 @@ int steif_lyapunov(steif_context *ctx, const steif_problem *problem, const char 
                    sunrealtype *interval, steif_lyapunov_facts *facts)
 {
   spectrum s = {0};
+  if (facts) *facts = (steif_lyapunov_facts){0};
   STEIF_CHECK(problem && method && options && exponent, ctx, STEIF_BAD_INPUT,
               "a problem, a method, options and room for the exponents are needed");
   stf_pool *pool = stf_pool_new(ctx);
   if (!pool) return STEIF_NO_MEMORY;
   const int code = run(pool, ctx, problem, method, options, &s);
-  if (code == STEIF_OK) tell(&s, options, exponent, interval, facts);
+  if (code == STEIF_STOPPED) s.steps = s.made;
+  if (code == STEIF_OK || (code == STEIF_STOPPED && s.made > 0))
+    tell(&s, options, exponent, interval, facts);
   stf_pool_free(&pool);
   return code > 0 ? steif_status(ctx) : code;
 }

@@ -106,8 +106,9 @@ int steif_order_measure(steif_context *ctx, const steif_problem *problem, const 
   o.mesh_size = 0;
   char spec[2 * STEIF_SPEC_WORD];
   const char *used = compensated(ctx, problem, method, sizeof spec, spec);
-  for (size_t i = 0; i < rows; i++) {
+  for (size_t i = 0; i < rows; i++)
     row[i] = (steif_order_row){ldexp(h, -(int)i), NAN, NAN, o.t1, used != method};
+  for (size_t i = 0; i < rows; i++) {
     o.h = row[i].h;
     STEIF_TRY(run(ctx, problem, used, &o, &row[i].error));
     if (i > 0) row[i].order = log2(row[i - 1].error / row[i].error);

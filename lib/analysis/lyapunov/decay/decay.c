@@ -14,8 +14,6 @@ static int ask(steif_context *ctx, const steif_problem *p, const char *method,
               "'%s' with n = %lld: the verdict on a step is found up to n = %d", p->name,
               (long long)p->n, STF_DECAY_UNKNOWNS);
   stf_constant steps;
-  steif_method_info info;
-  STEIF_TRY(steif_method_find(ctx, method, &info));
   STEIF_TRY(stf_constant_steps(ctx, o->h, p->t0, o->t1 != 0 ? o->t1 : p->t1, &steps));
   const bool dae = p->E || p->F;
   *q = (stf_question){.ctx = ctx,
@@ -24,7 +22,7 @@ static int ask(steif_context *ctx, const steif_problem *p, const char *method,
                       .exact = dae ? "radau:s=5" : "gauss:s=6",
                       .t1 = steps.end,
                       .transient = o->transient,
-                      .order = info.order};
+                      .stop = o->stop};
   stf_pool *pool = stf_pool_new(ctx);
   if (!pool) return STEIF_NO_MEMORY;
   stf_variation v;

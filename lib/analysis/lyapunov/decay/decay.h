@@ -22,7 +22,7 @@ typedef struct stf_question {
   const char *exact;                 /* of the equation */
   sunrealtype t1, transient, period; /* period 0: none, or not linear */
   bool linear;
-  int order; /* of the method */
+  const volatile int *stop;
 } stf_question;
 
 /* periods.c: by the map over q periods in m steps, twice in a row: the error is how far the two are apart.

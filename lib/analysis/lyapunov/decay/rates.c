@@ -13,7 +13,8 @@ int stf_rate_of_run(const stf_question *q, const char *method, sunrealtype h, su
                                     .transient = q->transient,
                                     .count = 1,
                                     .linear = q->linear ? 1 : -1,
-                                    .error = &error};
+                                    .error = &error,
+                                    .stop = q->stop};
   STEIF_TRY(steif_lyapunov(q->ctx, q->problem, method, &o, &exponent, NULL, &facts));
   *rate = (stf_rate){
     .value = exponent, .error = STF_STUDENT * error, .rise = facts.rise, .steps = facts.steps};

@@ -35,6 +35,11 @@ static bool decays(search *s, sunrealtype h)
          rate.rise <= s->d->rise + STF_RISE_MORE;
 }
 
+static bool enough(const search *s)
+{
+  return s->steps > STF_SEARCH_STEPS || (s->q->stop && *s->q->stop);
+}
+
 /* The least of the first steps in a row that decay; 0: none. */
 static sunrealtype downwards(search *s, sunrealtype h)
 {
@@ -43,7 +48,7 @@ static sunrealtype downwards(search *s, sunrealtype h)
     const sunrealtype tried = near_fraction(s->q, at, 1.0 / 400);
     row = decays(s, tried) ? row + 1 : 0;
     if (row == STF_SEARCH_ROW) return tried;
-    if (s->steps > STF_SEARCH_STEPS) return 0;
+    if (enough(s)) return 0;
   }
   return 0;
 }

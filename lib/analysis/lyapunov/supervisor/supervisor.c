@@ -256,7 +256,8 @@ static void finish(guard *g, const steif_problem *p, sunrealtype *y)
   const sunindextype n = p->n;
   facts->cap = g->cap;
   facts->direct = g->tangent.direct;
-  facts->mu = (g->now.log - g->now.log_half) / (g->t1 - g->now.t_half);
+  facts->mu = (g->now.log - g->now.log_half) / (g->now.t - g->now.t_half);
+  facts->end = g->now.t;
   sunrealtype scale = 1;
   if (g->tangent.direct) {
     const bool nothing = !(stf_tangent_size(&g->tangent, p->y0) > 0);
@@ -288,7 +289,7 @@ int steif_supervise(steif_context *ctx, const steif_problem *problem, const char
   for (long k = 1; code == STEIF_OK && g.now.t < g.t1; k++)
     code = window(&g, problem->t0 + (sunrealtype)k * how->window);
   close_solver(&g);
-  if (code == STEIF_OK) finish(&g, problem, y);
+  if (code == STEIF_OK || (code == STEIF_STOPPED && g.z)) finish(&g, problem, y);
   stf_pool_free(&pool);
   return code;
 }
