@@ -6,10 +6,15 @@
 static const struct {
   const char *name;
   int (*run)(struct call *call);
-} benchmarks[] = {{"step", bench_step},         {"books", bench_cost_accounting},
-                  {"workprec", bench_workprec}, {"success", bench_success},
-                  {"impulse", bench_impulse},   {"phi", bench_phi},
-                  {"lyapunov", bench_lyapunov}, {"lorenz", bench_lorenz}};
+} benchmarks[] = {{"step", bench_step},
+                  {"books", bench_cost_accounting},
+                  {"workprec", bench_workprec},
+                  {"success", bench_success},
+                  {"impulse", bench_impulse},
+                  {"phi", bench_phi},
+                  {"lyapunov", bench_lyapunov},
+                  {"lorenz", bench_lorenz},
+                  {"certificates", bench_certificates}};
 enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
 static const char *name_at(const void *list, size_t i)
@@ -38,15 +43,18 @@ static const struct option options[] = {
    "a solve ends after S processor seconds (default: 2; phi: 10; --quick: 0.1)", NULL},
   {"--runs", FLAG, NULL,
    "workprec, success: every run as well, not the best, or the worst, alone", NULL},
-  {"--quick", FLAG, NULL, "success: a part of the campaign, in a minute", NULL},
-  {"--seeds", COUNT, "N", "success: random problems of each kind (default: 12; --quick: 2)",
+  {"--quick", FLAG, NULL, "success, certificates: a part of the campaign, in a minute", NULL},
+  {"--seeds", COUNT, "N",
+   "success: random problems of each kind (default: 12; --quick: 2); certificates: pencils of "
+   "each "
+   "sparse kind, dense ones 200 times as many (default: 500; --quick: 10)",
    NULL},
   OPTIONS_END};
 
 const struct verb verb_bench = {
   .name = "bench",
   .about = "Measure steps against their kernels, solves against CVODE, IDA, ARKODE",
-  .usage = "[step|books|workprec|success|impulse|phi|lyapunov|lorenz]",
+  .usage = "[step|books|workprec|success|impulse|phi|lyapunov|lorenz|certificates]",
   .most = 1,
   .picture = true,
   .option = options,

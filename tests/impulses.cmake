@@ -103,11 +103,30 @@ foreach(algorithm staircase qz)
   endforeach()
   member("*" estimate)
 endforeach()
-# Its pattern is full, so no count of eigenvalues can certify a circle; the digits are there.
-expect(5 impulse ut5 --json --algorithm contour --radius 30 --points 32)
-member(OFF certified)
+# Its pattern is full and allows 5 finite eigenvalues; ranks modulo primes know that there are 2.
+expect(0 impulse ut5 --json --algorithm contour --radius 30 --points 32)
+member(ON certified)
 near(5 impulses 1 0)
 near(5 impulses 1 2)
+
+expect(0 pencil ut5 --json --algorithm contour)
+member(5 degree_bound)
+member(2 degree_exact)
+member("*" degree_doubt)
+
+# Capacitors 0.1, 0.2, 0.3 in a ring, 1 S to ground: 0.1 + 0.2 is rounded, and 2 finite eigenvalues
+# become 3. In whole numbers, combinations of rows: det(s E + F) = 0.
+matrix(ring.mtx 3 3 "1 1 .4" "1 2 -.1" "1 3 -.3" "2 1 -.1" "2 2 .30000000000000004" "2 3 -.2"
+       "3 1 -.3" "3 2 -.2" "3 3 .5")
+matrix(I3.mtx 3 3 "1 1 1" "2 2 1" "3 3 1")
+expect(5 pencil ring.mtx I3.mtx --algorithm contour ERR "exact sums, or take these for exact")
+expect(0 pencil ring.mtx I3.mtx --algorithm contour --snap --json)
+member(2 finite)
+member(1 index)
+matrix(singE.mtx 3 3 "1 1 -1" "1 2 -1" "2 1 13" "2 2 13" "2 3 -4" "3 1 16" "3 2 16" "3 3 -5")
+matrix(singF.mtx 3 3 "1 1 4" "1 2 4" "1 3 -3" "2 1 -28" "2 2 -28" "2 3 19" "3 1 -34" "3 2 -34"
+       "3 3 23")
+expect(4 pencil singE.mtx singF.mtx ERR "for all s exactly")
 
 # A charge of C1 C2/(C1 + C2) (v1 - v2) = 4.8 microcoulombs goes through the switch; v(0+) = 2.6.
 expect(0 impulse switchrlc --json)

@@ -13,8 +13,11 @@ static void fill(steif_report *r, const struct call *call, const void *result)
     MEMBER(steif_structure, finite, A_INDEX),
     MEMBER(steif_structure, infinite, A_INDEX),
     {"degree_bound", A_INDEX, offsetof(steif_structure, degree)},
+    {"degree_exact", A_INDEX, offsetof(steif_structure, exact)},
     MEMBER(steif_structure, count, A_NUMBER),
     MEMBERS_END};
+  static const struct member ranks[] = {
+    {"degree_doubt", A_REAL, offsetof(steif_structure, doubt)}, MEMBERS_END};
   static const struct member accuracy[] = {
     MEMBER(steif_structure, gap, A_REAL), MEMBER(steif_structure, rcond, A_REAL),
     MEMBER(steif_structure, radius, A_REAL), MEMBER(steif_structure, resolution, A_REAL),
@@ -29,6 +32,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   report_members(r, "", sizes, s);
   if (s->index < 0 && s->regular) report_natural(r, "index_least", s->index_least);
   report_members(r, "", eigenvalues, s);
+  if (s->exact >= 0) report_members(r, "", ranks, s);
   report_wholes(r, "weyr", (size_t)s->weyr_count, s->weyr);
   report_members(r, "", accuracy, s);
   report_names(r, "equations", by->equation, 'e', (size_t)s->equations_count, s->equations);

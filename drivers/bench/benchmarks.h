@@ -13,6 +13,7 @@ int bench_cost_accounting(struct call *call);
 int bench_lyapunov(struct call *call);
 int bench_workprec(struct call *call);
 int bench_success(struct call *call);
+int bench_certificates(struct call *call);
 int bench_impulse(struct call *call);
 int bench_phi(struct call *call);
 int bench_lorenz(struct call *call);

@@ -152,5 +152,6 @@ steif_analysis descriptor_analysis(const struct call *call, const struct descrip
   return (steif_analysis){.algorithm = (enum steif_algorithm)choice_of(call, "--algorithm"),
                           .radius = real_of(call, "--radius"),
                           .points = (int)whole_of(call, "--points"),
+                          .snap = given(call, "--snap"),
                           .names = l->names};
 }

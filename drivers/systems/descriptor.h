@@ -26,7 +26,9 @@ struct descriptor {
   {"--state-space", FLAG, NULL, "the second file is A of E x' = A x + f, so F = -A", NULL},    \
   {"--algorithm", CHOICE, "auto|staircase|qz|contour", "algorithm of the analysis", "auto"}, \
   {"--radius", POSITIVE, "R", "radius of the contour (default: raised until certified)", NULL},       \
-  {"--points", COUNT, "N", "points of the contour (default: 16)", NULL}
+  {"--points", COUNT, "N", "points of the contour (default: 16)", NULL},                       \
+  {"--snap", FLAG, NULL,                                                                       \
+   "exact ranks: a diagonal within 4 ulp of the negative sum of its row is that sum", NULL}
 #define START_OPTIONS                                                                          \
   {"--x0", WORD, "X.mtx", "x(0-), a column of as many rows as E", NULL},                       \
   {"--forcing", WORD, "FILE", "f: an expression in t per line, or samples t,f1,... in .csv",   \

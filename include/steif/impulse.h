@@ -57,7 +57,12 @@ typedef struct steif_structure {
   int index_least;
   sunindextype finite, infinite; /* eigenvalues; -1: undecided */
   sunindextype
-    degree;          /* structural: maximum-weight perfect matching; -1: no perfect matching */
+    degree; /* structural: maximum-weight perfect matching; -1: no perfect matching */
+  sunindextype
+    exact; /* finite eigenvalues of the entries exactly as given, by ranks modulo two random
+                         primes near 2^62; -1: not computed, as where the count equals the degree */
+  sunrealtype
+    doubt; /* a bound of the probability that `exact` is wrong, both primes being unlucky */
   sunrealtype count; /* finite eigenvalues by Jensen's formula; NaN: not computed */
   int weyr_count;    /* Weyr characteristic at infinity; 0: not computed, or index 0 */
   sunindextype *weyr;
@@ -107,7 +112,7 @@ typedef struct steif_impulse {
   sunrealtype
     estimate;         /* of the error of x_plus relative to its norm, or to a thousandth of what
                                E x(0-) and f stand for where that is larger, so that 0 is as good
-                               as any: two radii, or two algorithms and twice what changes of all
+                               as any: two radii, or two algorithms and four times what changes of all
                                entries in the last place make of x_plus, the larger */
   sunrealtype radius; /* of the circle that x_plus and c are from; 0: of none */
   int certified;

@@ -119,6 +119,56 @@ static void nothing_is_left_by_circles(void)
   system_close(&s);
 }
 
+/* -- circles and ranks ---------------------------------------------------------------------------- */
+
+/* A ring of capacitors 0.1, 0.2, 0.3 with a conductance of 1 from each node to ground: rounding of 0.1 +
+ * 0.2 makes det E = 6e-18 and an eigenvalue beyond 1e16. */
+static void rounded_sums(void)
+{
+  static const double E[9] = {0.1 + 0.3, -0.1, -0.3, -0.1,     0.1 + 0.2,
+                              -0.2,      -0.3, -0.2, 0.2 + 0.3};
+  static const double F[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  steif_context *ctx = steif_context_new(NULL);
+  SUNMatrix e = system_dense(ctx, 3, E), f = system_dense(ctx, 3, F);
+  for (int snap = 0; snap < 2; snap++) {
+    const steif_analysis by = {.algorithm = STEIF_CONTOUR, .snap = snap};
+    steif_structure s;
+    CHECK(!steif_structure_find(ctx, e, f, &by, &s));
+    CHECK(s.regular && s.finite == 2 && s.certified == snap && s.exact == (snap ? 2 : 3));
+    CHECK(!!strstr(s.message, snap ? "are taken for exact sums" : "0.1 + 0.2"));
+    CHECK(!!strstr(s.message, "2 rows, the first is 1"));
+    CHECK(!snap || (s.index == 1 && s.rank_E == 2 && s.doubt > 0 && s.doubt < 1e-30));
+    steif_structure_clear(ctx, &s);
+  }
+  SUNMatDestroy(e), SUNMatDestroy(f);
+  /* Whole numbers need no help, and the pattern allows 3. */
+  static const double whole_E[9] = {4, -1, -3, -1, 3, -2, -3, -2, 5};
+  steif_structure s = look(ctx, 3, whole_E, F, STEIF_CONTOUR);
+  CHECK(s.certified && s.index == 1 && s.finite == 2 && s.exact == 2 && s.degree == 3);
+  CHECK(!!strstr(s.message, "degree 3 of the pattern less what cancels exactly"));
+  steif_structure_clear(ctx, &s);
+  steif_context_free(&ctx);
+}
+
+/* A circle that leaves one out: ranks know that it is there, and rounding has no part in it. */
+static void one_is_outside(void)
+{
+  static const double E[9] = {1, 1, 0, 1, 1, 0, 0, 0, 1e-6}, F[9] = {1, 0, 0, 0, 2, 0, 0, 0, 1};
+  const steif_analysis by = {.algorithm = STEIF_CONTOUR, .radius = 30};
+  steif_context *ctx = steif_context_new(NULL);
+  SUNMatrix e = system_dense(ctx, 3, E), f = system_dense(ctx, 3, F);
+  steif_structure s;
+  CHECK(!steif_structure_find(ctx, e, f, &by, &s));
+  CHECK(!s.certified && s.finite == 1 && s.exact == 2 && s.degree == 3);
+  CHECK(!!strstr(s.message, "ranks modulo two primes find 2 (the pattern: 3)"));
+  steif_structure_clear(ctx, &s);
+  CHECK(!steif_structure_find(ctx, e, f, &(steif_analysis){.algorithm = STEIF_CONTOUR}, &s));
+  CHECK(s.certified && s.finite == 2 && s.index == 1);
+  steif_structure_clear(ctx, &s);
+  SUNMatDestroy(e), SUNMatDestroy(f);
+  steif_context_free(&ctx);
+}
+
 /* -- every reason --------------------------------------------------------------------------------- */
 
 static void each_reason_stands(void)
@@ -162,5 +212,7 @@ CU_TestInfo tests_of_certificates[] = {
   {"pencils without finite eigenvalues are certified", purely_infinite},
   {"x(0+) = 0 is certified", nothing_is_left},
   {"by circles, too", nothing_is_left_by_circles},
+  {"sums that are rounded are not certified, or snapped", rounded_sums},
+  {"ranks know of eigenvalues outside", one_is_outside},
   {"each reason not to certify stands alone", each_reason_stands},
   CU_TEST_INFO_NULL};

@@ -83,9 +83,11 @@ static void integers(void)
   CU_ASSERT_FATAL(a.impulse.count == 2);
   for (int i = 0; i < 5; i++) CLOSE_FLOOR(a.impulse.x_plus[i], x_plus[i], 1e-11, 1);
   for (int i = 0; i < 10; i++) CLOSE_FLOOR(a.impulse.c[i], c[i], 1e-11, 1);
-  /* The pattern allows five eigenvalues: values cancel, and circles cannot know. */
-  CHECK(a.structure.degree == 5 && !a.structure.certified && !a.impulse.certified);
-  CHECK(says(a.structure.message, "up to 3 faster modes relaxed"));
+  /* The pattern allows five eigenvalues: values cancel, which circles cannot know and ranks do. */
+  CHECK(a.structure.degree == 5 && a.structure.exact == 2 && a.structure.doubt < 1e-30);
+  CHECK(a.structure.certified && a.impulse.certified && isinf(a.structure.resolution));
+  CHECK(says(a.structure.message, "equals the degree 5 of the pattern less what cancels"));
+  CHECK(a.structure.rank_E == 4 && a.structure.weyr_count == 3 && a.structure.weyr[2] == 1);
   drop(&a);
 }
 

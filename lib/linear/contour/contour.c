@@ -12,10 +12,9 @@
 #include "sentences.h"
 #include "structural.h"
 #include <math.h>
-#include <stdio.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-enum { CIRCLES = 32, MOMENTS = 65 };
+enum { CIRCLES = 32, UPWARDS = 24, MOMENTS = 65 };
 
 /* What one circle showed. */
 typedef struct sample {
@@ -31,7 +30,11 @@ typedef struct search {
   steif_structure *structure;
   stf_circle *circle;
   sunrealtype *v, size; /* random, and its norm */
-  sunindextype pattern; /* structural index */
+  sunindextype pattern; /* index expected: structural, or by ranks */
+  sunindextype target;  /* eigenvalues expected: structural degree, or by ranks */
+  const stf_field *field;
+  int ranked; /* index by ranks; -1: not computed */
+  sunindextype weyr[STF_INDEX_MOST + 2];
   sunrealtype start, end;
   int circles;
   sample of[CIRCLES];
@@ -92,7 +95,7 @@ static bool whole(const search *w, const sample *s)
 
 static bool complete(const search *w, const sample *s)
 {
-  return whole(w, s) && round(s->count) == (sunrealtype)w->structure->degree;
+  return whole(w, s) && round(s->count) == (sunrealtype)w->target;
 }
 
 /* The largest |F| / |E| of a column or row: a bound of the eigenvalues that is rough, and right
@@ -124,13 +127,13 @@ static bool clear(const search *w, const sample *s)
   return s->gap >= STF_WIDE_GAP || (s->gap >= STF_CLEAR_GAP && s->last == w->pattern);
 }
 
-/* Up until all finite eigenvalues are inside, and the moments decide or part no further. Where they
- * decide, all that is asked of the next circle is its determinant; more, if the count does not
- * agree. */
-static int grow(search *w)
+/* Up until all finite eigenvalues are inside, and the moments decide or part no further, or the radius
+ * `limit` is reached. Where they decide, all that is asked of the next circle is its determinant; more,
+ * if the count does not agree. */
+static int grow(search *w, sunrealtype limit)
 {
-  STEIF_TRY(draw(w, w->end, true));
-  for (int k = 1; k < CIRCLES / 2 && w->of[k - 1].radius < w->end * STF_BEYOND; k++) {
+  if (!w->circles) STEIF_TRY(draw(w, w->end, true));
+  for (int k = w->circles; k < UPWARDS && w->of[k - 1].radius < limit; k++) {
     sample *last = &w->of[k - 1], *now = last + 1;
     const sunrealtype radius = STF_GROW * last->radius;
     STEIF_TRY(draw(w, radius, !clear(w, last)));
@@ -145,20 +148,52 @@ static int grow(search *w)
   return STEIF_OK;
 }
 
+static bool any_complete(const search *w)
+{
+  bool any = false;
+  for (int k = 0; k < w->circles; k++) any = any || complete(w, &w->of[k]);
+  return any;
+}
+
+/* All inside of a circle whose moments decide. */
+static bool decided(const search *w)
+{
+  bool any = false;
+  for (int k = 0; k < w->circles; k++)
+    any = any || (complete(w, &w->of[k]) && w->of[k].gap >= STF_GAP);
+  return any;
+}
+
+/* What entries cancel exactly the pattern cannot know: how many eigenvalues are finite, and the index,
+ * by ranks. */
+static int rank(search *w)
+{
+  steif_structure *s = w->structure;
+  sunindextype infinite = 0;
+  int count;
+  if (w->ranked >= 0) return STEIF_OK;
+  STEIF_TRY(stf_field_chains(w->ctx, w->field, w->analysis.index_most + 1, w->weyr, &count));
+  if (count < 0) return STEIF_OK;
+  for (int k = 0; k < count; k++) infinite += w->weyr[k];
+  w->ranked = count;
+  w->pattern = count;
+  w->target = s->exact = s->n - infinite;
+  s->doubt = stf_field_doubt(w->field, count + 1);
+  return STEIF_OK;
+}
+
 /* Down from the first circle: while all eigenvalues stay inside, when they are inside of it
  * already, since rounding grows with R; or through the radii left out, when they never are. */
 static int shrink(search *w)
 {
-  const bool inside = w->circles == 2 && complete(w, &w->of[0]);
-  const bool decided = inside && clear(w, &w->of[0]);
-  bool outside = true;
-  for (int k = 0; k < w->circles; k++) outside &= !complete(w, &w->of[k]);
+  const bool inside = (w->circles == 2 || w->ranked >= 0) && complete(w, &w->of[0]);
+  const bool sure = inside && clear(w, &w->of[0]), outside = !any_complete(w);
   const sunrealtype factor = inside ? STF_SHRINK : STF_GROW,
                     least = outside ? w->start / STF_GROW : 0;
   if (!(inside && w->structure->degree > 0) && !outside) return STEIF_OK;
   sample *lowest = &w->of[0];
   while (w->circles < CIRCLES && lowest->radius / factor >= least) {
-    STEIF_TRY(draw(w, lowest->radius / factor, !decided));
+    STEIF_TRY(draw(w, lowest->radius / factor, !sure));
     sample *now = &w->of[w->circles - 1];
     count(now, lowest);
     if (inside && !complete(w, now)) break;
@@ -175,9 +210,11 @@ static int explore(search *w)
     STEIF_TRY(draw(w, 2 * given, false));
     count(&w->of[0], &w->of[1]);
     w->circles = 1;
-    return STEIF_OK;
+    return complete(w, &w->of[0]) ? STEIF_OK : rank(w);
   }
-  STEIF_TRY(grow(w));
+  STEIF_TRY(grow(w, w->end * STF_BEYOND));
+  if (!any_complete(w)) STEIF_TRY(rank(w));
+  if (!decided(w) && (any_complete(w) || w->ranked >= 0)) STEIF_TRY(grow(w, w->end * STF_FAR));
   return shrink(w);
 }
 
@@ -222,6 +259,15 @@ static bool possible(int index, sunindextype infinite)
   return index > 0 ? index <= infinite : infinite == 0;
 }
 
+/* Moments and ranks must agree. Ranks alone would not do: a chain of 8 that rounding has spoilt is an
+ * index of 0 for the entries as given, with eigenvalues as small as eps^(-1/8). */
+static void compare(steif_structure *s, int ranked)
+{
+  if (s->index == ranked) return;
+  if (ranked < s->index_least) s->index_least = ranked;
+  s->index = -1;
+}
+
 /* What one circle decides: with all eigenvalues inside, the last gap ends the moments; else a mode
  * outside lets them fall evenly, and only gaps that agree count. */
 static void decide(search *w, const sample *chosen)
@@ -240,24 +286,53 @@ static void decide(search *w, const sample *chosen)
     s->index = -1;
     s->index_least = s->infinite > 0;
   }
+  if (all && w->ranked >= 0) compare(s, w->ranked);
   s->resolution = all ? INFINITY : chosen->radius;
   s->radius = final_radius(w, chosen);
   if (s->index == 0 || s->index == 1) s->equations_count = s->unknowns_count = 0;
 }
 
-static void conclude(search *w, stf_contour_circle *circle)
+/* Is it regular, and if this is in doubt, by ranks? */
+static int judge_regular(search *w, bool found)
 {
   steif_structure *s = w->structure;
-  const sample chosen = choose(w);
+  bool singular = false;
+  s->regular = found && s->rcond >= fmin((sunrealtype)s->n * STF_EPS, 1e-11);
+  if (s->regular && s->rcond < STF_SUSPECT)
+    STEIF_TRY(stf_field_singular(w->ctx, w->field, &singular));
+  if (singular) s->regular = 0;
+  return STEIF_OK;
+}
+
+static int take_ranks(search *w)
+{
+  steif_structure *s = w->structure;
+  if (w->ranked < 0) return STEIF_OK;
+  s->rank_E = s->n - (w->ranked ? w->weyr[0] : 0);
+  if (s->index != w->ranked || s->finite != s->exact || !w->ranked) return STEIF_OK;
+  STEIF_TRY(stf_structure_list(w->ctx, w->ranked, &s->weyr));
+  s->weyr_count = w->ranked;
+  for (int k = 0; k < w->ranked; k++) s->weyr[k] = w->weyr[k];
+  return STEIF_OK;
+}
+
+static int conclude(search *w, stf_contour_circle *circle)
+{
+  steif_structure *s = w->structure;
+  sample chosen = choose(w);
+  if (!chosen.singular && chosen.last < 0 && complete(w, &chosen)) STEIF_TRY(rank(w));
   s->count = chosen.count;
   s->gap = chosen.gap;
   s->finite = s->infinite = s->index = -1;
   for (int k = 0; k < w->circles; k++) s->rcond = fmax(s->rcond, w->of[k].rcond);
-  s->regular = !chosen.singular && s->rcond >= fmin((sunrealtype)s->n * STF_EPS, 1e-11);
+  STEIF_TRY(judge_regular(w, !chosen.singular));
   if (s->regular) decide(w, &chosen);
   circle->radius = chosen.radius;
   circle->given = w->analysis.radius > 0;
   circle->complete = complete(w, &chosen);
+  circle->ranked = w->ranked;
+  circle->moments = chosen.last;
+  return s->regular ? take_ranks(w) : STEIF_OK;
 }
 
 static int analyse(search *w, SUNMatrix E, SUNMatrix F, stf_contour_circle *circle)
@@ -276,8 +351,7 @@ static int analyse(search *w, SUNMatrix E, SUNMatrix F, stf_contour_circle *circ
   w->start = e > 0 && f > 0 ? f / e : 1;
   w->end = fmin(bound(w), STF_SPREAD * w->start);
   STEIF_TRY(explore(w));
-  conclude(w, circle);
-  return STEIF_OK;
+  return conclude(w, circle);
 }
 
 int stf_contour_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
@@ -285,7 +359,11 @@ int stf_contour_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                      stf_contour_circle *circle)
 {
   sunindextype rank;
-  search w = {.ctx = ctx, .analysis = stf_analysis_filled(analysis), .structure = structure};
+  search w = {.ctx = ctx,
+              .analysis = stf_analysis_filled(analysis),
+              .structure = structure,
+              .field = &circle->field,
+              .ranked = -1};
   structure->n = SM_COLUMNS_S(F);
   structure->rank_E = -1;
   structure->method = "contour";
@@ -293,6 +371,9 @@ int stf_contour_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
   if (rank < structure->n)
     return stf_say_singular_pattern(ctx, E, F, analysis ? analysis->names : NULL, rank,
                                     structure);
+  w.target = structure->degree;
+  const stf_field as = circle->field;
+  STEIF_TRY(stf_field_open(ctx, as.E, as.F, as.snap, &circle->field));
   stf_circle *kept = stf_circle_kept(structure);
   stf_circle_close(ctx, &kept);
   structure->kept = NULL;
@@ -301,42 +382,4 @@ int stf_contour_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
   structure->cost = *steif_pencil_statistics(w.circle->scaled.pencil);
   structure->kept = &w.circle->kept_by;
   return code;
-}
-
-void stf_contour_say(const stf_contour_circle *chosen, steif_structure *s)
-{
-  char *text = s->message;
-  const size_t room = sizeof s->message;
-  const char *index = s->index < 0 ? "index undecided, at least" : "index";
-  const long long degree = s->degree, finite = s->finite;
-  if (s->certified)
-    snprintf(text, room,
-             "index %d, %lld finite eigenvalues, all in |s| <= %.3g: the count %.6f equals the "
-             "structural degree",
-             s->index, finite, chosen->radius, s->count);
-  else if (finite < 0)
-    snprintf(text, room,
-             "%s %d, not certified: the count %.4f of finite eigenvalues in |s| <= %.3g is no "
-             "whole number up to %lld; %s",
-             index, s->index_least, s->count, s->radius, degree,
-             chosen->given ? "take another radius" : "use a dense algorithm");
-  else if (finite == degree && s->gap >= STF_GAP)
-    snprintf(text, room,
-             "%s %d: the moments end like those of another index than the count %.6f, the "
-             "structural degree, leaves room for; rounding makes infinite eigenvalues finite: "
-             "use a dense algorithm",
-             index, s->index_least, s->count);
-  else if (finite == degree)
-    snprintf(
-      text, room,
-      "%s %d: the moments part by %.1e only, the count %.6f equals the structural degree",
-      index, s->index_least, s->gap, s->count);
-  else
-    snprintf(
-      text, room,
-      "%s %d, not certified: %lld finite eigenvalues in |s| <= R = %.3g where the pattern "
-      "allows %lld; valid for time scales >= 1/R = %.3g; up to %lld faster modes relaxed, "
-      "unless "
-      "values cancel what the pattern allows",
-      index, s->index_least, finite, s->radius, degree, 1 / s->radius, degree - finite);
 }

@@ -4,6 +4,7 @@
 #define STF_CONTOUR_H
 
 #include "analysis_steps.h"
+#include "prime_field.h"
 
 extern const stf_algorithm stf_contour_algorithm;
 
@@ -11,7 +12,13 @@ extern const stf_algorithm stf_contour_algorithm;
 typedef struct stf_contour_circle {
   sunrealtype radius;
   bool given;    /* by the caller */
-  bool complete; /* it holds as many eigenvalues as the pattern allows */
+  bool complete; /* it holds as many eigenvalues as the pattern, or ranks, allow */
+  int ranked;    /* index by ranks, -1: not computed */
+  int moments;   /* index by the moments; -1: they decide nothing */
+  /* Rows whose diagonal is a rounded sum, to which eigenvalues beyond the circle are due, or which are
+   * taken for exact; the first of them. */
+  sunindextype rounded, rounded_row;
+  stf_field field; /* the pencil as given, E, F and snap by the caller */
 } stf_contour_circle;
 
 /* E and F: CSC. Everything of *structure but the certificate and the sentence of a regular pencil. */

@@ -47,6 +47,7 @@ static int scale(stf_descriptor *d)
 static int structure(stf_descriptor *d)
 {
   residue *w = d->state;
+  w->found.field = (stf_field){.E = d->E, .F = d->F, .snap = d->options.snap};
   return stf_contour_find(d->ctx, w->units.E, w->units.F, &d->options, d->structure, &w->found);
 }
 
@@ -58,10 +59,8 @@ static int singular(stf_descriptor *d)
   steif_structure *s = d->structure;
   bool exactly = s->degree < 0;
   if (s->degree >= 0) {
-    stf_field field;
     s->equations_count = s->unknowns_count = 0;
-    STEIF_TRY(stf_field_open(d->ctx, d->E, d->F, d->options.snap, &field));
-    STEIF_TRY(stf_field_singular(d->ctx, &field, &exactly));
+    STEIF_TRY(stf_field_singular(d->ctx, &w->found.field, &exactly));
     if (exactly) STEIF_TRY(stf_structural_dependent(d->ctx, w->units.E, w->units.F, s));
     snprintf(
       s->message, sizeof s->message,
@@ -238,11 +237,46 @@ static int compare(stf_descriptor *d)
 
 /* -- certificate and sentence --------------------------------------------------------------- */
 
+/* Rows whose diagonals are the negative sums of the others but for rounding. */
+static int count_rounded(stf_descriptor *d, stf_contour_circle *c)
+{
+  const sunindextype n = d->structure->n;
+  unsigned char *row = stf_pool_array(d->pool, 2 * (size_t)n, 1);
+  if (!row) return STEIF_NO_MEMORY;
+  STEIF_TRY(stf_field_rounded_rows(d->ctx, d->E, row));
+  STEIF_TRY(stf_field_rounded_rows(d->ctx, d->F, row + n));
+  for (sunindextype i = n - 1; i >= 0; i--) {
+    if (!row[i] && !row[n + i]) continue;
+    c->rounded++;
+    c->rounded_row = i;
+  }
+  return STEIF_OK;
+}
+
+/* Is it their rounding that brings eigenvalues from infinity to beyond the circle? */
+static int find_rounded(stf_descriptor *d, stf_contour_circle *c)
+{
+  const steif_structure *s = d->structure;
+  sunindextype weyr[STF_INDEX_MOST + 1], finite = s->n;
+  stf_field snapped;
+  int count;
+  c->rounded = 0;
+  if (d->structure_known || s->exact < 0) return STEIF_OK;
+  STEIF_TRY(count_rounded(d, c));
+  if (d->options.snap || !c->rounded || s->exact <= s->finite) return STEIF_OK;
+  STEIF_TRY(stf_field_open(d->ctx, d->E, d->F, true, &snapped));
+  STEIF_TRY(stf_field_chains(d->ctx, &snapped, STF_INDEX_MOST, weyr, &count));
+  for (int k = 0; k < count; k++) finite -= weyr[k];
+  if (count < 0 || finite != s->finite) c->rounded = 0;
+  return STEIF_OK;
+}
+
 static int certify(stf_descriptor *d)
 {
-  const residue *w = d->state;
+  residue *w = d->state;
   steif_structure *s = d->structure;
   if (!d->structure_known) s->certified = w->found.complete && s->index >= 0;
+  STEIF_TRY(find_rounded(d, &w->found));
   if (d->x0)
     d->impulse->certified = s->certified && d->impulse->estimate <= STF_CIRCLES_CERTIFY;
   return STEIF_OK;
@@ -252,12 +286,12 @@ static void say_start(const steif_structure *s, steif_impulse *out)
 {
   const sunrealtype R = out->radius;
   const size_t room = sizeof out->message;
-  const long long relaxed = s->degree - s->finite;
+  const long long relaxed = (s->exact >= 0 ? s->exact : s->degree) - s->finite;
   if (out->certified)
     snprintf(
       out->message, room,
       "%d impulse coefficients with R = %.3g: circles of R and 2R differ by %.1e, and the "
-      "count of finite eigenvalues equals the structural degree",
+      "count of finite eigenvalues equals the degree",
       out->count, R, out->estimate);
   else if (s->certified)
     snprintf(

@@ -21,6 +21,12 @@
 /* They cannot part further in double precision: sparse systems with refined solves reach 5e14. */
 #define STF_WIDE_GAP 1e12
 
+/* -- regularity ------------------------------------------------------------------------------------ */
+
+/* Reciprocal conditions of s E + F below this are looked at by ranks: singular pencils had 5e-18 at most,
+ * regular ones of practice 9e-10 at least. */
+#define STF_SUSPECT 1e-8
+
 /* -- radii ---------------------------------------------------------------------------------------- */
 
 /* Factors from circle to circle, up and down. */
@@ -30,6 +36,10 @@
  * how far that may lie above max |F| / max |E|. */
 #define STF_BEYOND 64.0
 #define STF_SPREAD 1e12
+/* How far circles go where ranks, or the pattern, tell that there are eigenvalues beyond, or where all are
+ * inside and moments need more room: determinants that are small beside the entries make eigenvalues
+ * large beside max |F| / |E|. */
+#define STF_FAR 1e8
 /* A radius over max |F| / max |E| where nothing is known. */
 #define STF_GUESS 10.0
 /* Scales serve radii up to this far from the one they were made for. */

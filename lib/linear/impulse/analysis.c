@@ -135,7 +135,7 @@ int steif_structure_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                          const steif_analysis *analysis, steif_structure *structure)
 {
   STEIF_CHECK(structure, ctx, STEIF_BAD_INPUT, "no place for the structure: it is NULL");
-  *structure = (steif_structure){.count = NAN, .degree = -1};
+  *structure = (steif_structure){.count = NAN, .degree = -1, .exact = -1};
   stf_descriptor d = {.ctx = ctx, .E = E, .F = F, .structure = structure};
   d.options = stf_analysis_resolved(E, F, analysis);
   STEIF_TRY(stf_analysis_check(ctx, E, F, &d.options));
@@ -171,7 +171,7 @@ static int find_start(stf_descriptor *d, forcing *f, const steif_structure *give
   STEIF_CHECK(!given || given->n == n, d->ctx, STEIF_BAD_INPUT,
               "the structure is of order %lld, E of order %lld: give that of this pencil",
               (long long)given->n, (long long)n);
-  steif_structure s = {.count = NAN, .degree = -1};
+  steif_structure s = {.count = NAN, .degree = -1, .exact = -1};
   d->structure_known = is_known(given, &d->options);
   if (d->structure_known) s = borrowed(given);
   d->structure = &s;
