@@ -38,6 +38,8 @@ static const struct option options[] = {
   {"--h", POSITIVE, "H", "constant step size of --method (default: adaptive)", NULL},
   {"--h0", POSITIVE, "H", "first step of an adaptive step size (default: automatic)", NULL},
   {"--rtol", POSITIVE, "R", "relative tolerance of --method or --vs (default: 1e-6)", NULL},
+  {"--atol", POSITIVE, "A", "absolute tolerance (default: the relative times max |x|, up to 1)",
+   NULL},
   {"--restitution", REAL, "E", "restitution in an impact of a nonlinear problem", "0"},
   {"--stages", FLAG, NULL,
    "nonlinear problem whose jump is not unique: positions first, then velocities", NULL},
@@ -52,6 +54,8 @@ static const struct option options[] = {
 
 static const struct rule rules[] = {START_RULES,
                                     {"--h", EXCLUDES, "--rtol"},
+                                    {"--h", EXCLUDES, "--atol"},
+                                    {"--atol", NEEDS, "--method|--vs"},
                                     {"--h", EXCLUDES, "--h0"},
                                     {"--h", EXCLUDES, "--layers"},
                                     {"--projectors", EXCLUDES, "--method"},

@@ -212,6 +212,24 @@ if(NOT count EQUAL 1)
   message(SEND_ERROR "no exact row at t = 1: ${rows}")
 endif()
 
+# States of 1e-5: errors are relative to their size without a word, x' = (-1 -3; 3 -1) x and 0 = x_1 +
+# x_2 - x_3, and as large as --atol lets them be with one.
+matrix(smallE.mtx 3 3 "1 1 1" "2 2 1")
+matrix(smallF.mtx 3 3 "1 1 1" "1 2 3" "2 1 -3" "2 2 1" "3 1 1" "3 2 1" "3 3 -1")
+column(small.mtx 1e-5 -2e-5 7)
+expect(0 impulse smallE.mtx smallF.mtx --x0 small.mtx --method radau:s=5 --t1 2 --rtol 1e-8 --json)
+string(JSON off GET "${out}" error)
+if(NOT off MATCHES "e-(0[89]|1[0-9])$")
+  message(SEND_ERROR "error ${off} of states of 1e-5 with rtol 1e-8")
+endif()
+expect(0 impulse smallE.mtx smallF.mtx --x0 small.mtx --method radau:s=5 --t1 2 --rtol 1e-8
+       --atol 1e-6 --json)
+string(JSON off GET "${out}" error)
+if(NOT off MATCHES "e-0[1-5]$")
+  message(SEND_ERROR "error ${off} of states of 1e-5 with atol 1e-6")
+endif()
+expect(2 impulse ut5 --atol 1e-6 ERR "--atol")
+
 # All generated systems, consistent and not, beside IDA in its best setting.
 expect(0 impulse all --vs ida --json)
 string(JSON count LENGTH "${out}" rows)

@@ -13,6 +13,7 @@ void report_beside(const struct call *call, const struct descriptor *l, const ch
   const bool published = descriptor_as_published(call, l);
   o.t1 = real_or(call, "--t1", published ? p.t1 : l->t0 + 1);
   o.rtol = real_or(call, "--rtol", o.rtol);
+  o.atol = real_of(call, "--atol");
   outcome got = {.t = l->t0};
   if (!published && steif_linear_problem(call->ctx, &l->system, l->x0, l->t0, o.t1, &p)) {
     got.code = steif_status(call->ctx);

@@ -92,6 +92,7 @@ static int integrate_on(struct call *call, const struct descriptor *l, struct re
   o.h = real_of(call, "--h");
   o.h0 = real_of(call, "--h0");
   o.rtol = real_or(call, "--rtol", o.rtol);
+  o.atol = real_of(call, "--atol");
   const char *method = word_of(call, "--method");
   const size_t count =
     l->function ? steif_function_breaks(l->function, l->t0, o.t1, BREAKS, k->breaks) : 0;
@@ -144,6 +145,7 @@ static int through_layers(struct call *call, const struct descriptor *l, struct 
   o.t1 = k->path.t1;
   o.h0 = real_of(call, "--h0");
   o.rtol = real_or(call, "--rtol", o.rtol);
+  o.atol = real_of(call, "--atol");
   if (l->function && steif_function_breaks(l->function, l->t0, o.t1, BREAKS, k->breaks))
     return bad_usage(
       call,

@@ -27,7 +27,8 @@ typedef struct steif_linear_output {
  * times (up to k by methods with |R(inf)| > 0, such as Gauss's): tolerances are met for every index.
  * In large sparse systems an unknown of index k is judged by h^(k-1), as in RADAU5, and the fast
  * part is found anew at every step that is told, x(t) = Phi_{-1} E x(t) + sum_j Phi_j f^(j)(t): it has
- * the accuracy of the slow part, which no error of the fast one enters. */
+ * the accuracy of the slow part, which no error of the fast one enters. Without an absolute tolerance
+ * it is rtol times the size of the states, up to 1: max |x(t+)| so far, or what f may make of x = 0. */
 STEIF_EXPORT int steif_linear_run(steif_context *ctx, const steif_linear *linear,
                                   const sunrealtype *x0, sunrealtype t0, const char *method,
                                   const steif_options *options, const steif_analysis *analysis,
@@ -63,7 +64,8 @@ STEIF_EXPORT int steif_linear_exact(steif_context *ctx, const steif_linear *line
  * and in the fast part has this size at once. Pointwise O(h^p) (Radau: O(h^(s+2-k))), also at k > 2.
  * BDF of order 2 and more starts as convolution quadrature: its first layer is longer by as many
  * steps as the other roots of the method take to die away. STEIF_STEP_SIZE where rounding, which
- * grows as h^-(k-1) or more, leaves no step to keep the tolerance with. */
+ * grows as h^-(k-1) or more, leaves no step to keep the tolerance with. Absolute tolerance: as above,
+ * with x(0-). */
 typedef struct steif_layers_stats {
   long steps, again, rejected, changes; /* told; made to come through layers and thrown away;
                                           rejected; new lengths */

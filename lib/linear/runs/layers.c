@@ -13,6 +13,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "layers.h"
+#include "run_scale.h"
 #include "method.h"
 #include <steif/runs.h>
 #include <math.h>
@@ -192,6 +193,16 @@ static int open(stf_layers *w, const steif_linear *l, const steif_analysis *anal
   return code ? code : claim(w);
 }
 
+/* The absolute tolerance where none is given. */
+static int measure(stf_layers *w, const steif_linear *l)
+{
+  sunrealtype scale;
+  if (w->options.atol > 0 || w->options.atols) return STEIF_OK;
+  STEIF_TRY(stf_run_scale(w->ctx, l, w->x0, w->t0, w->t1, &scale));
+  w->options.atol = w->options.rtol * scale;
+  return STEIF_OK;
+}
+
 int stf_layers_open(steif_context *ctx, const steif_linear *l, const sunrealtype *x0,
                     sunrealtype t0, const char *method, const steif_options *options,
                     const steif_analysis *analysis, stf_layers *w)
@@ -211,7 +222,8 @@ int stf_layers_open(steif_context *ctx, const steif_linear *l, const sunrealtype
                     .t1 = options->t1};
   STEIF_CHECK(w->t1 > t0, ctx, STEIF_BAD_INPUT, "t1 = %.17g must be after t0 = %.17g", w->t1,
               t0);
-  const int code = open(w, l, analysis);
+  int code = measure(w, l);
+  if (!code) code = open(w, l, analysis);
   if (code) stf_layers_close(w);
   return code;
 }

@@ -1,6 +1,7 @@
 /* passage.c: jumps of E x' + F x = f and the smooth solution between them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "passage.h"
+#include "run_scale.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <steif/method.h>
@@ -80,6 +81,27 @@ static const char *method_of(const stf_passage *p)
   return p->index && !strcmp(p->method, "auto") ? "radau:s=3" : p->method;
 }
 
+/* States that have vanished at a jump but for rounding are no measure. */
+#define VANISHED 1e-8
+
+/* Of the states after the jump at `from`, and of all before. */
+static int measure(stf_passage *p, sunrealtype from, sunrealtype before)
+{
+  sunrealtype scale;
+  if (p->options.atol > 0 || p->options.atols) return STEIF_OK;
+  STEIF_TRY(stf_run_scale(p->ctx, &p->cut, p->x, from, p->end, &scale));
+  p->scale = fmin(fmax(fmax(scale, p->scale), VANISHED * before), 1);
+  p->problem.rtol_scale = p->scale;
+  return STEIF_OK;
+}
+
+static sunrealtype largest(const stf_passage *p)
+{
+  sunrealtype most = 0;
+  for (sunindextype i = 0; i < p->n; i++) most = fmax(most, fabs(p->x[i]));
+  return most;
+}
+
 int stf_passage_begin(stf_passage *p, sunrealtype from, sunrealtype to)
 {
   const bool low = p->reduced.linear.E;
@@ -87,12 +109,14 @@ int stf_passage_begin(stf_passage *p, sunrealtype from, sunrealtype to)
   p->cut = (steif_linear){p->linear.E, p->linear.F, p->linear.f ? left_of : NULL, p};
   p->reduced.from = &p->cut;
   steif_solver_free(&p->solver);
+  const sunrealtype before = largest(p);
   STEIF_TRY(jump(p, from));
   STEIF_TRY(steif_linear_problem(p->ctx, low ? &p->reduced.linear : &p->cut, p->x, from, to,
                                  &p->problem));
   p->problem.index = p->index;
   p->problem.dae_index = p->index ? p->structure.index : 1;
   if (p->name) p->problem.name = p->name;
+  STEIF_TRY(measure(p, from, before));
   steif_options o = p->options;
   o.t1 = to, o.h0 = first_step(p, from);
   p->solver = steif_solver_new(p->ctx, &p->problem, method_of(p), &o);

@@ -34,6 +34,7 @@ typedef struct stf_passage {
   stf_smooth_flow
     through; /* with factors that are kept, where circles have found the structure */
   sunrealtype end, before; /* of the segment; the last number before it */
+  sunrealtype scale;       /* of the states up to there */
   steif_linear cut;        /* with f up to the end: where it breaks there, from the left */
   steif_problem problem;   /* of the segment ... */
   steif_solver *solver;    /* ... and what makes its steps */
