@@ -1,7 +1,17 @@
-/* pencil.c: regularity, index and structure of a pencil s E + F.
+/* pencil.c: regularity, index, structure and finite eigenvalues of a pencil s E + F.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
-#include "descriptor.h"
+#include "eigenvalues_of.h"
+
+static int verdict(const struct call *call, const struct descriptor *l,
+                   const struct structure_answer *a)
+{
+  const bool open = a->eigenvalues && !a->values.certified;
+  if (!a->found.regular) return descriptor_singular(call, l, &a->found);
+  if (!a->found.certified) say(call, "%s [STEIF_NOT_CERTIFIED]", a->found.message);
+  if (open) say(call, "%s [STEIF_NOT_CERTIFIED]", a->values.message);
+  return a->found.certified && !open ? EXIT_OK : EXIT_UNCERTIFIED;
+}
 
 static int find(struct call *call, const struct descriptor *l, struct structure_answer *a)
 {
@@ -12,32 +22,39 @@ static int find(struct call *call, const struct descriptor *l, struct structure_
       steif_structure_ranks(call->ctx, q->E, q->F, &a->found))
     return descriptor_fail(call);
   a->names = l->names;
-  const int code = structure_present(call, a);
-  if (code) return code;
-  if (!a->found.regular) return descriptor_singular(call, l, &a->found);
-  if (!a->found.certified) say(call, "%s [STEIF_NOT_CERTIFIED]", a->found.message);
-  return a->found.certified ? EXIT_OK : EXIT_UNCERTIFIED;
+  int code = eigenvalues_of(call, l, a);
+  if (!code) code = structure_present(call, a);
+  return code ? code : verdict(call, l, a);
 }
 
 static int run(struct call *call)
 {
   struct descriptor l;
   struct structure_answer a = {.names = NULL};
-  int code = descriptor_open(call, &l, 0, false);
+  int code = read_near(call, a.near);
+  if (code) return code;
+  code = descriptor_open(call, &l, 0, false);
   if (!code) code = find(call, &l, &a);
+  steif_eigenvalues_clear(call->ctx, &a.values);
   steif_structure_clear(call->ctx, &a.found);
   descriptor_close(call, &l);
   return code;
 }
 
-static const struct option options[] = {ANALYSIS_OPTIONS, OPTIONS_END};
+static const struct option options[] = {
+  ANALYSIS_OPTIONS,
+  {"--count", COUNT, "N",
+   "eigenvalues nearest to --near (default: all of dense or small pencils)", NULL},
+  {"--near", WORD, "RE[,IM]", "a point S of the complex plane (default: 0)", NULL},
+  OPTIONS_END};
 
 const struct verb verb_pencil = {
   .name = "pencil",
-  .about = "Find regularity, index and structure of a pencil s E + F",
-  .usage = "E.mtx F.mtx | FILE.mat | PROBLEM [--algorithm A] [--radius R]",
+  .about = "Find regularity, index, structure and eigenvalues of a pencil s E + F",
+  .usage = "E.mtx F.mtx | FILE.mat | PROBLEM [--count N --near S] [--algorithm A] [--radius R]",
   .least = 1,
   .most = 2,
+  .picture = true,
   .option = options,
   .run = run,
 };

@@ -9,7 +9,12 @@
 struct structure_answer {
   const steif_names *names; /* NULL: none */
   steif_structure found;
+  bool eigenvalues; /* there are some: */
+  steif_eigenvalues values;
+  double near[2]; /* S */
 };
+void report_eigenvalues(steif_report *r, const steif_eigenvalues *e);
+int eigenvalues_plot(const struct call *call, const steif_eigenvalues *e, const double near[2]);
 int structure_present(const struct call *call, const struct structure_answer *a);
 
 struct region_answer {

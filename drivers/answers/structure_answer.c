@@ -3,7 +3,7 @@
 #include "answers.h"
 #include "members.h"
 
-static void fill(steif_report *r, const struct call *call, const void *result)
+static void fill_fields(steif_report *r, const struct call *call, const void *result)
 {
   static const struct member sizes[] = {MEMBER(steif_structure, n, A_INDEX),
                                         MEMBER(steif_structure, rank_E, A_INDEX),
@@ -38,9 +38,28 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   report_names(r, "equations", by->equation, 'e', (size_t)s->equations_count, s->equations);
   report_names(r, "unknowns", by->unknown, 'x', (size_t)s->unknowns_count, s->unknowns);
   report_members(r, "", verdict, s);
+  if (a->eigenvalues) steif_report_text(r, "eigenvalues_message", a->values.message);
+}
+
+static void fill(steif_report *r, const struct call *call, const void *result)
+{
+  const struct structure_answer *a = result;
+  fill_fields(r, call, a);
+  if (a->eigenvalues) report_eigenvalues(r, &a->values);
+}
+
+static void fill_rows(steif_report *r, const struct call *call, const void *result)
+{
+  (void)call;
+  report_eigenvalues(r, &((const struct structure_answer *)result)->values);
 }
 
 int structure_present(const struct call *call, const struct structure_answer *a)
 {
-  return present_result(call, fill, a);
+  const bool rows = a->eigenvalues && (given(call, "--count") || given(call, "--near"));
+  int code = show_result(call, fill, a);
+  if (!code) code = save_rows(call, rows ? fill_rows : fill_fields, a);
+  if (code || !call->plot) return code;
+  if (a->eigenvalues) return eigenvalues_plot(call, &a->values, a->near);
+  return bad_usage(call, "--plot shows eigenvalues, and which are finite is undecided");
 }

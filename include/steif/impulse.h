@@ -113,7 +113,7 @@ typedef struct steif_impulse {
     estimate;         /* of the error of x_plus relative to its norm, or to a thousandth of what
                                E x(0-) and f stand for where that is larger, so that 0 is as good
                                as any: two radii, or two algorithms and four times what changes of all
-                               entries in the last place make of x_plus, the larger */
+                               entries and of x(0-) in the last place make of x_plus, the larger */
   sunrealtype radius; /* of the circle that x_plus and c are from; 0: of none */
   int certified;
   const char *method;

@@ -3,13 +3,14 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_certificates[], tests_of_circle[], tests_of_contour[],
-  tests_of_demand[], tests_of_families[], tests_of_hidden[], tests_of_impulse_dense[],
-  tests_of_regular[], tests_of_structure[], tests_of_units[];
+  tests_of_demand[], tests_of_eigenvalues[], tests_of_families[], tests_of_hidden[],
+  tests_of_impulse_dense[], tests_of_regular[], tests_of_structure[], tests_of_units[];
 
 SUITE_MAIN({.pName = "certificates", .pTests = tests_of_certificates},
            {.pName = "circle", .pTests = tests_of_circle},
            {.pName = "contour", .pTests = tests_of_contour},
            {.pName = "demand", .pTests = tests_of_demand},
+           {.pName = "eigenvalues", .pTests = tests_of_eigenvalues},
            {.pName = "families", .pTests = tests_of_families},
            {.pName = "hidden", .pTests = tests_of_hidden},
            {.pName = "impulse dense", .pTests = tests_of_impulse_dense},

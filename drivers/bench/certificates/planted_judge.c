@@ -1,6 +1,7 @@
 /* planted_judge.c: is what an analysis certifies of a pencil its known structure and start.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "planted.h"
+#include "linear_system.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -31,17 +32,30 @@ static enum planted_verdict judge(const planted *p, const steif_structure *s)
   return right ? PLANTED_RIGHT : PLANTED_WRONG;
 }
 
+static sunrealtype length(int n, const sunrealtype *x)
+{
+  sunrealtype square = 0;
+  for (int i = 0; i < n; i++) square += x[i] * x[i];
+  return sqrt(square);
+}
+
+/* What the estimate is relative to. */
+static sunrealtype measure(const planted *p)
+{
+  sunrealtype Ex0[PLANTED_MOST] = {0};
+  const stf_sources s = {.n = p->n, .derivatives = -1, .Ex0 = Ex0};
+  for (int j = 0; j < p->n; j++)
+    for (int i = 0; i < p->n; i++) Ex0[i] += p->E[j * p->n + i] * p->before[j];
+  return stf_sources_measure(&s, length(p->n, p->after), length(p->n * p->n, p->E), 0);
+}
+
 static enum planted_verdict judge_start(const planted *p, const steif_impulse *i,
                                         planted_outcome *out)
 {
-  sunrealtype off = 0, size = 0;
-  for (int k = 0; k < p->n; k++) {
-    const sunrealtype d = i->x_plus[k] - p->after[k];
-    off += d * d;
-    size += p->after[k] * p->after[k];
-  }
+  sunrealtype d[PLANTED_MOST];
+  for (int k = 0; k < p->n; k++) d[k] = i->x_plus[k] - p->after[k];
   if (!i->certified) return PLANTED_OPEN;
-  out->off = p->start ? sqrt(off / size) / (i->estimate + ROUNDING) : 0;
+  out->off = p->start ? length(p->n, d) / measure(p) / (i->estimate + ROUNDING) : 0;
   return out->off <= FAR_OFF ? PLANTED_RIGHT : PLANTED_WRONG;
 }
 

@@ -84,6 +84,10 @@ void dgebal_(const char *job, const int *n, double *a, const int *lda, int *ilo,
 void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const int *lda,
             double *wr, double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr,
             double *work, const int *lwork, int *info, size_t, size_t);
+void dggev_(const char *jobvl, const char *jobvr, const int *n, double *a, const int *lda,
+            double *b, const int *ldb, double *alphar, double *alphai, double *beta, double *vl,
+            const int *ldvl, double *vr, const int *ldvr, double *work, const int *lwork,
+            int *info, size_t, size_t);
 void zgeev_(const char *jobvl, const char *jobvr, const int *n, void *a, const int *lda,
             void *w, void *vl, const int *ldvl, void *vr, const int *ldvr, void *work,
             const int *lwork, double *rwork, int *info, size_t, size_t);

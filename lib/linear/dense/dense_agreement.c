@@ -56,16 +56,20 @@ static void shake(size_t count, const sunrealtype *A, uint64_t *state, sunrealty
 }
 
 static int move(const stf_two_starts *p, uint64_t *state, sunrealtype *E, sunrealtype *F,
-                sunrealtype *moved)
+                sunrealtype *x, sunrealtype *moved)
 {
   const stf_dense_units *u = p->units;
-  const size_t count = (size_t)u->n * (size_t)u->n;
+  const int n = u->n;
+  const size_t count = (size_t)n * (size_t)n;
+  stf_sources sources = *p->sources;
   steif_structure found = {0};
   steif_impulse other = {0};
   shake(count, u->E, state, E);
   shake(count, u->F, state, F);
-  const int code =
-    stf_staircase(p->ctx, u->n, E, F, p->analysis, p->sources, &found, &other, NULL);
+  shake((size_t)n, p->x0, state, x);
+  stf_gemm('N', 'N', n, 1, n, 1, E, n, x, n, 0, x + n, n);
+  sources.Ex0 = x + n;
+  const int code = stf_staircase(p->ctx, n, E, F, p->analysis, &sources, &found, &other, NULL);
   if (!code && (!found.regular || other.index != p->one->index))
     *moved = INFINITY;
   else if (!code)
@@ -80,9 +84,10 @@ int stf_start_moves(const stf_two_starts *p, sunrealtype *moved)
   uint64_t state = p->analysis->seed ? p->analysis->seed : 1;
   sunrealtype *E = stf_pool_square(p->pool, p->units->n);
   sunrealtype *F = stf_pool_square(p->pool, p->units->n);
+  sunrealtype *x = stf_pool_array(p->pool, 2 * (size_t)p->units->n, sizeof *x);
   *moved = 0;
-  if (!E || !F) return STEIF_NO_MEMORY;
+  if (!E || !F || !x) return STEIF_NO_MEMORY;
   for (int k = 0; k < STF_DRAWS && isfinite(*moved); k++)
-    STEIF_TRY(move(p, &state, E, F, moved));
+    STEIF_TRY(move(p, &state, E, F, x, moved));
   return STEIF_OK;
 }

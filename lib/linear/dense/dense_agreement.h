@@ -13,6 +13,7 @@ typedef struct stf_two_starts {
   const stf_dense_units *units;
   const steif_analysis *analysis;
   const stf_sources *sources;
+  const sunrealtype *x0; /* x(0-), of which sources has E x(0-) */
   const steif_impulse *one, *two;
   sunrealtype *difference; /* scratch, n */
 } stf_two_starts;
@@ -22,8 +23,8 @@ sunrealtype stf_starts_apart(const stf_two_starts *p);
 /* Both x(0+) and all impulses are equal to the relative tolerance, or negligible in F c_0 = -E (x(0+) - x(0-)) and
  * F c_i = -E c_{i-1}. */
 bool stf_starts_agree(const stf_two_starts *p, sunrealtype tolerance);
-/* The largest change of x(0+), measured likewise, when every entry changes by up to one unit in the last
- * place at random, STF_DRAWS times: what algorithms that agree by luck, or share an error of the data,
+/* The largest change of x(0+), measured likewise, when every entry of E, F and x(0-) changes by up to one unit
+ * in the last place at random, STF_DRAWS times: what algorithms that agree by luck, or share an error of the data,
  * do not tell. INFINITY where the index is another one then. */
 int stf_start_moves(const stf_two_starts *p, sunrealtype *moved);
 

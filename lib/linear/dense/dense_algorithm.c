@@ -150,6 +150,7 @@ static stf_two_starts starts(const stf_descriptor *d, dense *p)
                           .units = &p->units,
                           .analysis = &d->options,
                           .sources = &p->sources,
+                          .x0 = p->x0,
                           .one = &p->answer[STAIRCASE],
                           .two = &p->answer[SCHUR],
                           .difference = p->difference};
