@@ -65,6 +65,12 @@ call(0 workprec --problems rober --methods rodas4 --rtols 1e-9,1e-10 --longest 1
 member("time is up" failures 0 status)
 member("1e-09" failures 0 rtols)
 
+call(0 workprec --problems rober --methods ida --rtols 1e-9,1e-10 --longest 1e-9 --json)
+member("time is up" failures 0 status)
+# In its best setting IDA solves the car axis, to fewer digits than asked.
+call(0 workprec --problems caraxis --rtols 1e-10 --methods ida,ida:suppress=1,id=index --json)
+member("ida:suppress=1,id=index" rows 0 best_baseline)
+
 # A comma inside a spec, and what is not there.
 call(0 workprec --problems heat:n=10,storage=sparse,dahlquist --methods bdf --rtols 1e-3 --json)
 member(heat:n=10,storage=sparse rows 0 problem)

@@ -20,7 +20,7 @@ static outcome best(struct call *call, comparison *c, const char *method,
   known_solution known;
   known_open(call, &c->problem, o, &known);
   settings_run(call, &c->problem, method, o, &known, s);
-  known_close(&known);
+  known_close(call, &known);
   return s->run[s->best].out;
 }
 

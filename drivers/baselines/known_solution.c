@@ -78,8 +78,10 @@ static bool jump(steif_context *ctx, const steif_problem *p, known_solution *k, 
     if (p->y0) memcpy(x, p->y0, k->n * sizeof *x);
     return p->y0;
   }
-  const bool there = !steif_impulse_find(ctx, k->system.E, k->system.F, p->y0, p->t0,
-                                         k->system.f, k->system.user, NULL, NULL, &i);
+  const steif_linear *l = &k->system;
+  const bool there =
+    !steif_structure_find(ctx, l->E, l->F, NULL, &k->structure) &&
+    !steif_impulse_find(ctx, l->E, l->F, p->y0, p->t0, l->f, l->user, NULL, &k->structure, &i);
   if (there) memcpy(x, i.x_plus, k->n * sizeof *x);
   if (there) k->index = i.index;
   steif_impulse_clear(ctx, &i);
@@ -106,8 +108,9 @@ void known_open(const struct call *call, const steif_problem *p, const steif_opt
   steif_forget(ctx);
 }
 
-void known_close(known_solution *k)
+void known_close(const struct call *call, known_solution *k)
 {
+  if (k->pencil) steif_structure_clear(call->ctx, &k->structure);
   if (k->system.E) SUNMatDestroy(k->system.E);
   if (k->system.F) SUNMatDestroy(k->system.F);
   free(k->slow);

@@ -29,15 +29,16 @@ typedef struct known_solution {
   double size_plus, size_end; /* of their largest components */
   bool pencil;                /* of a linear system: slow parts can be told */
   steif_linear system;
-  char source[80]; /* what x(t1) is from; "" */
-  int index;       /* of the DAE; -1: not known */
+  steif_structure structure; /* of it */
+  char source[80];           /* what x(t1) is from; "" */
+  int index;                 /* of the DAE; -1: not known */
 } known_solution;
 
 /* From the closed solution, the published one, or a run of steif to more digits than rtol; start values of
  * problems that are no descriptor system count as consistent. known_close in any case. */
 void known_open(const struct call *call, const steif_problem *p, const steif_options *o,
                 known_solution *known);
-void known_close(known_solution *known);
+void known_close(const struct call *call, known_solution *known);
 
 typedef struct setting_run {
   char spec[STEIF_SPEC_WORD];

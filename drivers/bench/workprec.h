@@ -23,7 +23,8 @@ const char *steif_bench_problem(size_t i);
 const char *steif_bench_method(size_t i);
 
 /* Measure; a failed run is a result. STEIF_UNSUPPORTED: the method does not take the form of the
- * problem. longest: processor seconds after which a solve is ended. */
+ * problem. longest: processor seconds after which a solve is ended; of a baseline wall-clock
+ * seconds. */
 int steif_bench_measure(steif_context *ctx, const char *problem, const char *method,
                         sunrealtype rtol, sunrealtype longest, steif_bench_solve *solve);
 

@@ -41,7 +41,7 @@ static int one(demo *d, size_t i)
   if (steif_problem_find(d->call->ctx, problems[i], &p)) return fail(d->call);
   known_open(d->call, &p, &o, &known);
   settings_run(d->call, &p, "ida", &o, &known, &s);
-  known_close(&known);
+  known_close(d->call, &known);
   const setting_run *best = &s.run[s.best];
   steif_report_row(d->report, "ida");
   steif_report_text(d->report, "ida.problem", problems[i]);

@@ -21,7 +21,7 @@ void report_beside(const struct call *call, const struct descriptor *l, const ch
   } else {
     known_open(call, &p, &o, &known);
     settings_run(call, &p, method, &o, &known, &s);
-    known_close(&known);
+    known_close(call, &known);
     got = s.run[s.best].out;
   }
   steif_report_text(r, "vs.method", method);

@@ -72,7 +72,7 @@ static int row(struct call *call, const char *spec, double t1, const char *metho
   const int code = start(call, &p, r);
   known_open(call, &p, &o, &known);
   settings_run(call, &p, method, &o, &known, &s);
-  known_close(&known);
+  known_close(call, &known);
   const outcome *got = &s.run[s.best].out;
   steif_report_text(r, "rows.vs", s.run[s.best].verdict);
   report_best(r, "rows", &s);
