@@ -24,9 +24,11 @@ static const char *const of_ida[] = {"ida",
                                      "ida:suppress=1,id=index",
                                      "ida:suppress=1,id=index,ic=2"};
 
+const char *settings_at(size_t i) { return i < SETTINGS_MOST ? of_ida[i] : NULL; }
+
 bool settings_many(const char *method, const steif_problem *p)
 {
-  return !strcmp(method, "ida") && (p->F || p->E || p->Ev) && p->dae_index != 0;
+  return !strcmp(method, "ida") && (p->F || p->E || p->Ev);
 }
 
 static size_t count_of(const char *method, const steif_problem *p, int index)
@@ -128,7 +130,7 @@ static bool better(const setting_run *x, const setting_run *y)
   size_t at[2] = {0, 0};
   while (at[0] < STOPS && strcmp(words[at[0]], x->verdict)) at[0]++;
   while (at[1] < STOPS && strcmp(words[at[1]], y->verdict)) at[1]++;
-  if (!*x->verdict || !*y->verdict) return !x->out.code && y->out.code;
+  if (!*x->verdict || !*y->verdict) return !x->out.code && (y->out.code || x->start < y->start);
   if (at[0] != at[1]) return at[0] < at[1];
   if (at[0] == STOPS) return x->out.t > y->out.t;
   return x->end != y->end ? x->end < y->end : x->start < y->start;

@@ -34,8 +34,8 @@ typedef struct known_solution {
   int index;                 /* of the DAE; -1: not known */
 } known_solution;
 
-/* From the closed solution, the published one, or a run of steif to more digits than rtol; start values of
- * problems that are no descriptor system count as consistent. known_close in any case. */
+/* x(t1) from the closed solution, the published one where it has the digits, or runs of steif that agree to
+ * more digits than rtol; x(0+) by steif_impulse_find or steif_jump_find. known_close in any case. */
 void known_open(const struct call *call, const steif_problem *p, const steif_options *o,
                 known_solution *known);
 void known_close(const struct call *call, known_solution *known);
@@ -57,6 +57,8 @@ typedef struct settings {
 /* "ida" alone asks for all settings of IDA that make a difference for a DAE of this index; every other spec
  * is a setting itself. At most 300 000 steps and 10 seconds a run, where the options do not say less. */
 bool settings_many(const char *method, const steif_problem *p);
+/* Setting i of IDA, NULL past the last. */
+const char *settings_at(size_t i);
 void settings_run(const struct call *call, const steif_problem *p, const char *method,
                   const steif_options *o, const known_solution *known, settings *s);
 
