@@ -14,11 +14,12 @@ static const struct {
    "is followed."},
   {demo_weak,
    "The same with the impulses, h = 1/256: <x_h, g> against the exact distribution."},
-  {demo_baseline, "IDA at its best: of six settings the one with the smallest errors at 0+ and "
-                  "at the end, rtol\n"
-                  "1e-6. Consistent starts up to index 4 run, with fewer digits than asked "
-                  "from index 3 on; from\n"
-                  "others success can hide a wrong jump, and no setting gives impulses."},
+  {demo_baseline,
+   "IDA at its best, rtol 1e-6: of six settings the one with the smallest errors at 0+ and at "
+   "the\n"
+   "end. Here it runs from consistent starts up to index 4, with fewer digits than asked from "
+   "index\n"
+   "3 on; from others its success can hide a wrong jump, and no setting gives impulses."},
 };
 
 /* As tables, every part is shown when it is done; as JSON, all are one object. */

@@ -140,6 +140,7 @@ void settings_run(const struct call *call, const steif_problem *p, const char *m
                   const steif_options *given, const known_solution *k, settings *s)
 {
   steif_options o = *given;
+  o.stop = interruption();
   memset(s, 0, sizeof *s);
   s->rtol = o.rtol;
   s->atol = o.rtol * tolerance_ratio(p, &o);
@@ -148,7 +149,7 @@ void settings_run(const struct call *call, const steif_problem *p, const char *m
     o.max_steps = o.max_steps < STEPS_LONGEST ? o.max_steps : STEPS_LONGEST;
     o.max_seconds = o.max_seconds > 0 ? fmin(o.max_seconds, SECONDS_LONGEST) : SECONDS_LONGEST;
   }
-  for (size_t i = 0; i < count && !interrupted(); i++) {
+  for (size_t i = 0; i < count && (i == 0 || !interrupted()); i++) {
     setting_run *run = &s->run[s->count++];
     snprintf(run->spec, sizeof run->spec, "%s", count > 1 ? of_ida[i] : method);
     one(call, p, &o, k, s, run);

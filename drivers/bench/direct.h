@@ -1,4 +1,4 @@
-/* direct.h: whole runs of CVODE and IDA as a C program of one's own makes them, without steif.
+/* direct.h: whole runs of CVODE, IDA and ARKODE as a C program of one's own makes them, without steif.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef DIRECT_H
 #define DIRECT_H
@@ -11,7 +11,7 @@
  * the scale of the problem, its own Jacobian, SUNDIALS' dense solver or its KLU with AMD, and a restart at
  * every break. The number of steps, or -1 where a call failed. */
 typedef long direct_run(SUNContext sun, const steif_problem *p, sunrealtype rtol);
-direct_run direct_cvode, direct_ida;
+direct_run direct_cvode, direct_ida, direct_arkode;
 
 /* What both share: a vector of the start values, a matrix of the problem's storage and its solver. */
 typedef struct direct {

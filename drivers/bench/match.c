@@ -17,12 +17,13 @@ static bool on(const steif_bench_solve *run, enum side side)
 static steif_bench_pick pick(const steif_bench_solve *run, size_t count, enum side side,
                              sunrealtype digits)
 {
-  steif_bench_pick p = {.rtol = NAN, .cpu_s = NAN, .mescd = NAN};
+  steif_bench_pick p = {.rtol = NAN, .atol = NAN, .cpu_s = NAN, .mescd = NAN};
   for (const steif_bench_solve *end = run + count; run < end; run++) {
     if (run->code || !on(run, side) || !(run->mescd >= digits) || run->cpu_s >= p.cpu_s)
       continue;
     snprintf(p.method, sizeof p.method, "%s", run->method);
     p.rtol = run->rtol;
+    p.atol = run->atol;
     p.cpu_s = run->cpu_s;
     p.mescd = run->mescd;
   }

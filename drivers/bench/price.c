@@ -70,7 +70,9 @@ int stf_bench_price(steif_context *ctx, const char *problem, const char *method,
   STEIF_TRY(steif_problem_find(ctx, problem, &p));
   row->n = p.n;
   row->atol = row->rtol * (p.rtol_scale > 0 ? p.rtol_scale : 1);
-  direct_run *run = method[0] == 'i' ? direct_ida : direct_cvode;
+  direct_run *run = method[0] == 'i'   ? direct_ida
+                    : method[0] == 'a' ? direct_arkode
+                                       : direct_cvode;
   const int code = measure(ctx, &p, method, run, row);
   steif_problem_clear(ctx, &p);
   return code;

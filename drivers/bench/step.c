@@ -36,10 +36,13 @@ static const struct {
   {THREADS, "bruss2d:n=64", "radau:s=5", 1e-2},
   {PRICE, "vdpol", "cvode", 1e-6},
   {PRICE, "vdpol", "ida", 1e-6},
+  {PRICE, "vdpol", "arkode", 1e-3},
   {PRICE, "hires", "cvode", 1e-6},
   {PRICE, "hires", "ida", 1e-6},
+  {PRICE, "hires", "arkode", 1e-4},
   {PRICE, "bruss2d:n=16", "cvode", 1e-6},
   {PRICE, "bruss2d:n=16", "ida", 1e-6},
+  {PRICE, "bruss2d:n=16", "arkode", 1e-4},
 };
 
 typedef struct subject {

@@ -119,6 +119,7 @@ int steif_bench_measure(steif_context *ctx, const char *problem, const char *met
   snprintf(solve->problem, sizeof solve->problem, "%s", problem);
   snprintf(solve->method, sizeof solve->method, "%s", method);
   solve->rtol = rtol;
+  solve->atol = rtol * (p.rtol_scale > 0 ? p.rtol_scale : 1);
   solve->due = -log10(rtol) - 1;
   solve->n = p.n;
   solve->mescd = NAN;

@@ -10,11 +10,11 @@
 typedef struct steif_bench_solve {
   char problem[STEIF_SPEC_WORD], method[STEIF_SPEC_WORD];
   sunindextype n;
-  sunrealtype rtol, cpu_s, mescd; /* mescd: digits, NaN when the run failed */
-  sunrealtype due;                /* -log10(rtol) - 1: a good run has more digits than this */
-  int baseline;                   /* CVODE, IDA or ARKODE */
-  int code;                       /* enum steif_code */
-  int late;                       /* ended for its time */
+  sunrealtype rtol, atol, cpu_s, mescd; /* mescd: digits, NaN when the run failed */
+  sunrealtype due; /* -log10(rtol) - 1: a good run has more digits than this */
+  int baseline;    /* CVODE, IDA or ARKODE */
+  int code;        /* enum steif_code */
+  int late;        /* ended for its time */
   char message[256];
 } steif_bench_solve;
 
@@ -31,7 +31,7 @@ int steif_bench_measure(steif_context *ctx, const char *problem, const char *met
 /* The cheapest run that reaches the digits; cpu_s = NaN and an empty name: none does. */
 typedef struct steif_bench_pick {
   char method[STEIF_SPEC_WORD];
-  sunrealtype rtol, cpu_s, mescd;
+  sunrealtype rtol, atol, cpu_s, mescd;
 } steif_bench_pick;
 typedef struct steif_bench_match {
   char problem[STEIF_SPEC_WORD];

@@ -29,6 +29,7 @@ static void pick(steif_report *r, const char *who, const char *prefix,
 {
   steif_report_text(r, who, *p->method ? p->method : NULL);
   cell(r, prefix, "rtol", p->rtol);
+  cell(r, prefix, "atol", p->atol);
   cell(r, prefix, "cpu_s", p->cpu_s);
 }
 
@@ -84,6 +85,7 @@ static void add_run(steif_report *r, const char *sheet, const char *prefix,
   snprintf(name, sizeof name, "%smethod", prefix);
   steif_report_text(r, name, s->method);
   cell(r, prefix, "rtol", s->rtol);
+  cell(r, prefix, "atol", s->atol);
   cell(r, prefix, "mescd", s->mescd);
   cell(r, prefix, "cpu_s", s->cpu_s);
 }

@@ -43,6 +43,8 @@ const volatile int *stop_on_signals(void)
   return &stop_flag;
 }
 
+const volatile int *interruption(void) { return &stop_flag; }
+
 bool interrupted(void) { return stop_flag; }
 
 steif_options options_of(const struct call *call)

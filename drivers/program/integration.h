@@ -48,8 +48,9 @@ outcome integrate_from(steif_context *ctx, const steif_problem *problem, const c
                        void (*begun)(steif_solver *s, void *user), void *user);
 /* From now on SIGINT and SIGTERM set what is returned, an option .stop: a verb then shows what it has. */
 const volatile int *stop_on_signals(void);
-/* Was a run stopped by a signal? */
+/* Was a run stopped by a signal? And the flag of that, for options.stop. */
 bool interrupted(void);
+const volatile int *interruption(void);
 
 /* atol/rtol of a run: how much of the size of a component counts as nothing. */
 double tolerance_ratio(const steif_problem *problem, const steif_options *options);

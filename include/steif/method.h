@@ -33,8 +33,8 @@
  * first. What IDA can do, with the right setting for each:
  *   index 1   by default from consistent starts; from others with suppress=1 or ic=1
  *   index 2   suppress=1; the default crawls or fails
- *   index 3, 4  from consistent starts with suppress=1,id=index: no error of a component of higher index
- *             is tested, and it may be 100 to 50 000 times rtol
+ *   index 3, 4  many, not all, from consistent starts with suppress=1,id=index: no error of a component of
+ *             higher index is tested, and it may be 100 to 50 000 times rtol
  *   starts that are not consistent, index above 1: with ic=2 it may run and return success, but x(0+) is
  *             wrong wherever the jump is more than a projection of algebraic components, and what remembers
  *             the jump stays wrong. No setting gives impulses.

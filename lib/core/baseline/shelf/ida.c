@@ -30,7 +30,9 @@ static const stf_flag flags[] = {
     "tests the error of components of index 1 only; or use a steif method"),
   STF_FLAG(IDA_CONV_FAIL, STEIF_BASELINE,
            "Newton's iteration failed repeatedly or the step reached its minimum",
-           INDEX "check dF/dy + c dF/dy' against differences, or use a steif method"),
+           INDEX
+           "try ida:suppress=1,id=index, check dF/dy + c dF/dy' against differences, or use a "
+           "steif method"),
   STF_FLAG(IDA_CONSTR_FAIL, STEIF_INFEASIBLE,
            "a declared constraint was not kept however small the step",
            "The solution leaves .constraint here, or the tolerances are too loose"),
@@ -285,12 +287,10 @@ static void close(stf_run *run, void *state)
 }
 
 const steif_engine steif_engine_ida = {
-  .about =
-    "IDA: variable-order, variable-coefficient BDF for DAEs (Hindmarsh et al., ACM TOMS 31, "
-    "2005; SUNDIALS); suppress=0|1, id=E|index|ones, ic=0|1|2, order=1..5: by default for "
-    "index "
-    "0 and 1, with suppress=1 for index 2, with id=index for index 3 and 4 from consistent "
-    "starts",
+  .about = "IDA: variable-order, variable-coefficient BDF for DAEs (Hindmarsh et al., ACM TOMS "
+           "31, 2005; SUNDIALS); suppress=0|1, id=E|index|ones, ic=0|1|2, order=1..5: by "
+           "default for index 0 and 1, suppress=1 for index 2, and id=index for many of index "
+           "3 and 4 from consistent starts",
   .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
   .size = sizeof(ida),
   .open = open,
