@@ -465,6 +465,22 @@ expect(0 compare jordan:k=2,case=N-cons ida --rtols 1e-6 --json)
 member(ida rows 0 method)
 member("ida:suppress=1" rows 0 settings)
 member(right settings 1 verdict)
+# A jump of f at 0.3: x2 = f2, x1 = -x2' with an impulse there; and x1' + x1 = x2, x1 + 2 x2 = f2, where
+# Y_INIT moves x1, which must not jump.
+forcing(jump.txt "0" "step(t-0.3)")
+matrix(EJ.mtx 2 2 "1 2 1")
+matrix(FJ.mtx 2 2 "1 1 1" "2 2 1")
+column(XJ.mtx 0 0)
+expect(0 impulse EJ.mtx FJ.mtx --x0 XJ.mtx --forcing jump.txt --vs ida --t1 1 --json)
+member(stops settings 0 verdict)
+near(3 settings 0 t)
+member(right settings 3 verdict)
+matrix(EJ.mtx 2 2 "1 1 1")
+matrix(FJ.mtx 2 2 "1 1 1" "1 2 -1" "2 1 1" "2 2 2")
+expect(0 impulse EJ.mtx FJ.mtx --x0 XJ.mtx --forcing jump.txt --vs ida --t1 1 --json)
+member(stops settings 0 verdict)
+member(right settings 1 verdict)
+member("less than asked" settings 3 verdict)
 # z(0+) = 1 from z^3 + z = 2 x; Y_INIT keeps z = 5 and takes x = 65 for it.
 file(WRITE ${FOLDER}/start.steif
      "model \"index 1\"\nstate x = 1, z = 5\nx' = -z\n0 = z^3 + z - 2*x\ntime 0 to 2\n")

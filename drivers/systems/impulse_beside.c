@@ -3,10 +3,22 @@
 #include "impulse.h"
 #include "settings.h"
 
+enum { BREAKS = 256 };
+
+/* Those of f, at which the baseline starts anew. */
+static void declare_breaks(const struct descriptor *l, steif_problem *p, double *breaks)
+{
+  const size_t count =
+    l->function ? steif_function_breaks(l->function, p->t0, p->t1, BREAKS, breaks) : 0;
+  p->breaks = breaks;
+  p->break_count = count <= BREAKS ? (int)count : 0;
+}
+
 void report_beside(const struct call *call, const struct descriptor *l, const char *method,
                    steif_report *r)
 {
   static settings s;
+  static double breaks[BREAKS];
   known_solution known;
   steif_problem p = l->problem;
   steif_options o = steif_defaults();
@@ -19,6 +31,7 @@ void report_beside(const struct call *call, const struct descriptor *l, const ch
     got.code = steif_status(call->ctx);
     snprintf(got.message, sizeof got.message, "%s", steif_message(call->ctx));
   } else {
+    if (!published) declare_breaks(l, &p, breaks);
     known_open(call, &p, &o, &known);
     settings_run(call, &p, method, &o, &known, &s);
     known_close(call, &known);

@@ -30,7 +30,7 @@
  * suppress=1 leaves components with id_j = 0 out of IDA's error test (IDASetSuppressAlg). id_j = 1 where
  * column j of E = dF/dy' is not 0 (E, the default), where the perturbation index of component j is 1
  * (index: problem.index, else steif_diagnose), or everywhere (ones). ic=1, 2: IDACalcIC with YA_YDP_INIT, Y_INIT
- * first. What IDA can do, with the right setting for each:
+ * first and again after breaks and events. What IDA can do, with the right setting for each:
  *   index 1   by default from consistent starts; from others with suppress=1 or ic=1
  *   index 2   suppress=1; the default crawls or fails
  *   index 3, 4  many, not all, from consistent starts with suppress=1,id=index: no error of a component of

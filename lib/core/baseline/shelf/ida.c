@@ -142,7 +142,7 @@ static int configure(ida *s)
   return flag;
 }
 
-/* IDACalcIC where it was asked for. */
+/* IDACalcIC where it was asked for, at the start and where the integration restarts. */
 static int consistent(ida *s)
 {
   stf_run *run = s->base.run;
@@ -227,7 +227,9 @@ static int renew(ida *s)
   stf_run *run = s->base.run;
   run->t = stf_baseline_renew(&s->base);
   if (stf_start_slopes(&s->base)) return IDA_FIRST_RES_FAIL;
-  return IDAReInit(s->memory, run->t, run->y, run->yp);
+  int flag = IDAReInit(s->memory, run->t, run->y, run->yp);
+  STF_CALL(flag, consistent(s));
+  return flag;
 }
 
 static int step(stf_run *run, void *state, sunrealtype t_stop)
