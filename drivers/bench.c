@@ -53,7 +53,8 @@ static const struct option options[] = {
 
 const struct verb verb_bench = {
   .name = "bench",
-  .about = "Measure steps against their kernels, solves against CVODE, IDA, ARKODE",
+  .about = "Measure steps against their kernels, solves against CVODE, IDA, ARKODE, and these "
+           "against direct C programs",
   .usage = "[step|books|workprec|success|impulse|phi|lyapunov|lorenz|certificates]",
   .most = 1,
   .picture = true,

@@ -6,7 +6,8 @@
 #include <steif/base.h>
 
 /* Time of its N_VLinearSum of 1000 numbers over that of a plain loop compiled like steif: 1 for a library
- * compiled with optimisation, above SUNDIALS_SLOW without. NaN when memory is short. */
+ * compiled with optimisation, above SUNDIALS_SLOW without. NaN when memory is short, or steif
+ * itself is compiled without optimisation. */
 #define SUNDIALS_SLOW 2.5
 double sundials_ratio(steif_context *ctx);
 /* "SUNDIALS 6.4.1 compiled without optimisation: its vector sums take 8 times as long as a plain loop". */

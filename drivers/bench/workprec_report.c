@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "workprec_report.h"
 #include "sundials_build.h"
+#include <math.h>
 #include <string.h>
 
 static const double wanted[DIGITS] = {4, 6, 8, 10};
@@ -11,7 +12,8 @@ void work_header(const workprec *w, const struct call *call, steif_report *r)
   const double sundials = sundials_ratio(call->ctx);
   steif_report_text(r, "benchmark", "workprec");
   steif_report_text(r, "sundials",
-                    sundials > SUNDIALS_SLOW
+                    isnan(sundials) ? "optimisation not measured"
+                    : sundials > SUNDIALS_SLOW
                       ? "compiled without optimisation; tests/peers.sh builds one at -O2"
                       : "compiled with optimisation");
   steif_report_real(r, "sundials_vectors", sundials);
