@@ -61,6 +61,9 @@ typedef int (*steif_values)(sunrealtype t, N_Vector y, sunrealtype *value, void 
  * one). y may be changed, and anything that the callbacks read. Returns an enum steif_event_action, or
  * < 0: the run fails. */
 typedef int (*steif_event_handler)(sunrealtype t, N_Vector y, const int *fired, void *user);
+/* Called at the start of every run, before any other callback: callbacks that remember something, such as
+ * a switch that an event has flipped, forget it here. Returns 0, or < 0: the run fails. */
+typedef int (*steif_begin)(sunrealtype t, void *user);
 enum steif_event_action {
   STEIF_CONTINUE, /* neither y nor f has changed */
   STEIF_RESTART,  /* go on from the y left here, without history */
@@ -150,6 +153,7 @@ struct steif_problem {
   steif_values event;               /* ... all of them; see solver.h */
   const steif_event *event_list;    /* of each; NULL: both directions, none ends the run */
   steif_event_handler handle_event; /* NULL: events are noted only */
+  steif_begin begin;                /* NULL: nothing is remembered */
   const sunrealtype *event_times;   /* of the first events where they are known, ascending */
   int event_time_count;
   const sunrealtype *breaks; /* declared discontinuities of f inside (t0, t1), ascending */

@@ -250,12 +250,22 @@ static int look_at_start(steif_solver *s, int form)
   return STEIF_OK;
 }
 
+static int begin(const steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const int returned = p->begin ? p->begin(p->t0, p->user) : 0;
+  STEIF_CHECK(returned == 0, s->ctx, STEIF_CALLBACK, "begin of problem '%s' returned %d",
+              p->name, returned);
+  return STEIF_OK;
+}
+
 static int open(steif_solver *s, const char *method)
 {
   steif_spec spec;
   N_Vector y = NULL, yp = NULL;
   const int form = steif_problem_form(s->ctx, s->problem);
   if (!form) return steif_status(s->ctx);
+  STEIF_TRY(begin(s));
   STEIF_TRY(stf_options_complete(s->ctx, s->problem, &s->options));
   STEIF_TRY(check_vector(s->ctx, s->problem, &s->options));
   s->t1 = s->options.t1, s->t_shown = s->end = s->problem->t0;

@@ -1,12 +1,14 @@
 /* model_file.c: from a text to a model that can be solved, and back.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "model.h"
 #include "model_file.h"
+#include "reactions.h"
 #include "text.h"
 #include <errno.h>
 #include <string.h>
 
-/* ---- reading --------------------------------------------------------------------------------- */
+/* ---- reading
+ * ---------------------------------------------------------------------------------
+ */
 
 /* The whole file into the pool. */
 static int read_text(stf_model *m, const char *path)
@@ -43,32 +45,51 @@ int stf_number_of(stf_model *m, const stf_expression *e, double *value)
   return STEIF_OK;
 }
 
-/* ---- the whole ------------------------------------------------------------------------------- */
+/* ---- the whole
+ * -------------------------------------------------------------------------------
+ */
 
-/* What the language has and this reader cannot do: better a sentence than another model. */
-static int unsupported(stf_model *m)
+static int interval(stf_model *m)
 {
   for (size_t i = 0; i < m->syntax.statements.count; i++) {
     const stf_statement *s = stf_statement_at(m, (int32_t)i);
-    const bool event =
-      s->kind == STF_SAY_WHEN || s->kind == STF_SAY_AT || s->kind == STF_SAY_EVERY;
-    if (event || s->kind == STF_SAY_TABLE || s->kind == STF_SAY_DISCRETE)
-      stf_complain(&m->syntax.sources, s->at, STEIF_UNSUPPORTED,
-                   "events, discrete values and tables cannot be solved by this version");
+    if (s->kind != STF_SAY_TIME) continue;
+    STEIF_TRY(stf_number_of(m, &s->value, &m->t0));
+    STEIF_TRY(stf_number_of(m, &s->other, &m->t1));
+    if (m->t1 > m->t0) return STEIF_OK;
+    stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
+                 "the interval from %.12g to %.12g; the end lies after the start", m->t0,
+                 m->t1);
+    return stf_complaints(&m->syntax.sources);
   }
+  stf_complain(&m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,
+               "no time interval; add 'time 0 to 10'");
   return stf_complaints(&m->syntax.sources);
+}
+
+static int open_events(stf_model *m)
+{
+  m->reactions = stf_pool_array(m->pool, 1, sizeof *m->reactions);
+  m->event_block = stf_pool_array(m->pool, 1, sizeof *m->event_block);
+  if (!m->reactions || !m->event_block) return STEIF_NO_MEMORY;
+  m->event_block->graph.ctx = m->ctx;
+  return STEIF_OK;
 }
 
 static int lower(stf_model *m, const steif_spec *spec)
 {
-  STEIF_TRY(unsupported(m));
+  STEIF_TRY(open_events(m));
   STEIF_TRY(stf_declare(m, spec));
   STEIF_TRY(stf_number_unknowns(m));
   STEIF_TRY(stf_name_unknowns(m));
   m->feed = (stf_feed){.p = m->p};
+  STEIF_TRY(stf_read_tables(m));
   STEIF_TRY(stf_build_blocks(m));
   STEIF_TRY(stf_deduce_form(m));
   STEIF_TRY(stf_build_start(m));
+  STEIF_TRY(interval(m));
+  STEIF_TRY(stf_build_constraints(m));
+  STEIF_TRY(stf_build_events(m));
   return stf_build_tapes(m);
 }
 
@@ -86,8 +107,11 @@ static void blocks_free(stf_model *m)
     stf_block *block = *STF_AT(m->blocks, stf_block *, i);
     stf_graph_free(&block->graph);
     stf_vector_free(m->ctx, &block->equations);
+    stf_vector_free(m->ctx, &block->switches);
   }
   stf_vector_free(m->ctx, &m->blocks);
+  if (m->event_block) stf_graph_free(&m->event_block->graph);
+  if (m->event_block) stf_vector_free(m->ctx, &m->event_block->switches);
 }
 
 void stf_model_free(stf_model *m)
@@ -102,10 +126,15 @@ void stf_model_free(stf_model *m)
                        &m->symbols,
                        &m->symbol_of,
                        &m->names,
-                       &m->partials};
+                       &m->partials,
+                       &m->breaks};
   blocks_free(m);
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) stf_vector_free(ctx, all[i]);
   stf_words_close(&m->syntax.words);
+  if (m->reactions) quantity_free(m, &m->reactions->conditions);
+  stf_reactions_free(m);
+  quantity_free(m, &m->events);
+  quantity_free(m, &m->invariants);
   quantity_free(m, &m->f);
   quantity_free(m, &m->A.quantity);
   quantity_free(m, &m->E.quantity);

@@ -6,7 +6,8 @@
 #include "base.h"
 #include <steif/problem.h>
 
-/* The model of a file with parameters from a spec (NULL: none) as a problem; close it in any case. */
+/* The model of a file with parameters from a spec (NULL: none) as a problem;
+ * close it in any case. */
 int stf_model_open(steif_context *ctx, const char *path, const steif_spec *spec,
                    steif_problem *problem);
 void stf_model_close(steif_context *ctx, steif_problem *problem);

@@ -1,13 +1,14 @@
 /* model_problem.c: a model as a steif_problem: its callbacks and its members.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "model.h"
+#include "reactions.h"
+#include "series.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-enum { DENSE_UP_TO = 64 };
+enum { DENSE_UP_TO = 64, DERIVATIVES = 64 };
 
 static stf_feed feed_at(const stf_model *m, sunrealtype t, N_Vector y, N_Vector yp)
 {
@@ -18,15 +19,34 @@ static stf_feed feed_at(const stf_model *m, sunrealtype t, N_Vector y, N_Vector 
   return feed;
 }
 
+static bool finite(const stf_model *m, const double *f)
+{
+  for (int32_t i = 0; i < m->n; i++)
+    if (!isfinite(f[i])) return false;
+  return true;
+}
+
+/* A frozen branch is evaluated a little beyond its border, where it may have no
+ * value: then relations are taken as they are at this point. The step ends at
+ * the event, so that this does no harm. */
+static bool retried(const stf_model *m, stf_feed *feed, double *to)
+{
+  if (!m->switches || !feed->y) return false;
+  memcpy(m->memory_literal, m->memory, (size_t)m->memories * sizeof *m->memory);
+  stf_literal_switches(m, feed->t, feed->y, m->memory_literal);
+  feed->memory = m->memory_literal;
+  memset(to, 0, (size_t)m->n * sizeof *to);
+  stf_quantity_run(m, &m->f, feed, to);
+  return finite(m, to);
+}
+
 static int run(sunrealtype t, N_Vector y, N_Vector yp, N_Vector out, const stf_model *m)
 {
-  const stf_feed feed = feed_at(m, t, y, yp);
+  stf_feed feed = feed_at(m, t, y, yp);
   double *to = N_VGetArrayPointer(out);
   memset(to, 0, (size_t)m->n * sizeof *to);
   stf_quantity_run(m, &m->f, &feed, to);
-  for (int32_t i = 0; i < m->n; i++)
-    if (!isfinite(to[i])) return 1;
-  return 0;
+  return finite(m, to) || retried(m, &feed, to) ? 0 : 1;
 }
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
@@ -82,10 +102,44 @@ static int fill_E(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *use
   return fill(m, &m->E, &feed, E);
 }
 
+/* One equation of g in all passes; NaN where the derivative is not known. */
+static int differentiate(stf_model *m, const stf_block *block, const stf_equation *e,
+                         const stf_feed *feed, int order, double *to, bool *known)
+{
+  const int64_t count = stf_passes(&block->box);
+  int32_t counter[STF_LOOPS];
+  for (int64_t k = 0; k < count; k++) {
+    const int32_t row = e->slot ? e->slot[k] : stf_at_pass(&block->box, k, e->row, e->stride);
+    for (int d = 0; d < STF_LOOPS; d++) {
+      static const int32_t unit[STF_LOOPS][STF_LOOPS] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+      counter[d] = stf_at_pass(&block->box, k, 0, unit[d]);
+    }
+    const int code =
+      stf_taylor(&block->graph, e->forcing, feed, counter, order, &m->sweep, to + row);
+    if (code < 0) return code;
+    if (code) to[row] = NAN;
+    *known = *known || !code;
+  }
+  return STEIF_OK;
+}
+
 static int g(sunrealtype t, int derivative, N_Vector out, void *user)
 {
+  stf_model *m = user;
   if (!derivative) return run(t, NULL, NULL, out, user);
-  return 1;
+  if (derivative > DERIVATIVES) return 1;
+  const stf_feed feed = feed_at(m, t, NULL, NULL);
+  bool known = false;
+  for (size_t i = 0; i < m->blocks.count; i++) {
+    const stf_block *block = *STF_AT(m->blocks, stf_block *, i);
+    for (size_t k = 0; k < block->equations.count; k++) {
+      const stf_equation *e = STF_AT(block->equations, stf_equation, k);
+      const int code =
+        differentiate(m, block, e, &feed, derivative, N_VGetArrayPointer(out), &known);
+      if (code < 0) return code;
+    }
+  }
+  return known ? 0 : 1;
 }
 
 /* The smallest size that is declared serves all unknowns. */
@@ -106,25 +160,9 @@ static int sizes(stf_model *m, steif_problem *p)
   return STEIF_OK;
 }
 
-/* ---- members --------------------------------------------------------------------------------- */
-
-static int interval(stf_model *m, steif_problem *p)
-{
-  for (size_t i = 0; i < m->syntax.statements.count; i++) {
-    const stf_statement *s = stf_statement_at(m, (int32_t)i);
-    if (s->kind != STF_SAY_TIME) continue;
-    STEIF_TRY(stf_number_of(m, &s->value, &p->t0));
-    STEIF_TRY(stf_number_of(m, &s->other, &p->t1));
-    if (p->t1 > p->t0) return STEIF_OK;
-    stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
-                 "the interval from %.12g to %.12g; the end lies after the start", p->t0,
-                 p->t1);
-    return stf_complaints(&m->syntax.sources);
-  }
-  stf_complain(&m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,
-               "no time interval; add 'time 0 to 10'");
-  return stf_complaints(&m->syntax.sources);
-}
+/* ---- members
+ * ---------------------------------------------------------------------------------
+ */
 
 static const char *title(stf_model *m)
 {
@@ -150,6 +188,16 @@ static void callbacks(const stf_model *m, steif_problem *p)
   }
 }
 
+static void events(stf_model *m, steif_problem *p)
+{
+  p->events = m->switches + m->timers;
+  if (!p->events) return;
+  p->event = stf_event_callback;
+  p->event_list = m->event_list;
+  p->handle_event = stf_reactions_handle;
+  p->begin = stf_reactions_begin;
+}
+
 int stf_model_fill(stf_model *m, steif_problem *p)
 {
   const double full = (double)m->n * m->n;
@@ -168,6 +216,12 @@ int stf_model_fill(stf_model *m, steif_problem *p)
   p->linear = m->linear;
   p->autonomous = m->autonomous;
   callbacks(m, p);
+  p->t0 = m->t0;
+  p->t1 = m->t1;
+  events(m, p);
   STEIF_TRY(sizes(m, p));
-  return interval(m, p);
+  STEIF_TRY(stf_finish(m, p));
+  STEIF_TRY(stf_reactions_begin(m->t0, m));
+  STEIF_TRY(stf_consistent_start(m, p));
+  return stf_reactions_begin(m->t0, m);
 }

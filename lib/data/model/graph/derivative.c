@@ -1,5 +1,5 @@
-/* derivative.c: derivatives by sweeps backwards over the nodes that a root reaches.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* derivative.c: derivatives by sweeps backwards over the nodes that a root
+ * reaches. SPDX-License-Identifier: BSD-3-Clause */
 #include "graph.h"
 #include <math.h>
 #include <stdlib.h>
@@ -38,7 +38,8 @@ int stf_reach(const stf_graph *g, int32_t root, stf_vector *mark, stf_vector *li
   return STEIF_OK;
 }
 
-/* ---- the derivative of one node -------------------------------------------------------------- */
+/* ---- the derivative of one node
+ * -------------------------------------------------------------- */
 
 #define N(x) stf_number(g, x)
 #define NEG(a) stf_apply1(g, STF_OP_NEGATIVE, a)
@@ -122,14 +123,17 @@ static int32_t of_node(stf_graph *g, int32_t self, int32_t w, int operand)
                       : stf_apply(g, STF_OP_SELECT, n.a, N(0), w);
 }
 
-/* ---- sweeps ---------------------------------------------------------------------------------- */
+/* ---- sweeps
+ * ----------------------------------------------------------------------------------
+ */
 
 static int32_t *adjoint(const stf_sweep *s, int32_t node)
 {
   return STF_AT(s->adjoint, int32_t, node);
 }
 
-/* The adjoints of the operands of `node`, which is 1 + the number of a node or 0. */
+/* The adjoints of the operands of `node`, which is 1 + the number of a node or
+ * 0. */
 static int push_back(stf_graph *g, int32_t node, int wanted, stf_sweep *s)
 {
   int32_t child[3];
@@ -151,6 +155,7 @@ static int wanted_of(int kind)
 {
   return kind == STF_OP_STATE   ? STF_ON_STATE
          : kind == STF_OP_SLOPE ? STF_ON_SLOPE
+         : kind == STF_OP_TIME  ? STF_ON_TIME
                                 : STF_ON_PARAMETER;
 }
 

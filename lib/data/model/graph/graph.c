@@ -112,8 +112,9 @@ static bool power_of_two(double x)
   return isfinite(x) && fabs(frexp(x, &exponent)) == 0.5 && isnormal(1 / x);
 }
 
-/* What is 0 unless a condition holds, c ? u : 0, or c ? 0 : u. A derivative of the branch that is not
- * taken may be infinite or no number: it must not be multiplied by that 0. */
+/* What is 0 unless a condition holds, c ? u : 0, or c ? 0 : u. A derivative of
+ * the branch that is not taken may be infinite or no number: it must not be
+ * multiplied by that 0. */
 static bool guarded(const stf_graph *g, int32_t i)
 {
   const stf_node *n = stf_node_at(g, i);

@@ -1,8 +1,10 @@
-/* graph.h: expressions as nodes that are kept once: an operation on older nodes, so that the numbers of
- * nodes are an order in which they can be computed.
+/* graph.h: expressions as nodes that are kept once: an operation on older
+ * nodes, so that the numbers of nodes are an order in which they can be
+ * computed.
  *
- * A leaf such as u[i+1] inside loops is unknown a + stride . (values of the loop counters): a block of
- * equations is written once for all passes of its loops, and its derivatives too.
+ * A leaf such as u[i+1] inside loops is unknown a + stride . (values of the
+ * loop counters): a block of equations is written once for all passes of its
+ * loops, and its derivatives too.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_GRAPH_H
@@ -65,12 +67,13 @@ bool stf_is_number(const stf_graph *g, int32_t i, double value);
 int stf_children(const stf_node *n, int32_t child[3]);
 void stf_graph_free(stf_graph *g);
 
-/* The nodes that `root` reaches, ascending, into `list`; mark has an entry for each node of the graph,
- * 0 before and after. */
+/* The nodes that `root` reaches, ascending, into `list`; mark has an entry for
+ * each node of the graph, 0 before and after. */
 int stf_reach(const stf_graph *g, int32_t root, stf_vector *mark, stf_vector *list);
 
-/* derivative.c: the derivative of `root` by every leaf of kind STATE or SLOPE (`kind`) or PARAMETER that
- * it reaches, as nodes of the same graph, by one sweep backwards. */
+/* derivative.c: the derivative of `root` by every leaf of kind STATE or SLOPE
+ * (`kind`) or PARAMETER that it reaches, as nodes of the same graph, by one
+ * sweep backwards. */
 typedef struct stf_partial {
   int32_t leaf, value; /* nodes */
 } stf_partial;

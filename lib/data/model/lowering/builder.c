@@ -1,5 +1,5 @@
-/* builder.c: expressions into nodes, by a machine with frames of its own: no expression of a file makes
- * the stack of the program grow.
+/* builder.c: expressions into nodes, by a machine with frames of its own: no
+ * expression of a file makes the stack of the program grow.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
 #include <math.h>
@@ -11,6 +11,7 @@ typedef struct frame {
   uint32_t pc, end;
   size_t scope, bindings; /* first binding that is seen; how many to go back to */
   int32_t symbol;         /* whose value this is; -1: none */
+  int literal;            /* of the expression around */
   /* a sum */
   int64_t next, last;
   uint32_t from;
@@ -35,8 +36,8 @@ int stf_builder_open(stf_builder *b, stf_model *m, stf_graph *g, bool numeric)
 
 void stf_builder_close(stf_builder *b)
 {
-  stf_vector *all[] = {&b->stack, &b->frames, &b->bindings, &b->memo};
-  for (int i = 0; i < 4; i++) stf_vector_free(b->m->ctx, all[i]);
+  stf_vector *all[] = {&b->stack, &b->frames, &b->bindings, &b->memo, &b->switch_of};
+  for (int i = 0; i < 5; i++) stf_vector_free(b->m->ctx, all[i]);
 }
 
 int stf_push_node(stf_builder *b, int32_t node)
@@ -67,7 +68,9 @@ int stf_bind_index(stf_builder *b, int32_t word, const stf_affine *at)
   return bind(b, &(stf_binding){.word = word, .node = -1, .at = *at});
 }
 
-/* ---- frames ---------------------------------------------------------------------------------- */
+/* ---- frames
+ * ----------------------------------------------------------------------------------
+ */
 
 int stf_enter(stf_builder *b, const stf_expression *e, int32_t symbol, size_t scope)
 {
@@ -80,7 +83,9 @@ int stf_enter(stf_builder *b, const stf_expression *e, int32_t symbol, size_t sc
                .scope = scope,
                .bindings = scope,
                .symbol = symbol,
-               .total = -1};
+               .total = -1,
+               .literal = b->literal};
+  if (symbol >= 0 && stf_symbol_at(b->m, symbol)->kind != STF_IS_FUNCTION) b->literal = 0;
   return STEIF_OK;
 }
 
@@ -107,11 +112,11 @@ static int cycle(const stf_builder *b, int32_t symbol)
     return stf_complain(&b->m->syntax.sources, place, STEIF_BAD_INPUT,
                         "function '%s' calls itself; recursion is not part of the language",
                         name);
-  return stf_complain(&b->m->syntax.sources, place, STEIF_BAD_INPUT, "'%s' needs %s'%s'; %s",
-                      name, by, name,
-                      first->kind == STF_IS_LET
-                        ? "declare one of them as 'state' and the loop is solved as an equation"
-                        : "give one of them a number");
+  return stf_complain(
+    &b->m->syntax.sources, place, STEIF_BAD_INPUT, "'%s' needs %s'%s'; %s", name, by, name,
+    first->kind == STF_IS_LET ? "declare one of them as 'state' and the loop is "
+                                "solved as an equation"
+                              : "give one of them a number");
 }
 
 /* The value of a frame that has ended is on the stack. */
@@ -143,11 +148,14 @@ static int leave(stf_builder *b)
     }
   }
   b->bindings.count = f->bindings;
+  if (f->symbol >= 0) b->literal = f->literal;
   b->frames.count--;
   return STEIF_OK;
 }
 
-/* ---- names ----------------------------------------------------------------------------------- */
+/* ---- names
+ * -----------------------------------------------------------------------------------
+ */
 
 static int32_t index_node(stf_builder *b, const stf_affine *at)
 {
@@ -188,6 +196,8 @@ static int symbol(stf_builder *b, stf_symbol *s, const stf_code *c)
   switch (s->kind) {
   case STF_IS_PARAMETER:
   case STF_IS_CONST:
+    if (!b->numeric && s->assigned)
+      return stf_push_node(b, stf_leaf(b->g, STF_OP_MEMORY, s->memory, NULL));
     if (b->numeric && s->visit == 2) return stf_push_node(b, stf_number(b->g, s->value));
     if (!b->numeric && s->which >= 0)
       return stf_push_node(b, stf_leaf(b->g, STF_OP_PARAMETER, s->which, NULL));
@@ -218,7 +228,8 @@ static int name(stf_builder *b, const stf_code *c)
                       "'%s' is not known here", stf_named(b->m, c->a));
 }
 
-/* ---- calls and sums -------------------------------------------------------------------------- */
+/* ---- calls and sums
+ * -------------------------------------------------------------------------- */
 
 static int user_function(stf_builder *b, stf_symbol *s, int count)
 {
@@ -233,20 +244,33 @@ static int user_function(stf_builder *b, stf_symbol *s, int count)
   return stf_enter(b, &stf_statement_at(b->m, s->statement)->value, which, scope);
 }
 
+/* A table of t has breaks at its nodes, where it has kinks or jumps. */
+static int table(stf_builder *b, const stf_symbol *s)
+{
+  const int32_t x = pop(b);
+  if (b->numeric) return complain(b, b->g->at, "a table where a number is needed at once");
+  const stf_lookup *l = b->m->lookups + s->which;
+  const bool breaks = b->events && stf_node_at(b->g, x)->kind == STF_OP_TIME && l->kind != 1;
+  for (size_t i = 0; breaks && i < l->count; i++) {
+    double *to = stf_vector_push(b->m->ctx, &b->m->breaks, sizeof *to);
+    if (!to) return STEIF_NO_MEMORY;
+    *to = l->x[i];
+  }
+  return stf_push_node(b, stf_apply(b->g, STF_OP_LOOKUP, x, s->which, 0));
+}
+
 static int call(stf_builder *b, const stf_code *c)
 {
   stf_symbol *s = stf_symbol_of(b->m, c->a);
   int operands;
   if (s && s->kind == STF_IS_FUNCTION) return user_function(b, s, c->b);
-  if (s && s->kind == STF_IS_TABLE)
-    return stf_push_node(b, stf_apply(b->g, STF_OP_LOOKUP, pop(b), s->which, 0));
+  if (s && s->kind == STF_IS_TABLE) return table(b, s);
   const char *word = stf_named(b->m, c->a);
   const int kind = stf_function_of(word, &operands);
   if (kind >= 0) {
     const int32_t second = operands > 1 ? pop(b) : 0, first = pop(b);
-    return stf_push_node(b, stf_apply2(b->g, kind, first, second));
+    return stf_push_node(b, stf_kinked(b, kind, first, second));
   }
-  if (strcmp(word, "div")) return STEIF_OK; /* noevent, smooth: the argument */
   const int32_t by = pop(b), of = pop(b);
   return stf_push_node(b,
                        stf_apply1(b->g, STF_OP_FLOOR, stf_apply2(b->g, STF_OP_DIVIDE, of, by)));
@@ -281,16 +305,18 @@ static int series(stf_builder *b, const stf_code *c)
   return f->total < 0 ? STEIF_NO_MEMORY : STEIF_OK;
 }
 
-/* ---- the machine ----------------------------------------------------------------------------- */
+/* ---- the machine
+ * -----------------------------------------------------------------------------
+ */
 
 static int apply(stf_builder *b, const stf_code *c)
 {
   const int count = stf_operands(c->kind);
   int32_t x[3] = {0, 0, 0};
   for (int i = count; i--;) x[i] = pop(b);
-  const bool swapped = (c->kind == STF_OP_LESS || c->kind == STF_OP_LESS_EQUAL) && c->a;
-  return stf_push_node(b, swapped ? stf_apply2(b->g, c->kind, x[1], x[0])
-                                  : stf_apply(b->g, c->kind, x[0], x[1], x[2]));
+  if (c->kind != STF_OP_LESS && c->kind != STF_OP_LESS_EQUAL)
+    return stf_push_node(b, stf_apply(b->g, c->kind, x[0], x[1], x[2]));
+  return stf_push_node(b, stf_relation(b, c->kind, x[c->a], x[!c->a]));
 }
 
 static int step(stf_builder *b)
@@ -305,6 +331,7 @@ static int step(stf_builder *b)
   case STF_OP_CALL: return call(b, &c);
   case STF_OP_SKIP: f->pc += (uint32_t)c.a; return STEIF_OK;
   case STF_OP_SUM: return series(b, &c);
+  case STF_OP_LITERAL: b->literal += c.a; return STEIF_OK;
   default: return apply(b, &c);
   }
 }
@@ -321,6 +348,7 @@ static void reset(stf_builder *b)
       *memo(b, s) = 0;
   }
   b->frames.count = b->stack.count = 0;
+  b->literal = 0;
 }
 
 int stf_build(stf_builder *b, const stf_expression *e, int32_t *node)

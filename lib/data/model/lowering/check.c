@@ -1,5 +1,5 @@
-/* check.c: every name in an expression is known where it stands: declared, or an argument or index there.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* check.c: every name in an expression is known where it stands: declared, or
+ * an argument or index there. SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
 #include <string.h>
 
@@ -64,7 +64,6 @@ static void check_call(stf_model *m, const stf_statement *s, const stf_code *c)
     for (size_t i = (size_t)f->statement + 1; i < m->syntax.statements.count; i++)
       wanted += stf_statement_at(m, (int32_t)i)->parent == f->statement;
   } else if (stf_function_of(name, &wanted) < 0) {
-    if (!strcmp(name, "noevent") || !strcmp(name, "smooth")) wanted = 1;
     if (!strcmp(name, "div")) wanted = 2;
     if (!wanted && f)
       stf_complain(&m->syntax.sources, c->at, STEIF_BAD_INPUT,
@@ -124,7 +123,8 @@ static void check_target(stf_model *m, const stf_statement *s)
       stf_nearest(stf_named(m, s->name), m->names.data, m->names.count, sizeof(char *)));
   else if (f->kind != STF_IS_STATE && f->kind != STF_IS_DISCRETE && f->kind != STF_IS_PARAMETER)
     stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
-                 "'%s' cannot be assigned; only states, discrete values and parameters can",
+                 "'%s' cannot be assigned; only states, discrete values and "
+                 "parameters can",
                  stf_named(m, s->name));
 }
 

@@ -1,5 +1,5 @@
-/* declare.c: what a model declares: one symbol for each name, values of parameters, sizes of arrays.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* declare.c: what a model declares: one symbol for each name, values of
+ * parameters, sizes of arrays. SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
 #include <math.h>
 #include <stdlib.h>
@@ -38,10 +38,10 @@ static int twice(stf_model *m, const stf_statement *s, const stf_symbol *before,
   const char *name = stf_named(m, s->name);
   const int line = (int)stf_statement_at(m, before->statement)->line;
   if (before->kind == kind)
-    return stf_complain(
-      &m->syntax.sources, s->at, STEIF_BAD_INPUT,
-      "'%s' is already a %s (line %d); a later line never replaces an earlier one", name,
-      kind_name(kind), line);
+    return stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
+                        "'%s' is already a %s (line %d); a later line never "
+                        "replaces an earlier one",
+                        name, kind_name(kind), line);
   return stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
                       "'%s' is a %s (line %d) and cannot be a %s too; rename one", name,
                       kind_name(before->kind), line, kind_name(kind));
@@ -67,9 +67,12 @@ static int declare(stf_model *m, int32_t i)
   return STEIF_OK;
 }
 
-/* ---- parameters ------------------------------------------------------------------------------ */
+/* ---- parameters
+ * ------------------------------------------------------------------------------
+ */
 
-/* A number alone has a register; what follows others is an expression, unless it is given. */
+/* A number alone has a register; what follows others is an expression, unless
+ * it is given. */
 static bool literal(const stf_model *m, const stf_statement *s)
 {
   for (uint32_t i = s->value.from; i < s->value.to; i++)
@@ -169,13 +172,21 @@ static int values(stf_model *m)
 
 static int registers(stf_model *m)
 {
+  for (size_t i = 0; i < m->syntax.statements.count; i++) {
+    const stf_statement *said = stf_statement_at(m, (int32_t)i);
+    stf_symbol *s = said->kind == STF_SAY_ASSIGN ? stf_symbol_of(m, said->name) : NULL;
+    if (s && s->kind == STF_IS_PARAMETER) s->assigned = true;
+  }
   for (size_t i = 0; i < m->symbols.count; i++) {
     stf_symbol *s = stf_symbol_at(m, (int32_t)i);
     const bool own = s->kind == STF_IS_PARAMETER &&
                      (s->given || literal(m, stf_statement_at(m, s->statement)));
-    if (own) s->which = m->parameters++;
+    if (own && !s->assigned) s->which = m->parameters++;
     if (s->kind == STF_IS_DISCRETE) s->which = m->discretes++;
+    if (s->assigned) s->memory = m->discretes++;
+    if (s->kind == STF_IS_TABLE) s->which = m->tables++;
   }
+  m->memories = m->discretes;
   m->p = stf_pool_array(m->pool, (size_t)m->parameters, sizeof *m->p);
   if (!m->p) return STEIF_NO_MEMORY;
   for (size_t i = 0; i < m->symbols.count; i++) {
@@ -200,7 +211,9 @@ int stf_declare(stf_model *m, const steif_spec *spec)
   return registers(m);
 }
 
-/* ---- unknowns -------------------------------------------------------------------------------- */
+/* ---- unknowns
+ * --------------------------------------------------------------------------------
+ */
 
 static int size_of(stf_model *m, stf_builder *b, const stf_statement *said, stf_symbol *s)
 {

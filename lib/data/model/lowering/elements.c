@@ -1,5 +1,5 @@
-/* elements.c: indices as whole numbers that depend on loop counters, and the elements they choose.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* elements.c: indices as whole numbers that depend on loop counters, and the
+ * elements they choose. SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +20,9 @@ static bool fixed(const stf_affine *x)
   return true;
 }
 
-/* ---- indices --------------------------------------------------------------------------------- */
+/* ---- indices
+ * ---------------------------------------------------------------------------------
+ */
 
 static int whole(stf_builder *b, const stf_code *c, stf_affine *x)
 {
@@ -37,10 +39,10 @@ static int whole(stf_builder *b, const stf_code *c, stf_affine *x)
     *x = (stf_affine){.c = (int64_t)value};
     return STEIF_OK;
   }
-  return stf_complain(
-    &b->m->syntax.sources, c->at, STEIF_BAD_INPUT,
-    "an index or range must be a whole number, here '%s' = %.12g; declare it 'whole'",
-    c->kind == STF_OP_NAME ? stf_named(b->m, c->a) : "it", value);
+  return stf_complain(&b->m->syntax.sources, c->at, STEIF_BAD_INPUT,
+                      "an index or range must be a whole number, here '%s' = "
+                      "%.12g; declare it 'whole'",
+                      c->kind == STF_OP_NAME ? stf_named(b->m, c->a) : "it", value);
 }
 
 static int name(stf_builder *b, const stf_code *c, size_t scope, stf_affine *x)
@@ -153,7 +155,9 @@ int stf_index(stf_builder *b, const stf_expression *e, uint32_t at, stf_affine *
   return STEIF_OK;
 }
 
-/* ---- elements -------------------------------------------------------------------------------- */
+/* ---- elements
+ * --------------------------------------------------------------------------------
+ */
 
 int stf_state_leaf(stf_builder *b, const stf_symbol *s, int primes, const stf_affine *k,
                    uint32_t at)
@@ -162,10 +166,10 @@ int stf_state_leaf(stf_builder *b, const stf_symbol *s, int primes, const stf_af
   for (int d = 0; d < STF_LOOPS; d++) stride[d] = (int32_t)k->s[d];
   if (b->numeric) {
     if (!b->started || primes || !b->started[s->first[0] + k->c])
-      return stf_complain(
-        &b->m->syntax.sources, at, STEIF_BAD_INPUT,
-        "'%s' is an unknown; here only numbers, parameters and fixed start values stand",
-        stf_named(b->m, s->word));
+      return stf_complain(&b->m->syntax.sources, at, STEIF_BAD_INPUT,
+                          "'%s' is an unknown; here only numbers, parameters "
+                          "and fixed start values stand",
+                          stf_named(b->m, s->word));
     return stf_push_node(b, stf_number(b->g, b->m->y0[s->first[0] + k->c]));
   }
   const int kind = primes < s->order ? STF_OP_STATE : STF_OP_SLOPE;
@@ -173,7 +177,8 @@ int stf_state_leaf(stf_builder *b, const stf_symbol *s, int primes, const stf_af
   return stf_push_node(b, stf_leaf(b->g, kind, s->first[level] + (int32_t)k->c, stride));
 }
 
-/* Passes in which low <= x <= high, of one counter; false: they must be looked at one by one. */
+/* Passes in which low <= x <= high, of one counter; false: they must be looked
+ * at one by one. */
 static bool narrow(stf_builder *b, const stf_affine *x, int64_t low, int64_t high)
 {
   int counter = -1;
@@ -256,7 +261,8 @@ static int array(stf_builder *b, const stf_symbol *s, const stf_code *c, const s
   return stf_state_leaf(b, s, c->primes, &k, c->at);
 }
 
-/* An abbreviation with indices: its expression with the names of the indices bound. */
+/* An abbreviation with indices: its expression with the names of the indices
+ * bound. */
 static int abbreviation(stf_builder *b, const stf_symbol *s, const stf_code *c,
                         const stf_affine *x)
 {
@@ -285,4 +291,27 @@ int stf_element(stf_builder *b, const stf_code *c)
     STEIF_TRY(
       stf_index(b, &STF_AT(b->m->syntax.indices, stf_range, c->a + d)->low, c->at, x + d));
   return s->kind == STF_IS_STATE ? array(b, s, c, x) : abbreviation(b, s, c, x);
+}
+
+int stf_component(stf_model *m, stf_builder *b, const stf_statement *s, int32_t *component)
+{
+  const stf_symbol *symbol = stf_symbol_of(m, s->name);
+  const bool fits = symbol && symbol->kind == STF_IS_STATE && s->primes < symbol->order &&
+                    s->dimensions == symbol->dims;
+  if (!fits)
+    return stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
+                        "'%s' is no single unknown; name one", stf_named(m, s->name));
+  int64_t k = 0;
+  for (int d = 0; d < symbol->dims; d++) {
+    stf_affine x = {0};
+    STEIF_TRY(stf_index(b, &s->range[d].low, s->at, &x));
+    if (x.c < symbol->low[d] || x.c >= symbol->low[d] + symbol->count[d])
+      return stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
+                          "%s[%lld] does not exist (%s runs from %d to %d)",
+                          stf_named(m, s->name), (long long)x.c, stf_named(m, s->name),
+                          (int)symbol->low[d], (int)(symbol->low[d] + symbol->count[d] - 1));
+    k = k * symbol->count[d] + x.c - symbol->low[d];
+  }
+  *component = symbol->first[s->primes] + (int32_t)k;
+  return STEIF_OK;
 }

@@ -1,5 +1,5 @@
-/* form.c: which row each equation takes, and the simplest form that all equations fit.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* form.c: which row each equation takes, and the simplest form that all
+ * equations fit. SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
 #include <math.h>
 #include <string.h>
@@ -26,25 +26,8 @@ int stf_fixed_value(stf_model *m, const stf_graph *g, int32_t node, double *valu
   return STEIF_OK;
 }
 
-/* ---- passes and rows ------------------------------------------------------------------------- */
-
-static int64_t passes(const stf_box *box)
-{
-  int64_t count = 1;
-  for (int d = 0; d < box->dims; d++) count *= box->count[d];
-  return count;
-}
-
-/* The value a + stride . counters of pass number k. */
-static int32_t at_pass(const stf_box *box, int64_t k, int32_t a, const int32_t *stride)
-{
-  int64_t value = a;
-  for (int d = box->dims; d--;) {
-    value += (int64_t)stride[d] * (box->low[d] + k % box->count[d]);
-    k /= box->count[d];
-  }
-  return (int32_t)value;
-}
+/* ---- passes and rows
+ * ------------------------------------------------------------------------- */
 
 /* "x", "u[3]" or "x'" of unknown i. */
 static const char *unknown(const stf_model *m, int32_t i) { return m->unknown[i]; }
@@ -57,9 +40,9 @@ static int32_t line_of(const stf_model *m, const stf_equation *e)
 /* All rows of an explicit equation; taken_by: line that took a row. */
 static int take(stf_model *m, const stf_block *block, const stf_equation *e, int32_t *taken_by)
 {
-  const int64_t count = passes(&block->box);
+  const int64_t count = stf_passes(&block->box);
   for (int64_t k = 0; k < count; k++) {
-    const int32_t row = at_pass(&block->box, k, e->row, e->stride);
+    const int32_t row = stf_at_pass(&block->box, k, e->row, e->stride);
     if (taken_by[row])
       return stf_complain(&m->syntax.sources, stf_statement_at(m, e->statement)->at,
                           STEIF_BAD_INPUT,
@@ -73,13 +56,14 @@ static int take(stf_model *m, const stf_block *block, const stf_equation *e, int
 static bool all_free(const stf_block *block, int32_t a, const int32_t *stride,
                      const int32_t *taken_by)
 {
-  const int64_t count = passes(&block->box);
+  const int64_t count = stf_passes(&block->box);
   for (int64_t k = 0; k < count; k++)
-    if (taken_by[at_pass(&block->box, k, a, stride)]) return false;
+    if (taken_by[stf_at_pass(&block->box, k, a, stride)]) return false;
   return true;
 }
 
-/* ---- equations that are not written x' = f ---------------------------------------------------- */
+/* ---- equations that are not written x' = f
+ * ---------------------------------------------------- */
 
 static int why_not(stf_model *m, int form, const char *why)
 {
@@ -137,7 +121,7 @@ static int count_equations(stf_model *m)
   int64_t count = 0;
   for (size_t i = 0; i < m->blocks.count; i++) {
     const stf_block *block = *STF_AT(m->blocks, stf_block *, i);
-    count += passes(&block->box) * (int64_t)block->equations.count;
+    count += stf_passes(&block->box) * (int64_t)block->equations.count;
   }
   if (count == m->n) return STEIF_OK;
   return stf_complain(
@@ -152,7 +136,7 @@ static int others(stf_model *m, int32_t *taken_by)
   int32_t next = 0;
   for (size_t i = 0; i < m->blocks.count; i++) {
     stf_block *block = *STF_AT(m->blocks, stf_block *, i);
-    const int64_t count = passes(&block->box);
+    const int64_t count = stf_passes(&block->box);
     for (size_t k = 0; k < block->equations.count; k++) {
       stf_equation *e = STF_AT(block->equations, stf_equation, k);
       if (e->own) continue;

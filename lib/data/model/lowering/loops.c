@@ -1,6 +1,7 @@
-/* loops.c: equations into blocks: one without loops, and one for each loop, whose passes are kept together
- * as far as all indices exist in them; passes at the borders become equations of the first block.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* loops.c: equations into blocks: one without loops, and one for each loop,
+ * whose passes are kept together as far as all indices exist in them; passes at
+ * the borders become equations of the first block. SPDX-License-Identifier:
+ * BSD-3-Clause */
 #include "model.h"
 #include <math.h>
 #include <string.h>
@@ -64,7 +65,9 @@ static int equation(stf_model *m, stf_builder *b, stf_block *block, int32_t stat
   return e->residual < 0 ? STEIF_NO_MEMORY : STEIF_OK;
 }
 
-/* ---- loops ----------------------------------------------------------------------------------- */
+/* ---- loops
+ * -----------------------------------------------------------------------------------
+ */
 
 static int bound(stf_builder *b, const stf_statement *s, const stf_expression *e,
                  int64_t *value)
@@ -141,7 +144,8 @@ static int one_by_one(stf_model *m, stf_builder *b, const loops *l, int d, const
   return STEIF_OK;
 }
 
-/* The body once for all passes: the box in which it holds, empty where there is none. */
+/* The body once for all passes: the box in which it holds, empty where there is
+ * none. */
 static int together(stf_model *m, loops *l, stf_box *box)
 {
   stf_builder b;
@@ -149,13 +153,15 @@ static int together(stf_model *m, loops *l, stf_box *box)
   if (!block) return STEIF_NO_MEMORY;
   int code = stf_builder_open(&b, m, &block->graph, false);
   b.dims = l->dims;
+  b.events = true;
+  b.block = block;
   for (int d = 0; !code && d < l->dims; d++) {
     stf_affine x = {0};
     x.s[d] = 1;
     code = bounds(m, &b, l, d);
     if (!code) code = stf_bind_index(&b, stf_statement_at(m, l->statement[d])->name, &x);
-    b.low[d] = l->low[d];
-    b.high[d] = l->high[d];
+    b.low[d] = b.range_low[d] = l->low[d];
+    b.high[d] = b.range_high[d] = l->high[d];
   }
   if (!code && !b.fallback) code = body(m, &b, block, l->statement[l->dims - 1]);
   *box = (stf_box){.dims = b.fallback || code ? 0 : l->dims};
@@ -171,6 +177,7 @@ static int together(stf_model *m, loops *l, stf_box *box)
   if (box->dims) return code;
   stf_graph_free(&block->graph);
   stf_vector_free(m->ctx, &block->equations);
+  stf_vector_free(m->ctx, &block->switches);
   m->blocks.count--;
   return code;
 }
@@ -203,7 +210,9 @@ static int loop(stf_model *m, stf_builder *b, int32_t statement)
   return one_by_one(m, b, &l, 0, &box, counter);
 }
 
-/* ---- velocities ------------------------------------------------------------------------------ */
+/* ---- velocities
+ * ------------------------------------------------------------------------------
+ */
 
 /* (x^(k))' = x^(k+1) for the derivatives that are unknowns. */
 static int velocities(stf_model *m)
@@ -237,6 +246,8 @@ int stf_build_blocks(stf_model *m)
   if (!block_new(m)) return STEIF_NO_MEMORY;
   STEIF_TRY(velocities(m));
   int code = stf_builder_open(&b, m, &block_at(m, 0)->graph, false);
+  b.events = true;
+  b.block = block_at(m, 0);
   for (size_t i = 0; code != STEIF_NO_MEMORY && i < m->syntax.statements.count &&
                      m->syntax.sources.errors < STF_ERRORS;
        i++) {

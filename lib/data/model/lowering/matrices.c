@@ -1,5 +1,5 @@
-/* matrices.c: tapes of f and of the entries of E and A, with the pattern of the entries by columns.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* matrices.c: tapes of f and of the entries of E and A, with the pattern of the
+ * entries by columns. SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
 #include <stdlib.h>
 #include <string.h>
@@ -17,32 +17,17 @@ static stf_block *block_at(const stf_model *m, size_t i)
   return *STF_AT(m->blocks, stf_block *, i);
 }
 
-static int64_t passes(const stf_box *box)
-{
-  int64_t count = 1;
-  for (int d = 0; d < box->dims; d++) count *= box->count[d];
-  return count;
-}
-
-static int32_t at_pass(const stf_box *box, int64_t k, int32_t a, const int32_t *stride)
-{
-  int64_t value = a;
-  for (int d = box->dims; d--;) {
-    value += (int64_t)stride[d] * (box->low[d] + k % box->count[d]);
-    k /= box->count[d];
-  }
-  return (int32_t)value;
-}
-
 static int32_t row_of(const stf_box *box, int64_t k, const stf_equation *e)
 {
-  return e->slot ? e->slot[k] : at_pass(box, k, e->row, e->stride);
+  return e->slot ? e->slot[k] : stf_at_pass(box, k, e->row, e->stride);
 }
 
-/* ---- quantities ------------------------------------------------------------------------------ */
+/* ---- quantities
+ * ------------------------------------------------------------------------------
+ */
 
-static int compile(stf_model *m, const stf_block *block, const stf_vector *stores,
-                   stf_quantity *q)
+int stf_compile_quantity(stf_model *m, const stf_block *block, const stf_vector *stores,
+                         stf_quantity *q)
 {
   if (!stores->count) return STEIF_OK;
   stf_tape *tape = stf_vector_push(m->ctx, &q->tapes, sizeof *tape);
@@ -63,7 +48,8 @@ void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed 
     stf_tape_run(STF_AT(q->tapes, stf_tape, i), feed, *STF_AT(q->spaces, double *, i), out);
 }
 
-/* f, with the equations that are not explicit as -residual without derivatives; F is the residual. */
+/* f, with the equations that are not explicit as -residual without derivatives;
+ * F is the residual. */
 static int values(stf_model *m)
 {
   for (size_t i = 0; i < m->blocks.count; i++) {
@@ -88,7 +74,7 @@ static int build_values(stf_model *m, bool without_states)
     stf_block *block = block_at(m, i);
     stores.count = 0;
     for (size_t k = 0; !code && k < block->equations.count; k++) {
-      const stf_equation *e = STF_AT(block->equations, stf_equation, k);
+      stf_equation *e = STF_AT(block->equations, stf_equation, k);
       stf_store *s = stf_vector_push(m->ctx, &stores, sizeof *s);
       if (!s) code = STEIF_NO_MEMORY;
       if (code) break;
@@ -96,15 +82,18 @@ static int build_values(stf_model *m, bool without_states)
       memcpy(s->stride, e->stride, sizeof s->stride);
       if (without_states)
         s->from = stf_without(&block->graph, e->value, STF_OP_STATE, &m->sweep);
+      e->forcing = s->from;
       if (s->from < 0) code = STEIF_NO_MEMORY;
     }
-    if (!code) code = compile(m, block, &stores, &m->f);
+    if (!code) code = stf_compile_quantity(m, block, &stores, &m->f);
   }
   stf_vector_free(m->ctx, &stores);
   return code;
 }
 
-/* ---- entries --------------------------------------------------------------------------------- */
+/* ---- entries
+ * ---------------------------------------------------------------------------------
+ */
 
 static int add(stf_model *m, stf_vector *entries, size_t block, const stf_equation *e,
                int32_t node, int32_t column, const int32_t *stride)
@@ -152,7 +141,9 @@ static int list(stf_model *m, bool slopes, stf_vector *entries)
   return STEIF_OK;
 }
 
-/* ---- patterns -------------------------------------------------------------------------------- */
+/* ---- patterns
+ * --------------------------------------------------------------------------------
+ */
 
 static int ascending(const void *a, const void *b)
 {
@@ -167,9 +158,9 @@ static void scan(const stf_model *m, const stf_vector *entries, sunindextype *co
   for (size_t i = 0; i < entries->count; i++) {
     const entry *e = STF_AT(*entries, entry, i);
     const stf_box *box = &block_at(m, e->block)->box;
-    const int64_t count = passes(box);
+    const int64_t count = stf_passes(box);
     for (int64_t k = 0; k < count; k++) {
-      const int32_t j = at_pass(box, k, e->column, e->stride);
+      const int32_t j = stf_at_pass(box, k, e->column, e->stride);
       if (row)
         row[column[j]++] = row_of(box, k, e->equation);
       else
@@ -198,7 +189,7 @@ static int pattern(stf_model *m, const stf_vector *entries, stf_matrix *M)
 {
   int64_t count = 0;
   for (size_t i = 0; i < entries->count; i++)
-    count += passes(&block_at(m, STF_AT(*entries, entry, i)->block)->box);
+    count += stf_passes(&block_at(m, STF_AT(*entries, entry, i)->block)->box);
   STEIF_CHECK(count < INT32_MAX, m->ctx, STEIF_UNSUPPORTED,
               "a Jacobian of %lld entries; 2e9 are the most", (long long)count);
   M->column = stf_pool_array(m->pool, (size_t)m->n + 1, sizeof *M->column);
@@ -217,11 +208,11 @@ static int pattern(stf_model *m, const stf_vector *entries, stf_matrix *M)
 static int slots(stf_model *m, const stf_matrix *M, entry *e)
 {
   const stf_box *box = &block_at(m, e->block)->box;
-  const int64_t count = passes(box);
+  const int64_t count = stf_passes(box);
   e->slot = stf_pool_array(m->pool, (size_t)count, sizeof *e->slot);
   if (!e->slot) return STEIF_NO_MEMORY;
   for (int64_t k = 0; k < count; k++) {
-    const int32_t j = at_pass(box, k, e->column, e->stride);
+    const int32_t j = stf_at_pass(box, k, e->column, e->stride);
     const sunindextype row = row_of(box, k, e->equation), *from = M->row + M->column[j];
     const sunindextype *found =
       bsearch(&row, from, (size_t)(M->column[j + 1] - M->column[j]), sizeof row, ascending);
@@ -244,7 +235,7 @@ static int tapes(stf_model *m, const stf_vector *entries, stf_matrix *M)
       code = s ? slots(m, M, e) : STEIF_NO_MEMORY;
       if (!code) *s = (stf_store){.from = e->node, .slot = e->slot};
     }
-    if (!code) code = compile(m, block_at(m, i), &stores, &M->quantity);
+    if (!code) code = stf_compile_quantity(m, block_at(m, i), &stores, &M->quantity);
   }
   stf_vector_free(m->ctx, &stores);
   return code;

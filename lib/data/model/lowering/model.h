@@ -1,5 +1,5 @@
-/* model.h: a model between its text and a steif_problem: what is declared, blocks of equations, tapes.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* model.h: a model between its text and a steif_problem: what is declared,
+ * blocks of equations, tapes. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_MODEL_H
 #define STF_MODEL_H
 
@@ -24,9 +24,11 @@ enum stf_symbol_kind {
 typedef struct stf_symbol {
   uint8_t kind, visit; /* visit: 1 while its value is looked for, 2 afterwards */
   int32_t word, statement;
-  int32_t which; /* of its kind; a parameter that follows others has -1 */
-  bool given;    /* a parameter: from outside */
-  double value;  /* of parameters and constants */
+  int32_t which;  /* of its kind; a parameter that follows others has -1 */
+  bool given;     /* a parameter: from outside */
+  bool assigned;  /* a parameter that an event changes: kept in memory ... */
+  int32_t memory; /* ... there */
+  double value;   /* of parameters and constants */
   /* states */
   int32_t order, first[8]; /* derivatives that occur, at least 1; unknowns 0 .. order-1 */
   uint8_t differentiated;
@@ -48,16 +50,24 @@ typedef struct stf_binding {
 typedef struct stf_equation {
   int32_t statement;              /* -1: the velocity of an unknown */
   int32_t residual, value;        /* nodes; value -1: not explicit */
+  int32_t forcing;                /* node of its part of g */
   bool own;                       /* explicit: the row of its unknown */
   int32_t row, stride[STF_LOOPS]; /* of each pass */
   int32_t *slot; /* rows of the passes where they are no multiples of counters */
 } stf_equation;
+
+/* A relation g < 0 whose truth is kept in memory and flipped at events. */
+typedef struct stf_switch {
+  int32_t g;                    /* node */
+  int32_t a, stride[STF_LOOPS]; /* place in memory */
+} stf_switch;
 
 /* Equations that share loops and a graph. */
 typedef struct stf_block {
   stf_graph graph;
   stf_box box;
   stf_vector equations; /* of stf_equation */
+  stf_vector switches;  /* of stf_switch */
 } stf_block;
 
 /* One quantity of all blocks: f, F or the entries of a matrix. */
@@ -87,8 +97,25 @@ typedef struct stf_model {
   const char *why; /* why not a simpler form */
   stf_matrix A, E;
   stf_quantity f; /* f, F or g */
+  stf_quantity events, invariants;
   stf_feed feed;
-  double *memory;
+  /* memory: discrete values, switches, timers */
+  double *memory, *memory_start, *memory_literal;
+  double t0, t1;
+  uint8_t *constraint_of; /* statements: it is a constraint of the problem */
+  bool constrained;
+  int32_t memories, switches, timers, invariant_count;
+  uint8_t *switch_used, *switch_open; /* switches */
+  stf_vector breaks;                  /* double */
+  stf_block *event_block;
+  struct stf_reactions *reactions;
+  steif_event *event_list;
+  double *event_values[2];
+  steif_reference reference;
+  sunindextype *reference_component;
+  int *constraint;
+  stf_lookup *lookups;
+  int32_t tables;
   sunrealtype *y0, *yp0;
   uint8_t *start; /* n: '=', '~' or 0 */
   int32_t *owner; /* n: symbol of each unknown */
@@ -123,8 +150,14 @@ int stf_check_names(stf_model *m);
 typedef struct stf_builder {
   stf_model *m;
   stf_graph *g;
-  bool
-    numeric; /* parameters are numbers and there are no unknowns but those that have started */
+  bool numeric; /* parameters are numbers and there are no unknowns but those
+                   that have started */
+  bool events;  /* relations are frozen between events, unless `literal` */
+  bool times;   /* ... those of time alone too */
+  int literal;
+  stf_block *block;                                    /* of switches */
+  int32_t range_low[STF_LOOPS], range_high[STF_LOOPS]; /* of its counters */
+  stf_vector switch_of;                                /* 1 + switch of each node g */
   bool fallback;                            /* an index needs its passes one by one */
   int dims;                                 /* loops whose counters stand in indices */
   int32_t low[STF_LOOPS], high[STF_LOOPS];  /* passes in which all indices exist */
@@ -138,16 +171,21 @@ int stf_bind_index(stf_builder *b, int32_t word, const stf_affine *at);
 int stf_build(stf_builder *b, const stf_expression *e, int32_t *node);
 /* A number now: of parameters, constants and bound indices. */
 int stf_value(stf_builder *b, const stf_expression *e, double *value);
-/* elements.c: an index, and what an element stands for: a leaf or an expression to be entered. */
+/* elements.c: an index, and what an element stands for: a leaf or an expression
+ * to be entered. */
 int stf_index(stf_builder *b, const stf_expression *e, uint32_t at, stf_affine *index);
 int stf_element(stf_builder *b, const stf_code *c);
 int stf_state_leaf(stf_builder *b, const stf_symbol *s, int primes, const stf_affine *component,
                    uint32_t at);
-/* of builder.c, for elements.c: an expression in a scope of its own; memo: symbol or -1. */
+/* of builder.c, for elements.c: an expression in a scope of its own; memo:
+ * symbol or -1. */
 int stf_enter(stf_builder *b, const stf_expression *e, int32_t memo, size_t scope);
 size_t stf_scope(const stf_builder *b);
 int stf_push_node(stf_builder *b, int32_t node);
 
+/* switches.c: relations and functions with kinks or jumps. */
+int32_t stf_relation(stf_builder *b, int kind, int32_t left, int32_t right);
+int32_t stf_kinked(stf_builder *b, int kind, int32_t a, int32_t c);
 /* loops.c: the equations. */
 int stf_build_blocks(stf_model *m);
 /* form.c: explicit rows, the form, rows of the others. */
@@ -156,6 +194,12 @@ int stf_deduce_form(stf_model *m);
 int stf_fixed_value(stf_model *m, const stf_graph *g, int32_t node, double *value);
 /* matrices.c: tapes of f and the matrices. */
 int stf_build_tapes(stf_model *m);
+int stf_compile_quantity(stf_model *m, const stf_block *block, const stf_vector *stores,
+                         stf_quantity *q);
+/* passes.c: how many passes a box has, and the value a + stride . counters in
+ * pass k. */
+int64_t stf_passes(const stf_box *box);
+int32_t stf_at_pass(const stf_box *box, int64_t k, int32_t a, const int32_t *stride);
 void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed *feed,
                       double *out);
 /* starts.c: start values. */
@@ -164,6 +208,15 @@ int stf_build_start(stf_model *m);
 int stf_name_unknowns(stf_model *m);
 /* A number of parameters and constants only; the failure is told. */
 int stf_number_of(stf_model *m, const stf_expression *e, double *value);
+/* finish.c: breaks, reference, invariants, constraints. */
+int stf_build_constraints(stf_model *m);
+int stf_finish(stf_model *m, steif_problem *problem);
+/* The unknown that a statement names, "u[3]" or "x'". */
+int stf_component(stf_model *m, stf_builder *b, const stf_statement *s, int32_t *component);
+/* consistent_start.c: start values that fulfil the equations, and the index. */
+int stf_consistent_start(stf_model *m, steif_problem *problem);
+/* table_file.c */
+int stf_read_tables(stf_model *m);
 /* model_problem.c: members and callbacks. */
 int stf_model_fill(stf_model *m, steif_problem *problem);
 void stf_model_free(stf_model *m);

@@ -44,7 +44,8 @@ int stf_name_unknowns(stf_model *m)
   return STEIF_OK;
 }
 
-/* The names of the indices of a state statement, bound to those of element k. */
+/* The names of the indices of a state statement, bound to those of element k.
+ */
 static int bind(stf_builder *b, const stf_statement *said, const stf_symbol *s, int32_t k)
 {
   for (int d = s->dims; d--; k /= s->count[d])
@@ -54,7 +55,8 @@ static int bind(stf_builder *b, const stf_statement *said, const stf_symbol *s, 
   return STEIF_OK;
 }
 
-/* Start values of one statement; those of order `primes` where that is an unknown. */
+/* Start values of one statement; those of order `primes` where that is an
+ * unknown. */
 static int start(stf_model *m, stf_builder *b, const stf_statement *said)
 {
   const stf_symbol *s = stf_symbol_of(m, said->name);
@@ -87,7 +89,8 @@ static void missing(stf_model *m)
       if (!m->start[s->first[level]]) {
         const char *name = m->unknown[s->first[level]];
         stf_complain(&m->syntax.sources, stf_statement_at(m, s->statement)->at, STEIF_BAD_INPUT,
-                     "'%s' needs a start value since its derivative occurs; write 'state %s = "
+                     "'%s' needs a start value since its derivative occurs; "
+                     "write 'state %s = "
                      "...', or '~' for a "
                      "guess. Only states without derivative may leave it out",
                      name, name);

@@ -1,8 +1,9 @@
 /* tape.h: nodes of a graph as instructions for a machine of registers.
  *
- * What depends on parameters only is computed once for each set of them, what is the same for all passes
- * of the loops once for each call, both in scalar registers; the rest in registers of STF_LANES values,
- * an instruction for as many passes of the innermost loop at a time.
+ * What depends on parameters only is computed once for each set of them, what
+ * is the same for all passes of the loops once for each call, both in scalar
+ * registers; the rest in registers of STF_LANES values, an instruction for as
+ * many passes of the innermost loop at a time.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_TAPE_H
@@ -20,7 +21,8 @@ typedef struct stf_load {
   int32_t kind, to, a, stride[STF_LOOPS];
 } stf_load;
 
-/* Where output k goes: to a + stride . counters, or to slot[pass] where there are slots. */
+/* Where output k goes: to a + stride . counters, or to slot[pass] where there
+ * are slots. */
 typedef struct stf_store {
   int32_t from; /* register */
   uint8_t wide; /* of lanes */

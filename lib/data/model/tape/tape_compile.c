@@ -1,5 +1,5 @@
-/* tape_compile.c: the nodes that outputs reach, in the order of their numbers, as instructions.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* tape_compile.c: the nodes that outputs reach, in the order of their numbers,
+ * as instructions. SPDX-License-Identifier: BSD-3-Clause */
 #include "tape.h"
 #include <string.h>
 
@@ -107,7 +107,8 @@ static int lane_node(compiler *c, int32_t i)
   return instruction(c, &c->tape->wide, n, to, from);
 }
 
-/* First what depends on parameters only, then what is the same for all passes, then the rest. */
+/* First what depends on parameters only, then what is the same for all passes,
+ * then the rest. */
 static int nodes(compiler *c)
 {
   const int32_t count = (int32_t)c->g->nodes.count;

@@ -87,7 +87,9 @@ void stf_tape_prepare(const stf_tape *t, const stf_feed *feed, double *space)
   if (s) run_scalar(s, s + t->fixed, space, feed->lookups);
 }
 
-/* ---- passes ---------------------------------------------------------------------------------- */
+/* ---- passes
+ * ----------------------------------------------------------------------------------
+ */
 
 static int64_t offset(int32_t a, const int32_t *stride, const int32_t *counter)
 {

@@ -1,5 +1,5 @@
-/* declarations.c: what declares a name: parameters, states, abbreviations, functions, tables.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* declarations.c: what declares a name: parameters, states, abbreviations,
+ * functions, tables. SPDX-License-Identifier: BSD-3-Clause */
 #include "reader.h"
 #include <string.h>
 
@@ -83,7 +83,9 @@ bool stf_reader_take(stf_reader *r, const char *text)
   return t->kind == STF_TOKEN_NAME && t->word == word && stf_take_word(&r->p, word);
 }
 
-/* ---- one after the other ---------------------------------------------------------------------------- */
+/* ---- one after the other
+ * ----------------------------------------------------------------------------
+ */
 
 int stf_reader_item(stf_reader *r, stf_statement *s)
 {
@@ -175,7 +177,8 @@ int stf_reader_list(stf_reader *r, int kind, int (*one)(stf_reader *, stf_statem
   return STEIF_OK;
 }
 
-/* ---- functions and tables ---------------------------------------------------------------------- */
+/* ---- functions and tables
+ * ---------------------------------------------------------------------- */
 
 int stf_reader_function(stf_reader *r)
 {

@@ -1,5 +1,5 @@
-/* expected.c: the next token, and what stands there instead of what the language wants.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* expected.c: the next token, and what stands there instead of what the
+ * language wants. SPDX-License-Identifier: BSD-3-Clause */
 #include "syntax.h"
 #include "text.h"
 #include <string.h>

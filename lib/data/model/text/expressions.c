@@ -1,8 +1,8 @@
-/* expressions.c: expressions and conditions by recursive descent into postfix codes.
- *   any     = "if" cond "then" any { "elseif" cond "then" any } "else" any | or
- *   or      = and { "or" and }         and = not { "and" not }      not = "not" not | relation
- *   relation= sum [ (< | <= | > | >=) sum ]
- *   sum     = product { (+|-) product }                product = signed { (*|/) signed }
+/* expressions.c: expressions and conditions by recursive descent into postfix
+ * codes. any     = "if" cond "then" any { "elseif" cond "then" any } "else" any
+ * | or or      = and { "or" and }         and = not { "and" not }      not =
+ * "not" not | relation relation= sum [ (< | <= | > | >=) sum ] sum     =
+ * product { (+|-) product }                product = signed { (*|/) signed }
  *   signed  = (+|-) signed | power     power = atom [ ^ signed ]
  * so that -x^2 = -(x^2), 2^3^2 = 2^9 and 2^-1 = 0.5.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -40,7 +40,9 @@ static uint8_t primes(stf_parser *p)
   return (uint8_t)(count < 9 ? count : 9);
 }
 
-/* ---- atoms ----------------------------------------------------------------------------------- */
+/* ---- atoms
+ * -----------------------------------------------------------------------------------
+ */
 
 static int one_range(stf_parser *p, stf_range *r)
 {
@@ -88,7 +90,8 @@ static int element(stf_parser *p, const stf_token *t)
   for (int i = 0; i < count; i++) {
     if (range[i].high.to > range[i].high.from)
       return complain(p, at,
-                      "a range in an expression; an element has one index for each dimension");
+                      "a range in an expression; an element has one index for "
+                      "each dimension");
     stf_range *r = stf_vector_push(p->syntax->sources.ctx, &p->syntax->indices, sizeof *r);
     if (!r) return STEIF_NO_MEMORY;
     *r = range[i];
@@ -128,11 +131,31 @@ static int series(stf_parser *p, uint32_t at)
   return stf_take(p, ')') ? STEIF_OK : stf_expected(p, "')' or an operator");
 }
 
+static int turn(stf_parser *p, uint32_t at, int by)
+{
+  stf_code *c = emit(p, STF_OP_LITERAL, at);
+  if (c) c->a = by;
+  return c ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+/* noevent(any), smooth(any): relations in it are taken as they are at the point
+ * at hand. */
+static int without_events(stf_parser *p, uint32_t at)
+{
+  STEIF_TRY(turn(p, at, 1));
+  STEIF_TRY(any(p));
+  if (!stf_take(p, ')')) return stf_expected(p, "')' or an operator");
+  return turn(p, at, -1);
+}
+
 static int call(stf_parser *p, const stf_token *t)
 {
   const int32_t word = t->word;
   const uint32_t at = t->at;
   int count = 0;
+  const char *text = stf_word_text(&p->syntax->words, word);
+  const bool literal = !strcmp(text, "noevent") || !strcmp(text, "smooth");
+  if (literal) return without_events(p, at);
   if (word == STF_WORD_SUM) return series(p, at);
   do {
     STEIF_TRY(any(p));
@@ -184,7 +207,9 @@ static int atom(stf_parser *p)
   return stf_take(p, ')') ? STEIF_OK : stf_expected(p, "')' or an operator");
 }
 
-/* ---- operators ------------------------------------------------------------------------------- */
+/* ---- operators
+ * -------------------------------------------------------------------------------
+ */
 
 static int arithmetic(stf_parser *p, uint32_t at)
 {
@@ -248,7 +273,8 @@ static int sum(stf_parser *p)
   return chain(p, product, sign, kind);
 }
 
-/* a > b is b < a, whose g = lhs - rhs keeps its sign by the marker in `primes`. */
+/* a > b is b < a, whose g = lhs - rhs keeps its sign by the marker in `primes`.
+ */
 static int relation(stf_parser *p)
 {
   STEIF_TRY(sum(p));

@@ -32,7 +32,9 @@ static int push(lexer *l, int kind, int word, uint32_t at, double number)
   return STEIF_OK;
 }
 
-/* ---- characters ------------------------------------------------------------------------------ */
+/* ---- characters
+ * ------------------------------------------------------------------------------
+ */
 
 /* The code point at `at`; *bytes 0 where it is no UTF-8. */
 static uint32_t character(const lexer *l, uint32_t at, uint32_t *bytes)
@@ -58,7 +60,8 @@ static uint32_t character(const lexer *l, uint32_t at, uint32_t *bytes)
   return code;
 }
 
-/* Letters beyond ASCII: no space, punctuation, sign, control or format character. */
+/* Letters beyond ASCII: no space, punctuation, sign, control or format
+ * character. */
 static bool foreign(uint32_t c)
 {
   static const uint32_t none[][2] = {
@@ -85,7 +88,9 @@ static uint32_t byte(const lexer *l, uint32_t at)
   return at < l->length ? (unsigned char)l->text[at] : 0;
 }
 
-/* ---- tokens ---------------------------------------------------------------------------------- */
+/* ---- tokens
+ * ----------------------------------------------------------------------------------
+ */
 
 static int number(lexer *l)
 {
@@ -232,7 +237,8 @@ int stf_lex(stf_sources *sources, size_t which, stf_words *words, stf_vector *to
                       (head[0] == 0xFE && head[1] == 0xFF) || !head[0] || !head[1]);
   if (wide)
     return wrong(&l, 0,
-                 "byte 0 in the text; a model is a UTF-8 text file (this begins like UTF-16 or "
+                 "byte 0 in the text; a model is a UTF-8 text file (this "
+                 "begins like UTF-16 or "
                  "binary: save it as UTF-8)");
   if (t->length > 2 && !memcmp(t->text, "\xEF\xBB\xBF", 3)) l.at = 3;
   while (l.at < l.length && sources->errors < STF_ERRORS) {

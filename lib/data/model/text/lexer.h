@@ -12,7 +12,8 @@ enum stf_token_kind {
   STF_TOKEN_NAME,   /* word */
   STF_TOKEN_STRING, /* without its quotes */
   STF_TOKEN_UNIT,   /* without its braces */
-  STF_TOKEN_MARK /* word: the character, or of two, < and = as 'l', > and = as 'g', == as 'e' */
+  STF_TOKEN_MARK    /* word: the character, or of two, < and = as 'l', > and = as
+                    'g', == as 'e' */
 };
 
 typedef struct stf_token {
@@ -22,8 +23,8 @@ typedef struct stf_token {
   double number;
 } stf_token;
 
-/* The tokens of text number `which`, appended to `tokens`. A line goes on while a bracket is open or
- * its last token is an operator, '=' or ','. */
+/* The tokens of text number `which`, appended to `tokens`. A line goes on while
+ * a bracket is open or its last token is an operator, '=' or ','. */
 int stf_lex(stf_sources *sources, size_t which, stf_words *words, stf_vector *tokens);
 
 #endif

@@ -1,5 +1,6 @@
-/* operations.h: what expressions of a model are made of, from the text to the machine: the leaves, the
- * functions with their names, and what only the text has.
+/* operations.h: what expressions of a model are made of, from the text to the
+ * machine: the leaves, the functions with their names, and what only the text
+ * has.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_OPERATIONS_H
@@ -71,10 +72,13 @@ enum stf_kind {
   STF_OP_KINDS,
   /* of the text only */
   STF_OP_NAME = STF_OP_KINDS, /* a: word; count: primes */
-  STF_OP_ELEMENT,             /* a: first of its indices in `indices`; count: primes; b: word */
+  STF_OP_ELEMENT,             /* a: first of its indices in `indices`; count: primes; b:
+                     word */
   STF_OP_CALL,                /* a: word, b: arguments */
   STF_OP_SKIP,                /* a: so many codes on are read by others */
-  STF_OP_SUM /* a: its indices (word, from, to); b: codes of the term, which follow */
+  STF_OP_LITERAL,             /* a: 1 where noevent(...) begins, -1 where it ends */
+  STF_OP_SUM                  /* a: its indices (word, from, to); b: codes of the term, which
+                follow */
 };
 
 /* Operands: 0 of leaves, 1, 2 or 3. */

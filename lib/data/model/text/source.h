@@ -1,7 +1,8 @@
-/* source.h: the texts of a model, places in them, and sentences that begin with a place.
+/* source.h: the texts of a model, places in them, and sentences that begin with
+ * a place.
  *
- * A place is an offset into all texts one after the other, so that it fits 32 bits and every part of
- * a model can carry one.
+ * A place is an offset into all texts one after the other, so that it fits 32
+ * bits and every part of a model can carry one.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_SOURCE_H
@@ -27,7 +28,8 @@ typedef struct stf_sources {
   char told[STF_TOLD + 1];
 } stf_sources;
 
-/* Keep "FILE:LINE:COLUMN: sentence"; returns the code. STF_NOWHERE: "FILE: sentence". */
+/* Keep "FILE:LINE:COLUMN: sentence"; returns the code. STF_NOWHERE: "FILE:
+ * sentence". */
 int stf_complain(stf_sources *s, uint32_t at, int code, const char *format, ...)
   STEIF_PRINTF(4, 5);
 /* All that has been kept, as one failure; STEIF_OK when there is none. */

@@ -1,5 +1,5 @@
-/* statements.c: statements, a line each. A wrong one is left out and the next one read.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* statements.c: statements, a line each. A wrong one is left out and the next
+ * one read. SPDX-License-Identifier: BSD-3-Clause */
 #include "reader.h"
 #include <string.h>
 
@@ -209,7 +209,8 @@ static int statement(stf_reader *r)
   return dispatch(r, t);
 }
 
-/* One statement and the end of its line; after an error the rest of the line is left out. */
+/* One statement and the end of its line; after an error the rest of the line is
+ * left out. */
 static int line(stf_reader *r)
 {
   int code = statement(r);

@@ -1,5 +1,5 @@
-/* syntax.h: a model as statements, and its expressions as codes in postfix order.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* syntax.h: a model as statements, and its expressions as codes in postfix
+ * order. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_SYNTAX_H
 #define STF_SYNTAX_H
 
@@ -67,9 +67,9 @@ enum stf_statement_kind {
 
 typedef struct stf_statement {
   uint8_t kind, primes, dimensions;
-  uint8_t start; /* of a state: '=', '~' or 0 */
-  uint8_t
-    whole; /* a parameter: whole; a table: 0 linear, 1 cubic, 2 steps; when: 'r', 'f', 'c' or 0 */
+  uint8_t start;              /* of a state: '=', '~' or 0 */
+  uint8_t whole;              /* a parameter: whole; a table: 0 linear, 1 cubic, 2 steps;
+                        when: 'r', 'f', 'c' or 0 */
   uint8_t error;              /* a table: it ends at its nodes */
   int32_t name;               /* word; -1: none */
   int32_t parent;             /* statement around it; -1: none */

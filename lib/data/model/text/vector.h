@@ -12,7 +12,8 @@ typedef struct stf_vector {
 
 #define STF_AT(vector, type, i) ((type *)(vector).data + (i))
 
-/* The next item of `size` bytes, zeroed; NULL with the message set. Items move when the vector grows. */
+/* The next item of `size` bytes, zeroed; NULL with the message set. Items move
+ * when the vector grows. */
 void *stf_vector_push(steif_context *ctx, stf_vector *vector, size_t size);
 /* `count` items in all, new ones zeroed. */
 int stf_vector_resize(steif_context *ctx, stf_vector *vector, size_t count, size_t size);

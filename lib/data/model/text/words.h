@@ -1,5 +1,5 @@
-/* words.h: the names of a model, each kept once and known by a number; reserved words come first.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* words.h: the names of a model, each kept once and known by a number; reserved
+ * words come first. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_WORDS_H
 #define STF_WORDS_H
 

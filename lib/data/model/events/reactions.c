@@ -1,0 +1,226 @@
+/* reactions.c: the memory of a run: at its start and at events.
+ *
+ * The direction of a crossing says what a relation is afterwards, since g
+ * itself is rounding at its root. Where assignments have moved g, its sign says
+ * it.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "reactions.h"
+#include <math.h>
+#include <string.h>
+
+enum { ROUNDS = 100 };
+
+static stf_reaction *reaction(const stf_reactions *r, size_t i)
+{
+  return STF_AT(r->list, stf_reaction, i);
+}
+
+static stf_feed feed_at(const stf_model *m, double t, const double *y)
+{
+  stf_feed feed = m->feed;
+  feed.t = t;
+  feed.y = y;
+  return feed;
+}
+
+/* Truths of all conditions from the switches. */
+static void ask(const stf_model *m, double t, const double *y)
+{
+  const stf_reactions *r = m->reactions;
+  const stf_feed feed = feed_at(m, t, y);
+  memset(r->truths, 0, r->list.count * sizeof *r->truths);
+  stf_quantity_run(m, &r->conditions, &feed, r->truths);
+}
+
+/* ---- timers
+ * ----------------------------------------------------------------------------------
+ */
+
+/* The next time is counted in whole numbers, so that it does not drift. */
+static void set_timer(const stf_model *m, stf_reaction *r)
+{
+  const double never = 1e300;
+  if (r->times)
+    m->memory[r->memory] = r->done < r->time_count ? r->times[r->done] : never;
+  else
+    m->memory[r->memory] = r->from + r->done * r->period;
+}
+
+/* Times at the start and before are over. */
+static void start_timer(const stf_model *m, stf_reaction *r, double t)
+{
+  r->done = 0;
+  if (!r->times && t >= r->from) r->done = (int32_t)fmin(floor((t - r->from) / r->period), 1e9);
+  do {
+    set_timer(m, r);
+  } while (m->memory[r->memory] <= t && ++r->done);
+}
+
+/* ---- the start
+ * -------------------------------------------------------------------------------
+ */
+
+/* Relations marked in `open`, whose g is 0 or as small as rounding: a short step along y' = f tells. */
+static void look_ahead(stf_model *m, double t, const double *at)
+{
+  const double h = 1e-8 * (m->t1 - m->t0);
+  stf_feed feed = feed_at(m, t, at);
+  double *y = m->memory_literal + m->memories, *g = m->event_values[1];
+  memset(y, 0, (size_t)m->n * sizeof *y);
+  stf_quantity_run(m, &m->f, &feed, y);
+  for (int32_t i = 0; i < m->n; i++) y[i] = at[i] + h * y[i];
+  stf_event_values(m, t + h, y, g);
+  for (int32_t i = 0; i < m->switches; i++)
+    if (m->switch_open[i] && isfinite(g[i])) m->memory[m->discretes + i] = g[i] < 0;
+}
+
+static void undecided(stf_model *m, double t)
+{
+  const double *g = m->event_values[0];
+  bool any = false;
+  stf_event_values(m, t, m->y0, m->event_values[0]);
+  for (int32_t i = 0; i < m->switches; i++) {
+    m->switch_open[i] = g[i] == 0;
+    any = any || g[i] == 0;
+  }
+  if (any && m->form == STEIF_ODE) look_ahead(m, t, m->y0);
+}
+
+int stf_reactions_begin(sunrealtype t, void *user)
+{
+  stf_model *m = user;
+  stf_reactions *r = m->reactions;
+  memcpy(m->memory, m->memory_start, (size_t)m->memories * sizeof *m->memory);
+  for (size_t i = 0; i < r->list.count; i++)
+    if (reaction(r, i)->trigger == STF_TIMER) start_timer(m, reaction(r, i), t);
+  stf_literal_switches(m, t, m->y0, m->memory);
+  undecided(m, t);
+  ask(m, t, m->y0);
+  for (size_t i = 0; i < r->list.count; i++) {
+    reaction(r, i)->truth = r->truths[i] != 0;
+    reaction(r, i)->pending = 0;
+  }
+  return 0;
+}
+
+/* ---- an event
+ * --------------------------------------------------------------------------------
+ */
+
+/* Which conditions have become true. */
+static bool find_pending(const stf_model *m, double t, const double *y)
+{
+  const stf_reactions *r = m->reactions;
+  bool any = false;
+  ask(m, t, y);
+  for (size_t i = 0; i < r->list.count; i++) {
+    stf_reaction *e = reaction(r, i);
+    const bool now = r->truths[i] != 0;
+    if (e->trigger != STF_TIMER) {
+      const bool fires = e->trigger == STF_CHANGES ? now != e->truth : now && !e->truth;
+      e->pending = e->pending || fires;
+      e->truth = now;
+    }
+    any = any || e->pending;
+  }
+  return any;
+}
+
+/* After assignments: relations whose g has moved are as their sign says. */
+static void follow(const stf_model *m, double t, const double *y)
+{
+  double *before = m->event_values[0], *after = m->event_values[1];
+  stf_event_values(m, t, y, after);
+  for (int32_t i = 0; i < m->switches; i++)
+    if (after[i] != before[i]) {
+      m->memory[m->discretes + i] = after[i] < 0;
+      m->switch_open[i] = after[i] == 0;
+    }
+  memcpy(before, after, (size_t)(m->switches + m->timers) * sizeof *before);
+}
+
+static void assign(const stf_model *m, const stf_reaction *e, double t, double *y)
+{
+  const stf_reactions *r = m->reactions;
+  const stf_feed feed = feed_at(m, t, y);
+  memset(r->values, 0, (size_t)e->count * sizeof *r->values);
+  if (e->count) stf_tape_run(&e->tape, &feed, e->space, r->values);
+  for (int32_t k = 0; k < e->count; k++) {
+    const stf_target *target = STF_AT(r->targets, stf_target, e->first + k);
+    if (target->state >= 0)
+      y[target->state] = r->values[k];
+    else
+      m->memory[target->memory] = r->values[k];
+  }
+}
+
+static int violated(const stf_model *m, const stf_reaction *e, double t)
+{
+  const stf_statement *s = stf_statement_at(m, e->statement);
+  return STEIF_FAIL(m->ctx, STEIF_INFEASIBLE,
+                    "line %u: the requirement is violated at t = %.12g", s->line, t);
+}
+
+/* All that is pending, in the order of the file. */
+static int act(const stf_model *m, double t, double *y, bool *stops)
+{
+  const stf_reactions *r = m->reactions;
+  for (size_t i = 0; i < r->list.count; i++) {
+    stf_reaction *e = reaction(r, i);
+    if (!e->pending) continue;
+    e->pending = 0;
+    if (e->trigger == STF_REQUIREMENT) return violated(m, e, t);
+    assign(m, e, t, y);
+    *stops = *stops || e->stops;
+    if (e->trigger == STF_TIMER) {
+      e->done++;
+      set_timer(m, e);
+    }
+    follow(m, t, y);
+  }
+  return STEIF_OK;
+}
+
+/* A relation that has fired was the other way before, whatever was remembered of it. */
+static bool flip(const stf_model *m, double t, const double *y, const int *fired)
+{
+  const stf_reactions *r = m->reactions;
+  bool changes = false;
+  for (int32_t i = 0; i < m->switches; i++) {
+    m->switch_open[i] = fired[i] != 0;
+    if (fired[i]) m->memory[m->discretes + i] = fired[i] > 0;
+  }
+  ask(m, t, y);
+  for (size_t i = 0; i < r->list.count; i++) reaction(r, i)->truth = r->truths[i] != 0;
+  for (int32_t i = 0; i < m->switches; i++) {
+    if (fired[i]) m->memory[m->discretes + i] = fired[i] < 0;
+    changes = changes || (fired[i] && i < r->equation_switches);
+  }
+  int timer = 0;
+  for (size_t i = 0; i < r->list.count; i++)
+    if (reaction(r, i)->trigger == STF_TIMER && fired[m->switches + timer++] > 0)
+      reaction(r, i)->pending = 1;
+  return changes;
+}
+
+int stf_reactions_handle(sunrealtype t, N_Vector v, const int *fired, void *user)
+{
+  stf_model *m = user;
+  double *y = N_VGetArrayPointer(v);
+  bool stops = false, acted = false;
+  stf_event_values(m, t, y, m->event_values[0]);
+  const bool changes = flip(m, t, y, fired);
+  for (int round = 0; find_pending(m, t, y); round++) {
+    acted = true;
+    if (round == ROUNDS)
+      return STEIF_FAIL(m->ctx, STEIF_STEP_LIMIT,
+                        "events at t = %.12g cause each other without end (100 "
+                        "rounds); give one of them a "
+                        "condition that its own assignment ends",
+                        t);
+    STEIF_TRY(act(m, t, y, &stops));
+  }
+  if (acted && m->form == STEIF_ODE) look_ahead(m, t, y);
+  return stops ? STEIF_FINISH : changes || acted ? STEIF_RESTART : STEIF_CONTINUE;
+}

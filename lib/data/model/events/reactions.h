@@ -1,0 +1,48 @@
+/* reactions.h: what happens at events: conditions that become true, times that
+ * come, and assignments. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_REACTIONS_H
+#define STF_REACTIONS_H
+
+#include "model.h"
+
+typedef struct stf_target {
+  int32_t state, memory; /* one of them; the other -1 */
+  int32_t statement;
+} stf_target;
+
+enum stf_trigger { STF_BECOMES_TRUE, STF_CHANGES, STF_TIMER, STF_REQUIREMENT };
+
+typedef struct stf_reaction {
+  uint8_t trigger, stops, pending, truth,
+    before; /* truth of its condition now, and at the start */
+  int32_t statement;
+  stf_tape tape; /* values of its assignments */
+  double *space;
+  int32_t first, count; /* targets */
+  /* timers */
+  int32_t memory;           /* the next time */
+  double from, period;      /* every: from + k period, k = 1, 2, ... or 0, 1, ... */
+  double *times;            /* at: these */
+  int32_t time_count, done; /* done: how many have come */
+} stf_reaction;
+
+typedef struct stf_reactions {
+  stf_vector list, targets;  /* stf_reaction, stf_target */
+  stf_quantity conditions;   /* truth of the condition of each reaction */
+  int32_t equation_switches; /* the first so many switches stand in equations */
+  double *truths, *values;
+} stf_reactions;
+
+/* event_statements.c: compile all; members of the problem. */
+int stf_build_events(stf_model *m);
+void stf_reactions_free(stf_model *m);
+/* event_values.c */
+void stf_event_values(const stf_model *m, double t, const double *y, double *g);
+int stf_event_callback(sunrealtype t, N_Vector y, sunrealtype *g, void *user);
+/* reactions.c: at the start of a run, and at an event. */
+int stf_reactions_begin(sunrealtype t, void *user);
+int stf_reactions_handle(sunrealtype t, N_Vector y, const int *fired, void *user);
+/* Truths of all relations at a point, into memory. */
+void stf_literal_switches(const stf_model *m, double t, const double *y, double *memory);
+
+#endif

@@ -1,0 +1,84 @@
+/* consistent_start.c: start values that fulfil the equations, and the index of
+ * the components. SPDX-License-Identifier: BSD-3-Clause */
+#include "model.h"
+#include <steif/consistent.h>
+#include <string.h>
+
+/* '=' is fixed, '~' a guess, nothing free. */
+static int attributes(const stf_model *m, enum steif_attribute *attribute)
+{
+  int open = 0;
+  for (int32_t i = 0; i < m->n; i++) {
+    attribute[i] = m->start[i] == '='   ? STEIF_FIXED
+                   : m->start[i] == '~' ? STEIF_GUESS
+                                        : STEIF_FREE;
+    open += attribute[i] != STEIF_FIXED;
+  }
+  return open;
+}
+
+static int take(stf_model *m, steif_problem *p, const steif_start *start)
+{
+  const size_t bytes = (size_t)m->n * sizeof *m->y0;
+  m->yp0 = stf_pool_array(m->pool, (size_t)m->n, sizeof *m->yp0);
+  if (!m->yp0) return STEIF_NO_MEMORY;
+  memcpy(m->y0, start->y, bytes);
+  memcpy(m->yp0, start->yp, bytes);
+  p->yp0 = m->yp0;
+  return STEIF_OK;
+}
+
+/* Linear systems may start with a jump: fixed values that contradict them are
+ * for the impulse analysis. */
+static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *attribute,
+                 int open)
+{
+  const steif_request request = {.attribute = attribute};
+  steif_start start = {0};
+  int code = steif_consistent(m->ctx, p, NULL, &request, &start);
+  if (!code) code = take(m, p, &start);
+  steif_start_clear(&start);
+  if (code == STEIF_NO_MEMORY || !code) return code;
+  const bool contradiction =
+    code == STEIF_BAD_INPUT && m->form != STEIF_DESCRIPTOR && open < m->n;
+  if (!contradiction) {
+    steif_forget(m->ctx);
+    return STEIF_OK;
+  }
+  char sentence[500];
+  strncpy(sentence, steif_message(m->ctx), sizeof sentence - 1);
+  sentence[sizeof sentence - 1] = 0;
+  return STEIF_FAIL(m->ctx, STEIF_BAD_INPUT, "%s: %s", p->name, sentence);
+}
+
+static int index_of_components(stf_model *m, steif_problem *p)
+{
+  steif_diagnosis d = {0};
+  int code = steif_diagnose(m->ctx, p, NULL, &d);
+  p->dae_index = -1;
+  if (!code && d.index >= 0) {
+    int *index = stf_pool_array(m->pool, (size_t)m->n, sizeof *index);
+    if (!index) code = STEIF_NO_MEMORY;
+    p->dae_index = d.index;
+    for (int32_t i = 0; index && i < m->n; i++)
+      index[i] = d.number[i] < 1 ? 1 : d.number[i] > 3 ? 3 : d.number[i];
+    p->index = index;
+  }
+  steif_diagnosis_clear(&d);
+  if (code == STEIF_NO_MEMORY) return code;
+  if (code) steif_forget(m->ctx);
+  return STEIF_OK;
+}
+
+int stf_consistent_start(stf_model *m, steif_problem *p)
+{
+  if (m->form == STEIF_ODE) return STEIF_OK;
+  p->dae_index = -1;
+  if (m->n > STEIF_DIAGNOSE_LARGEST) return STEIF_OK;
+  enum steif_attribute *attribute = stf_allocate(m->ctx, (size_t)m->n, sizeof *attribute);
+  if (!attribute) return STEIF_NO_MEMORY;
+  const int open = attributes(m, attribute);
+  const int code = solve(m, p, attribute, open);
+  stf_release(m->ctx, attribute);
+  return code ? code : index_of_components(m, p);
+}

@@ -1,0 +1,160 @@
+/* series.c: Taylor coefficients in t of nodes that depend on t, parameters and
+ * loop counters only, by the arithmetic of the forcing functions. At a kink or
+ * jump they are those to the right. SPDX-License-Identifier: BSD-3-Clause */
+#include "series.h"
+#include "input.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct machine {
+  int order;
+  const stf_feed *feed;
+  const int32_t *counter;
+  stf_series *scratch; /* 4 */
+} machine;
+
+/* The sign of a series just to the right. */
+static int sign(const stf_series *a, int n)
+{
+  for (int k = 0; k <= n; k++)
+    if (a->c[k] != 0) return a->c[k] > 0 ? 1 : -1;
+  return 0;
+}
+
+static void copy(int n, const stf_series *a, double factor, stf_series *to)
+{
+  for (int k = 0; k <= n; k++) to->c[k] = factor * a->c[k];
+}
+
+static const char *leaf(const machine *m, const stf_node *n, stf_series *u)
+{
+  double value = n->number;
+  if (n->kind == STF_OP_TIME) value = m->feed->t;
+  if (n->kind == STF_OP_PARAMETER) value = m->feed->p[n->a];
+  if (n->kind == STF_OP_COUNTER) value = m->counter[n->a];
+  if (n->kind == STF_OP_STATE || n->kind == STF_OP_SLOPE || n->kind == STF_OP_MEMORY)
+    return "unknowns";
+  stf_series_constant(m->order, value, u);
+  if (n->kind == STF_OP_TIME && m->order) u->c[1] = 1;
+  return NULL;
+}
+
+static const char *of_one(const machine *m, const stf_node *n, const stf_series *a,
+                          stf_series *u)
+{
+  const int order = m->order;
+  stf_series *w = m->scratch;
+  switch (n->kind) {
+  case STF_OP_NEGATIVE: copy(order, a, -1, u); return NULL;
+  case STF_OP_SIN: stf_series_waves(order, a, -1, u, w); return NULL;
+  case STF_OP_COS: stf_series_waves(order, a, -1, w, u); return NULL;
+  case STF_OP_SINH: stf_series_waves(order, a, 1, u, w); return NULL;
+  case STF_OP_COSH: stf_series_waves(order, a, 1, w, u); return NULL;
+  case STF_OP_TAN: return stf_series_tan(order, a, 1, u, w);
+  case STF_OP_TANH: return stf_series_tan(order, a, -1, u, w);
+  case STF_OP_ATAN: stf_series_atan(order, a, u, w); return NULL;
+  case STF_OP_EXP: stf_series_exp(order, a, u); return NULL;
+  case STF_OP_EXPM1:
+    stf_series_exp(order, a, u);
+    u->c[0] = expm1(a->c[0]);
+    return NULL;
+  case STF_OP_LOG: return stf_series_log(order, a, u);
+  case STF_OP_LOG10:
+    copy(order, a, 1, w);
+    if (stf_series_log(order, w, w + 1)) return "a logarithm";
+    copy(order, w + 1, 1 / log(10), u);
+    return NULL;
+  case STF_OP_LOG1P:
+    copy(order, a, 1, w);
+    w->c[0] += 1;
+    return stf_series_log(order, w, u);
+  case STF_OP_SQRT: return stf_series_power(order, a, 0.5, u);
+  case STF_OP_CBRT: return stf_series_power(order, a, 1.0 / 3, u);
+  case STF_OP_ABS: copy(order, a, sign(a, order) < 0 ? -1 : 1, u); return NULL;
+  case STF_OP_RAMP: copy(order, a, sign(a, order) > 0, u); return NULL;
+  case STF_OP_STEP: stf_series_constant(order, sign(a, order) >= 0, u); return NULL;
+  case STF_OP_SIGN: stf_series_constant(order, sign(a, order), u); return NULL;
+  case STF_OP_NOT: stf_series_constant(order, a->c[0] == 0, u); return NULL;
+  default:
+    if (order) return "a function without a series";
+    u->c[0] = n->kind == STF_OP_LOOKUP ? stf_lookup_value(m->feed->lookups + n->b, a->c[0])
+                                       : stf_operate(n->kind, a->c[0], 0, 0);
+    return NULL;
+  }
+}
+
+static const char *power(const machine *m, const stf_series *a, const stf_series *b,
+                         stf_series *u)
+{
+  const int order = m->order;
+  const double p = b->c[0];
+  bool constant = true;
+  for (int k = 1; k <= order; k++) constant = constant && b->c[k] == 0;
+  if (constant && p == floor(p) && fabs(p) <= 1 << 30)
+    return stf_series_whole(order, a, (long)p, u, m->scratch);
+  if (constant) return stf_series_power(order, a, p, u);
+  if (!(a->c[0] > 0)) return "a power";
+  if (stf_series_log(order, a, m->scratch)) return "a power";
+  stf_series_times(order, m->scratch, b, m->scratch + 1);
+  stf_series_exp(order, m->scratch + 1, u);
+  return NULL;
+}
+
+static const char *of_two(const machine *m, const stf_node *n, const stf_series *a,
+                          const stf_series *b, stf_series *u)
+{
+  const int order = m->order;
+  stf_series *d = m->scratch;
+  for (int k = 0; k <= order; k++) d->c[k] = a->c[k] - b->c[k];
+  const int s = sign(d, order);
+  switch (n->kind) {
+  case STF_OP_ADD:
+    for (int k = 0; k <= order; k++) u->c[k] = a->c[k] + b->c[k];
+    return NULL;
+  case STF_OP_SUBTRACT: copy(order, d, 1, u); return NULL;
+  case STF_OP_MULTIPLY: stf_series_times(order, a, b, u); return NULL;
+  case STF_OP_DIVIDE: return stf_series_over(order, a, b, u);
+  case STF_OP_POWER: return power(m, a, b, u);
+  case STF_OP_MIN: copy(order, s < 0 ? a : b, 1, u); return NULL;
+  case STF_OP_MAX: copy(order, s > 0 ? a : b, 1, u); return NULL;
+  case STF_OP_LESS: stf_series_constant(order, s < 0, u); return NULL;
+  case STF_OP_LESS_EQUAL: stf_series_constant(order, s <= 0, u); return NULL;
+  default:
+    if (order && n->kind != STF_OP_AND && n->kind != STF_OP_OR)
+      return "a function without a series";
+    stf_series_constant(order, stf_operate(n->kind, a->c[0], b->c[0], 0), u);
+    return NULL;
+  }
+}
+
+int stf_taylor(const stf_graph *g, int32_t root, const stf_feed *feed, const int32_t *counter,
+               int order, stf_sweep *sweep, double *value)
+{
+  int32_t child[3];
+  const char *wrong = NULL;
+  STEIF_TRY(stf_reach(g, root, &sweep->mark, &sweep->list));
+  STEIF_TRY(stf_vector_resize(g->ctx, &sweep->adjoint, g->nodes.count, sizeof(int32_t)));
+  const size_t count = sweep->list.count;
+  stf_series *all = stf_allocate(g->ctx, count + 4, sizeof *all);
+  if (!all) return STEIF_NO_MEMORY;
+  const machine m = {order, feed, counter, all + count};
+  for (size_t i = 0; i < count && !wrong; i++) {
+    const int32_t node = *STF_AT(sweep->list, int32_t, i);
+    const stf_node *n = stf_node_at(g, node);
+    const int operands = stf_children(n, child);
+    const stf_series *x[3] = {NULL, NULL, NULL};
+    for (int k = 0; k < operands; k++) x[k] = all + *STF_AT(sweep->adjoint, int32_t, child[k]);
+    *STF_AT(sweep->adjoint, int32_t, node) = (int32_t)i;
+    if (operands == 0) wrong = leaf(&m, n, all + i);
+    if (operands == 1) wrong = of_one(&m, n, x[0], all + i);
+    if (operands == 2) wrong = of_two(&m, n, x[0], x[1], all + i);
+    if (operands == 3) copy(order, x[0]->c[0] != 0 ? x[1] : x[2], 1, all + i);
+  }
+  double scale = 1;
+  for (int k = 2; k <= order; k++) scale *= k;
+  if (!wrong) *value = scale * all[count - 1].c[order];
+  for (size_t i = 0; i < count; i++)
+    *STF_AT(sweep->adjoint, int32_t, *STF_AT(sweep->list, int32_t, i)) = 0;
+  stf_release(g->ctx, all);
+  return wrong || !isfinite(*value) ? STEIF_RETRY : STEIF_OK;
+}
