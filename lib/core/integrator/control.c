@@ -230,5 +230,7 @@ sunrealtype stf_first_step(const steif_solver *s)
   const sunrealtype size = stf_norm(&step->system.space, step->y, step->weights);
   const sunrealtype slope = stf_norm(&step->system.space, step->yp, step->weights);
   const sunrealtype h = slope > 0 && step->yp_known ? 0.01 * size / slope : 1e-6 * span;
-  return clamp(h, 1e-14 * span, 1e-3 * span);
+  const sunrealtype clock =
+    1e3 * STF_EPS * fabs(step->t); /* what t can tell apart, with room */
+  return clamp(h, fmin(fmax(1e-14 * span, clock), 1e-3 * span), 1e-3 * span);
 }

@@ -19,9 +19,9 @@ static stf_feed feed_at(const stf_model *m, sunrealtype t, N_Vector y, N_Vector 
   return feed;
 }
 
-static bool finite(const stf_model *m, const double *f)
+static bool finite(sunindextype count, const double *f)
 {
-  for (int32_t i = 0; i < m->n; i++)
+  for (sunindextype i = 0; i < count; i++)
     if (!isfinite(f[i])) return false;
   return true;
 }
@@ -29,15 +29,20 @@ static bool finite(const stf_model *m, const double *f)
 /* A frozen branch is evaluated a little beyond its border, where it may have no
  * value: then relations are taken as they are at this point. The step ends at
  * the event, so that this does no harm. */
-static bool retried(const stf_model *m, stf_feed *feed, double *to)
+static void take_literally(const stf_model *m, stf_feed *feed)
 {
-  if (!m->switches || !feed->y) return false;
   memcpy(m->memory_literal, m->memory, (size_t)m->memories * sizeof *m->memory);
   stf_literal_switches(m, feed->t, feed->y, m->memory_literal);
   feed->memory = m->memory_literal;
+}
+
+static bool retried(const stf_model *m, stf_feed *feed, double *to)
+{
+  if (!m->switches || !feed->y) return false;
+  take_literally(m, feed);
   memset(to, 0, (size_t)m->n * sizeof *to);
   stf_quantity_run(m, &m->f, feed, to);
-  return finite(m, to);
+  return finite(m->n, to);
 }
 
 static int run(sunrealtype t, N_Vector y, N_Vector yp, N_Vector out, const stf_model *m)
@@ -46,7 +51,7 @@ static int run(sunrealtype t, N_Vector y, N_Vector yp, N_Vector out, const stf_m
   double *to = N_VGetArrayPointer(out);
   memset(to, 0, (size_t)m->n * sizeof *to);
   stf_quantity_run(m, &m->f, &feed, to);
-  return finite(m, to) || retried(m, &feed, to) ? 0 : 1;
+  return finite(m->n, to) || retried(m, &feed, to) ? 0 : 1;
 }
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
@@ -59,20 +64,29 @@ static int F(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
   return run(t, y, yp, r, user);
 }
 
-static int fill(const stf_model *m, const stf_matrix *M, const stf_feed *feed, SUNMatrix to)
+/* The entries; where a frozen branch has none, those of the branch at this point. */
+static void entries(const stf_model *m, const stf_matrix *M, stf_feed *feed, double *to)
+{
+  const size_t bytes = (size_t)M->entries * sizeof *to;
+  memset(to, 0, bytes);
+  stf_quantity_run(m, &M->quantity, feed, to);
+  if (!m->switches || !feed->y || finite(M->entries, to)) return;
+  take_literally(m, feed);
+  memset(to, 0, bytes);
+  stf_quantity_run(m, &M->quantity, feed, to);
+}
+
+static int fill(const stf_model *m, const stf_matrix *M, stf_feed *feed, SUNMatrix to)
 {
   if (SUNMatGetID(to) == SUNMATRIX_SPARSE) {
     if (SUNSparseMatrix_NNZ(to) < M->entries) return -1;
-    double *data = SUNSparseMatrix_Data(to);
     memcpy(SUNSparseMatrix_IndexPointers(to), M->column,
            ((size_t)m->n + 1) * sizeof *M->column);
     memcpy(SUNSparseMatrix_IndexValues(to), M->row, (size_t)M->entries * sizeof *M->row);
-    memset(data, 0, (size_t)M->entries * sizeof *data);
-    stf_quantity_run(m, &M->quantity, feed, data);
+    entries(m, M, feed, SUNSparseMatrix_Data(to));
     return 0;
   }
-  memset(M->scratch, 0, (size_t)M->entries * sizeof *M->scratch);
-  stf_quantity_run(m, &M->quantity, feed, M->scratch);
+  entries(m, M, feed, M->scratch);
   for (int32_t j = 0; j < m->n; j++)
     for (sunindextype k = M->column[j]; k < M->column[j + 1]; k++)
       SM_ELEMENT_D(to, M->row[k], j) = M->scratch[k];
@@ -83,7 +97,7 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
                N_Vector b, N_Vector c)
 {
   const stf_model *m = user;
-  const stf_feed feed = feed_at(m, t, y, NULL);
+  stf_feed feed = feed_at(m, t, y, NULL);
   (void)fy, (void)a, (void)b, (void)c;
   return fill(m, &m->A, &feed, J);
 }
@@ -91,14 +105,14 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
 static int fill_A(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix A, void *user)
 {
   const stf_model *m = user;
-  const stf_feed feed = feed_at(m, t, y, yp);
+  stf_feed feed = feed_at(m, t, y, yp);
   return fill(m, &m->A, &feed, A);
 }
 
 static int fill_E(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
 {
   const stf_model *m = user;
-  const stf_feed feed = feed_at(m, t, y, yp);
+  stf_feed feed = feed_at(m, t, y, yp);
   return fill(m, &m->E, &feed, E);
 }
 

@@ -229,6 +229,9 @@ static int arrays(stf_model *m)
   const size_t events = (size_t)(m->switches + m->timers), memories = (size_t)m->memories;
   stf_reactions *r = m->reactions;
   m->switch_used = stf_pool_array(m->pool, events, 1);
+  m->event_shift = stf_pool_array(m->pool, 2 * events, sizeof *m->event_shift);
+  if (!m->event_shift) return STEIF_NO_MEMORY;
+  m->event_range = m->event_shift + events;
   m->switch_open = stf_pool_array(m->pool, events, 1);
   m->event_list = stf_pool_array(m->pool, events, sizeof *m->event_list);
   m->memory = stf_pool_array(m->pool, memories, sizeof *m->memory);

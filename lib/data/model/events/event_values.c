@@ -1,6 +1,7 @@
 /* event_values.c: event functions g of relations and timers.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "reactions.h"
+#include <math.h>
 #include <string.h>
 
 /* Places of passes that stand elsewhere are never an event. */
@@ -14,10 +15,31 @@ void stf_event_values(const stf_model *m, double t, const double *y, double *g)
   stf_quantity_run(m, &m->events, &feed, g);
 }
 
+/* After an event g is as small as rounding and may stay so, where a relation stops what it watches: it is
+ * moved to its new side by a few units of rounding of the largest |g| since the last event, so that it
+ * does not fire again by noise. */
 int stf_event_callback(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
-  stf_event_values(user, t, N_VGetArrayPointer(y), g);
+  const stf_model *m = user;
+  stf_event_values(m, t, N_VGetArrayPointer(y), g);
+  for (int32_t i = 0; i < m->switches; i++) {
+    m->event_range[i] = fmax(m->event_range[i], fabs(g[i]));
+    g[i] += m->event_shift[i];
+  }
   return 0;
+}
+
+void stf_event_move(const stf_model *m, const int *fired)
+{
+  static const double units = 64 * STF_EPS;
+  for (int32_t i = 0; i < m->switches; i++) {
+    if (!fired[i]) continue;
+    const double g = fabs(m->event_values[1][i]), shift = units * m->event_range[i] + 2 * g;
+    m->event_shift[i] = g > units * 1e3 * m->event_range[i] ? 0
+                        : m->memory[m->discretes + i] != 0  ? -shift
+                                                            : shift;
+    m->event_range[i] = 0;
+  }
 }
 
 void stf_literal_switches(const stf_model *m, double t, const double *y, double *memory)

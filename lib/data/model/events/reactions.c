@@ -92,6 +92,8 @@ int stf_reactions_begin(sunrealtype t, void *user)
   stf_model *m = user;
   stf_reactions *r = m->reactions;
   memcpy(m->memory, m->memory_start, (size_t)m->memories * sizeof *m->memory);
+  memset(m->event_shift, 0, (size_t)m->switches * sizeof *m->event_shift);
+  memset(m->event_range, 0, (size_t)m->switches * sizeof *m->event_range);
   for (size_t i = 0; i < r->list.count; i++)
     if (reaction(r, i)->trigger == STF_TIMER) start_timer(m, reaction(r, i), t);
   stf_literal_switches(m, t, m->y0, m->memory);
@@ -222,5 +224,7 @@ int stf_reactions_handle(sunrealtype t, N_Vector v, const int *fired, void *user
     STEIF_TRY(act(m, t, y, &stops));
   }
   if (acted && m->form == STEIF_ODE) look_ahead(m, t, y);
+  stf_event_values(m, t, y, m->event_values[1]);
+  stf_event_move(m, fired);
   return stops ? STEIF_FINISH : changes || acted ? STEIF_RESTART : STEIF_CONTINUE;
 }

@@ -39,6 +39,8 @@ void stf_reactions_free(stf_model *m);
 /* event_values.c */
 void stf_event_values(const stf_model *m, double t, const double *y, double *g);
 int stf_event_callback(sunrealtype t, N_Vector y, sunrealtype *g, void *user);
+/* After an event, with g there in event_values[1]. */
+void stf_event_move(const stf_model *m, const int *fired);
 /* reactions.c: at the start of a run, and at an event. */
 int stf_reactions_begin(sunrealtype t, void *user);
 int stf_reactions_handle(sunrealtype t, N_Vector y, const int *fired, void *user);

@@ -252,10 +252,23 @@ static int dependence(const stf_model *m, const stf_vector *entries)
   return on;
 }
 
+/* Does f depend on what events change? */
+static bool switched(const stf_model *m)
+{
+  for (size_t i = 0; i < m->blocks.count; i++) {
+    const stf_block *block = block_at(m, i);
+    for (size_t k = 0; k < block->equations.count; k++) {
+      const stf_equation *e = STF_AT(block->equations, stf_equation, k);
+      if (stf_node_at(&block->graph, e->value)->on & STF_ON_MEMORY) return true;
+    }
+  }
+  return false;
+}
+
 static int finish(stf_model *m, stf_vector *A, stf_vector *E)
 {
-  m->linear =
-    m->form != STEIF_IMPLICIT && !(dependence(m, A) & ~(STF_ON_PARAMETER | STF_ON_PASS));
+  m->linear = m->form != STEIF_IMPLICIT && !m->switches && !m->timers && !switched(m) &&
+              !(dependence(m, A) & ~(STF_ON_PARAMETER | STF_ON_PASS));
   if (m->linear && m->form == STEIF_MASS) m->form = STEIF_DESCRIPTOR;
   STEIF_TRY(pattern(m, A, &m->A));
   STEIF_TRY(tapes(m, A, &m->A));

@@ -111,6 +111,7 @@ typedef struct stf_model {
   struct stf_reactions *reactions;
   steif_event *event_list;
   double *event_values[2];
+  double *event_shift, *event_range; /* of each relation: see event_values.c */
   steif_reference reference;
   sunindextype *reference_component;
   int *constraint;
@@ -208,12 +209,12 @@ int stf_build_start(stf_model *m);
 int stf_name_unknowns(stf_model *m);
 /* A number of parameters and constants only; the failure is told. */
 int stf_number_of(stf_model *m, const stf_expression *e, double *value);
-/* finish.c: breaks, reference, invariants, constraints. */
+/* extras.c: breaks, reference, invariants, constraints. */
 int stf_build_constraints(stf_model *m);
 int stf_finish(stf_model *m, steif_problem *problem);
 /* The unknown that a statement names, "u[3]" or "x'". */
 int stf_component(stf_model *m, stf_builder *b, const stf_statement *s, int32_t *component);
-/* consistent_start.c: start values that fulfil the equations, and the index. */
+/* fulfilled_start.c: start values that fulfil the equations, and the index. */
 int stf_consistent_start(stf_model *m, steif_problem *problem);
 /* table_file.c */
 int stf_read_tables(stf_model *m);

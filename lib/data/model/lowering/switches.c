@@ -8,10 +8,11 @@
 #include "model.h"
 #include <math.h>
 
-static int add_break(stf_builder *b, int32_t g)
+/* 1: a break is kept, and *falls says whether g < 0 after it; 0: g is not linear in t; -1: failure. */
+static int add_break(stf_builder *b, int32_t g, bool *falls)
 {
   stf_model *m = b->m;
-  double value, slope;
+  double value = 0, slope = 0;
   stf_vector partials = {0};
   stf_sweep sweep = {{0}, {0}, {0}};
   int code = stf_graph_differentiate(b->g, g, STF_OP_TIME, &sweep, &partials);
@@ -25,6 +26,7 @@ static int add_break(stf_builder *b, int32_t g)
     if (!code) code = stf_fixed_value(m, b->g, slope_node, &slope);
     double *to = code ? NULL : stf_vector_push(m->ctx, &m->breaks, sizeof *to);
     if (to) *to = -value / slope;
+    *falls = slope < 0;
     if (!to) code = STEIF_NO_MEMORY;
   }
   stf_sweep_free(m->ctx, &sweep);
@@ -78,8 +80,10 @@ int32_t stf_relation(stf_builder *b, int kind, int32_t left, int32_t right)
   if (!b->events || b->literal || !moves || (on & STF_ON_SLOPE)) return literal;
   const bool time_alone = !(on & ~(STF_ON_TIME | STF_ON_PARAMETER));
   if (time_alone && !b->times) {
-    const int linear = add_break(b, g);
-    if (linear) return linear < 0 ? -1 : literal;
+    bool falls = false;
+    const int linear = add_break(b, g, &falls);
+    const int to_the_right = falls ? STF_OP_LESS_EQUAL : STF_OP_LESS;
+    if (linear) return linear < 0 ? -1 : stf_apply2(b->g, to_the_right, left, right);
   }
   return switched(b, g);
 }

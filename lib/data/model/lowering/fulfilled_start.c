@@ -1,4 +1,4 @@
-/* consistent_start.c: start values that fulfil the equations, and the index of
+/* fulfilled_start.c: start values that fulfil the equations, and the index of
  * the components. SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
 #include <steif/consistent.h>

@@ -1,4 +1,4 @@
-/* finish.c: breaks, constraints, invariants and reference values of a model.
+/* extras.c: breaks, constraints, invariants and reference values of a model.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
 #include <math.h>

@@ -1,0 +1,136 @@
+/* test_events.c: conditions, kinks and reactions of models, against closed solutions.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "fixture.h"
+
+static int run(fixture *s, const char *method, double rtol, double *y)
+{
+  steif_options o = steif_defaults();
+  o.rtol = rtol;
+  steif_solver *solver = steif_solver_new(s->ctx, &s->p, method, &o);
+  const int code = solver ? steif_solve_to(solver, s->p.t1) : steif_status(s->ctx);
+  if (code && code != STEIF_EVENT) printf("\n  %s: %s", method, steif_message(s->ctx));
+  for (int i = 0; solver && i < s->p.n; i++) y[i] = NV_Ith_S(steif_solution(solver), i);
+  steif_solver_free(&solver);
+  return code;
+}
+
+/* The first component at the end. */
+static void reaches(const char *text, double expected, double allowed)
+{
+  static const char *const methods[] = {"radau:s=3", "dopri87", "bdf", "auto"};
+  fixture s;
+  double y[8];
+  const int code = fixture_text(&s, text, "");
+  if (code) printf("\n  %s", steif_message(s.ctx));
+  CU_ASSERT_FATAL(code == STEIF_OK);
+  for (int k = 0; k < 4; k++)
+    for (int again = 0; again < 2; again++) { /* a run leaves nothing for the next */
+      CHECK(run(&s, methods[k], 1e-9, y) == STEIF_OK);
+      CLOSE_FLOOR(y[0], expected, allowed, 1);
+    }
+  fixture_close(&s);
+}
+
+/* h = (1 - t/2)^2, empty at 2: the frozen branch is evaluated below zero. */
+static void a_tank_runs_empty(void)
+{
+  reaches("state h = 1\nh' = if h > 0 then -sqrt(h) else 0\ntime 0 to 3\n", 0, 1e-7);
+}
+
+/* x' = |sin t| has integral 2 over each half period: 2 * 3 over 3 pi; the integrand in y makes it an event
+ * of the state. max(c, 0) of c' = -s likewise: integral of the positive half waves of cos over 0 .. 2 pi is 2. */
+static void kinks_are_events(void)
+{
+  reaches("state x = 0, s = 0, c = 1\nx' = abs(s)\ns' = c\nc' = -s\ntime 0 to 3*pi\n", 6, 1e-6);
+  reaches("state x = 0, s = 0, c = 1\nx' = max(c, 0)\ns' = c\nc' = -s\ntime 0 to 2*pi\n", 2,
+          1e-6);
+  reaches(
+    "state x = 0, s = 0, c = 1\nx' = ramp(-c) - min(s, 0)\ns' = c\nc' = -s\ntime 0 to 2*pi\n",
+    4, 1e-6);
+  reaches("state x = 0, s = 0, c = 1\nx' = sign(c + 0.5) + step(c - 2)\ns' = c\nc' = -s\ntime "
+          "0 to 2*pi\n",
+          2 * 3.14159265358979 / 3, 1e-6);
+}
+
+/* t^2/2 up to 1, then t: (3^2 - 1)/... of conditions in time alone, which are breaks. */
+static void conditions_of_time_are_breaks(void)
+{
+  fixture s;
+  const char *text = "param c = 1\nstate x = 0\nx' = if t < c and t >= 0 then t else 1 + "
+                     "step(t - 2*c)\ntime 0 to 3\n";
+  CU_ASSERT_FATAL(fixture_text(&s, text, "") == STEIF_OK);
+  CHECK(s.p.break_count == 2 && s.p.breaks[0] == 1 && s.p.breaks[1] == 2 && s.p.events == 0);
+  fixture_close(&s);
+  reaches(text, 0.5 + 1 + 2, 1e-8);
+}
+
+/* A pulse of 1e-3 in 1e3, which steps would pass over. */
+static void a_short_pulse_is_seen(void)
+{
+  reaches("state x = 0\nx' = -x + (if t > 5 and t < 5.001 then 1e3 else 0)\ntime 0 to 6\n",
+          1e3 * (1 - exp(-0.001)) * exp(-0.999), 1e-7);
+}
+
+static void times_come(void)
+{
+  reaches("state x = 0\nx' = 1\nevery 0.1: x = 0\ntime 0 to 100.05\n", 0.05, 1e-9);
+  reaches("state x = 0\ndiscrete a = 1\nx' = a\nat 3, 1, 2: a = 2*a\ntime 0 to 4\n",
+          1 + 2 + 4 + 8, 1e-9);
+  reaches("param a = 1\nstate x = 0\nx' = a\nevery 1 from 0.5:\n a = a + 1\n x = x + "
+          "1\nend\ntime 0 to 3\n",
+          0.5 + 2 + 3 + 0.5 * 4 + 3, 1e-9);
+}
+
+/* At x = 1: x = 0.5, y = 5 at once; k makes x = 5.5, so that x > 1 becomes true again: x = 4.5. */
+static void events_cause_events(void)
+{
+  reaches("state x = 0, y = 1\ndiscrete k = 0\nx' = 1\ny' = 0\n"
+          "when x > 1:\n x = y - 0.5\n y = x + 4\n k = 1\nend\n"
+          "when k > 0.5: x = x + y\ntime 0 to 2\n",
+          5.5, 1e-8);
+}
+
+static void a_condition_true_at_the_start_does_not_fire(void)
+{
+  reaches("state x = 5\nx' = -1\nwhen x > 3: x = 100\nwhen x < -1: x = 4\ntime 0 to 7\n",
+          3 + 100 - 3, 110);
+  fixture s;
+  double y[2];
+  CU_ASSERT_FATAL(
+    fixture_text(
+      &s, "state x = 5\nx' = -1\nwhen x > 3: x = 100\nwhen x falling: stop\ntime 0 to 7\n",
+      "") == STEIF_OK);
+  const int code = run(&s, "radau:s=3", 1e-8, y);
+  CHECK(code == STEIF_OK || code == STEIF_EVENT);
+  CLOSE_FLOOR(y[0], 0, 1e-9, 1);
+  fixture_close(&s);
+}
+
+/* 20 cells with a switch each, in a loop: x_i = i e^-t while it is above 3, then it stays. */
+static void switches_in_loops(void)
+{
+  fixture s;
+  double y[20];
+  CU_ASSERT_FATAL(fixture_text(&s,
+                               "state x[i in 1:20] = i\nfor i in 1:20\n"
+                               "x[i]' = if x[i] > 3 then -x[i] else 0\nend\ntime 0 to 1\n",
+                               "") == STEIF_OK);
+  CHECK(s.p.events == 20);
+  CHECK(run(&s, "radau:s=3", 1e-9, y) == STEIF_OK);
+  for (int i = 0; i < 20; i++) {
+    const double start = i + 1, wanted = start <= 3 ? start : fmax(3, start * exp(-1));
+    CLOSE(y[i], wanted, 1e-7);
+  }
+  fixture_close(&s);
+}
+
+CU_TestInfo tests_of_events[] = {
+  {"a tank runs empty", a_tank_runs_empty},
+  {"kinks", kinks_are_events},
+  {"conditions of time", conditions_of_time_are_breaks},
+  {"a short pulse", a_short_pulse_is_seen},
+  {"at and every", times_come},
+  {"events cause events", events_cause_events},
+  {"true at the start", a_condition_true_at_the_start_does_not_fire},
+  {"switches in loops", switches_in_loops},
+  CU_TEST_INFO_NULL};
