@@ -9,6 +9,10 @@ foreach(library steif steif_static)
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT ${library}Targets NAMESPACE steif:: DESTINATION ${steif_package})
 endforeach()
+if(STEIF_PYTHON)
+  install(DIRECTORY python/steif DESTINATION ${CMAKE_INSTALL_LIBDIR}/python3/dist-packages
+          FILES_MATCHING PATTERN "*.py")
+endif()
 install(DIRECTORY include/steif DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 
 if(TARGET steif_program)

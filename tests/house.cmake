@@ -73,3 +73,20 @@ add_test(NAME readme COMMAND readme_program)
 # cvRoberts of SUNDIALS), both reached, and "ok" at the end.
 set_tests_properties(readme PROPERTIES PASS_REGULAR_EXPRESSION
                      "(^|\n) 4.0e-01  9.8517[0-9]*e-01\n(.*\n)? 4.0e.10  5.208[0-9]*e-08\nok\n$")
+
+# The Python module, by an interpreter that has NumPy.
+set(pythons "")
+foreach(name /usr/bin/python3 python3)
+  execute_process(COMMAND ${name} -c "import numpy" RESULT_VARIABLE code OUTPUT_QUIET ERROR_QUIET)
+  if(code EQUAL 0)
+    list(APPEND pythons ${name})
+  endif()
+endforeach()
+if(pythons AND NOT STEIF_SANITIZE)
+  list(GET pythons 0 interpreter)
+  add_test(NAME python COMMAND ${interpreter} ${PROJECT_SOURCE_DIR}/tests/python/test_solve.py)
+  set_tests_properties(python PROPERTIES ENVIRONMENT
+    "PYTHONPATH=${PROJECT_SOURCE_DIR}/python;STEIF_LIBRARY=$<TARGET_FILE:steif>;PYTHONDONTWRITEBYTECODE=1")
+else()
+  message(STATUS "no python3 with NumPy: the test of the Python module is left out")
+endif()

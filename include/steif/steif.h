@@ -9,6 +9,7 @@
 #include <steif/index.h>
 #include <steif/consistent.h>
 #include <steif/initial.h>
+#include <steif/layout.h>
 #include <steif/method.h>
 #include <steif/pencil.h>
 #include <steif/phi.h>

@@ -1,0 +1,14 @@
+"""steif: stiff ODEs and DAEs, with the look of scipy.integrate.solve_ivp.
+
+    import steif
+    s = steif.solve(lambda t, y: [y[1], 100*(1 - y[0]**2)*y[1] - y[0]], (0, 100), [2, 0])
+    s.t, s.y            # t: n_points, y: n x n_points
+    steif.solve("rober", method="radau:s=3", rtol=1e-8)        # a problem of the collection
+    steif.solve("pendulum.steif")                              # or a model file
+
+The library is found by the environment variable STEIF_LIBRARY, else beside this file, else by the loader.
+"""
+from ._library import SteifError, version
+from ._solve import Result, solve
+
+__all__ = ["solve", "Result", "SteifError", "version"]

@@ -1,0 +1,285 @@
+"""One integration: callbacks from Python, arrays of NumPy on the memory of the library."""
+import ctypes as c
+import os
+
+import numpy as np
+
+from ._library import INT, POINTER, REAL, Context, SteifError, Struct, lib
+
+_RHS = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER)
+_JACOBIAN = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER, POINTER, POINTER, POINTER, POINTER)
+_FILL = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER, POINTER)
+_VALUES = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER)
+_OBSERVE = c.CFUNCTYPE(INT, POINTER, REAL, POINTER, POINTER)
+_ON_EVENT = c.CFUNCTYPE(INT, POINTER, REAL, POINTER, POINTER, POINTER)
+_STOP, _EVENT, _AGAIN = -1, 2, 1
+_COUNTS = {"nfev": "nfe", "njev": "nje", "nlu": "nlu", "nsteps": "steps", "nrejected": "rejected"}
+
+
+class Result:
+    """What a run has left: t, y (n x points), t_events, y_events, nfev, njev, nlu, nsteps, nrejected,
+    method, status (0 the end was reached, 1 an event ended the run, negative a failure), message,
+    success."""
+
+    def __repr__(self):
+        return "\n".join("%10s: %s" % (key, getattr(self, key)) for key in sorted(vars(self)))
+
+
+class _Arrays:
+    """NumPy views of vectors and matrices of the library, made once for each address."""
+
+    def __init__(self):
+        self.views = {}
+
+    def _view(self, address, shape):
+        key = (address, shape)
+        view = self.views.get(key)
+        if view is None:
+            count = int(np.prod(shape))
+            view = np.frombuffer((REAL * count).from_address(address)).reshape(shape, order="F")
+            self.views[key] = view
+        return view
+
+    def vector(self, v, n):
+        return self._view(lib.N_VGetArrayPointer(v), (n,))
+
+    def matrix(self, m, n):
+        return self._view(lib.SUNDenseMatrix_Data(m), (n, n))
+
+    def plain(self, address, n):
+        return self._view(address, (n,))
+
+
+class _Run:
+    """The problem, the options and the callbacks of one call."""
+
+    def __init__(self, n):
+        self.n, self.arrays, self.raised = n, _Arrays(), None
+        self.problem, self.options = Struct("problem"), Struct("options")
+        self.t, self.y = [], []
+
+    def guarded(self, work):
+        """A callback of the library: an exception ends the run and is raised again after it."""
+
+        def call(*arguments):
+            try:
+                work(*arguments)
+                return 0
+            except BaseException as reason:  # Ctrl-C as well
+                self.raised = self.raised or reason
+                return _STOP
+
+        return call
+
+    def give(self, member, kind, work):
+        self.problem.set(member, POINTER, kind(self.guarded(work)))
+
+    def right_hand_side(self, f, args):
+        vector, n = self.arrays.vector, self.n
+
+        def work(t, y, out, user):
+            vector(out, n)[:] = f(t, vector(y, n), *args)
+
+        self.give("f", _RHS, work)
+
+    def jacobian(self, jac, args):
+        vector, matrix, n = self.arrays.vector, self.arrays.matrix, self.n
+        constant = None if callable(jac) else np.asarray(jac, dtype=float).reshape(n, n)
+
+        def work(t, y, fy, J, user, a, b, d):
+            matrix(J, n)[:, :] = constant if constant is not None else jac(t, vector(y, n), *args)
+
+        self.give("jac", _JACOBIAN, work)
+
+    def mass(self, M):
+        matrix, n = self.arrays.matrix, self.n
+        M = np.asarray(M, dtype=float)
+        if M.shape != (n, n):
+            raise ValueError("mass has the shape %s, %s is needed" % (M.shape, (n, n)))
+
+        def work(t, y, yp, E, user):
+            matrix(E, n)[:, :] = M
+
+        self.give("E", _FILL, work)
+
+    def watch(self, events, args):
+        vector, plain, n, count = self.arrays.vector, self.arrays.plain, self.n, len(events)
+        size = lib.steif_layout(b"event")
+        rows = c.create_string_buffer(size * count)
+        for i, event in enumerate(events):
+            for member in ("direction", "terminal"):
+                at = lib.steif_layout(("event." + member).encode())
+                value = int(np.sign(getattr(event, member, 0)))
+                INT.from_address(c.addressof(rows) + i * size + at).value = value
+
+        def work(t, y, value, user):
+            u = vector(y, n)
+            plain(value, count)[:] = [event(t, u, *args) for event in events]
+
+        self.give("event", _VALUES, work)
+        self.problem.set("events", INT, count)
+        self.problem.set("event_list", POINTER, rows)
+        self.t_events, self.y_events = [[] for _ in events], [[] for _ in events]
+
+        def fired(s, t, y, which, user):
+            signs = (INT * count).from_address(which)
+            for i in range(count):
+                if signs[i]:
+                    self.t_events[i].append(t)
+                    self.y_events[i].append(vector(y, n).copy())
+
+        self.options.set("on_event", POINTER, _ON_EVENT(self.guarded(fired)))
+
+    def keep_steps(self):
+        vector, n = self.arrays.vector, self.n
+
+        def keep(s, t, y, user):
+            self.t.append(t)
+            self.y.append(vector(y, n).copy())
+
+        self.options.set("observe", POINTER, _OBSERVE(self.guarded(keep)))
+
+    def go(self, context, method, t0, t1, times):
+        solver = lib.steif_solver_new(context.pointer, self.problem.address, method.encode(),
+                                      self.options.address)
+        if not solver:
+            raise self.raised or context.error()
+        try:
+            return self._advance(context, solver, t0, t1, times)
+        finally:
+            lib.steif_solver_free(c.byref(POINTER(solver)))
+
+    def _advance(self, context, solver, t0, t1, times):
+        vector, n, code = self.arrays.vector, self.n, 0
+        if times is None:
+            self.t.append(t0)
+            self.y.append(vector(lib.steif_solution(solver), n).copy())
+            code = lib.steif_solve_to(solver, t1)
+        else:
+            for t in times:
+                code = lib.steif_solve_to(solver, t) if t > t0 else 0
+                if code in (0, _EVENT):
+                    self.t.append(lib.steif_time(solver))
+                    self.y.append(vector(lib.steif_solution(solver), n).copy())
+                if code:
+                    break
+            if not code and t1 > times[-1]:
+                code = lib.steif_solve_to(solver, t1)
+        if self.raised:
+            raise self.raised
+        return self._result(context, solver, code)
+
+    def _result(self, context, solver, code):
+        r, stats = Result(), Struct("stats")
+        stats.address = lib.steif_statistics(solver)
+        for name, member in _COUNTS.items():
+            setattr(r, name, stats.get(member, c.c_long))
+        r.t, r.y = np.array(self.t), np.array(self.y).T
+        r.t_events = [np.array(t) for t in self.t_events] if hasattr(self, "t_events") else None
+        r.y_events = [np.array(y) for y in self.y_events] if hasattr(self, "y_events") else None
+        r.method = lib.steif_method_used(solver).decode()
+        r.status = 0 if code == 0 else 1 if code == _EVENT else code
+        r.message = lib.steif_message(context.pointer).decode()
+        r.success = code in (0, _EVENT)
+        return r
+
+
+def _tolerances(run, rtol, atol, n):
+    run.options.set("rtol", REAL, float(rtol))
+    if atol is None:
+        return
+    if np.ndim(atol) == 0:
+        run.options.set("atol", REAL, float(atol))
+        return
+    each = np.ascontiguousarray(atol, dtype=float)
+    if each.shape != (n,):
+        raise ValueError("atol has the shape %s, %s is needed" % (each.shape, (n,)))
+    run.options.set("atols", POINTER, each.ctypes.data)
+    run.options.kept["atols"] = each
+
+
+def _times(t_eval, t0, t1):
+    if t_eval is None:
+        return None
+    times = np.asarray(t_eval, dtype=float)
+    if times.ndim != 1 or times.size == 0 or np.any(np.diff(times) <= 0):
+        raise ValueError("t_eval must hold ascending times")
+    if times[0] < t0 or times[-1] > t1:
+        raise ValueError("t_eval must lie within the interval from %g to %g" % (t0, t1))
+    return times
+
+
+def _known(context, spec, t_span):
+    """A problem of the collection or a model file."""
+    found = Struct("problem")
+    code = lib.steif_problem_find(context.pointer, os.fspath(spec).encode(), found.address)
+    if code:
+        raise context.error()
+    run = _Run(found.get("n", c.c_int64))
+    run.problem = found
+    t0, t1 = found.get("t0", REAL), found.get("t1", REAL)
+    return run, t0, t1 if t_span is None else float(t_span[1])
+
+
+def _own(f, t_span, y0, args, jac, mass, events):
+    start = np.array(y0, dtype=float)
+    if start.ndim != 1:
+        raise ValueError("y0 must have one dimension, it has %d" % start.ndim)
+    if t_span is None or not callable(f):
+        raise ValueError("solve needs f(t, y), (t0, t1) and y0, or the name of a problem")
+    run = _Run(start.size)
+    t0, t1 = (float(t) for t in t_span)
+    for member, kind, value in (("n", c.c_int64, start.size), ("t0", REAL, t0), ("t1", REAL, t1)):
+        run.problem.set(member, kind, value)
+    run.problem.set("name", POINTER, c.c_char_p(b"f"))
+    run.problem.set("y0", POINTER, start.ctypes.data)
+    run.problem.kept["y0"] = start
+    run.right_hand_side(f, args)
+    if jac is not None:
+        run.jacobian(jac, args)
+    if mass is not None:
+        run.mass(mass)
+    if events is not None:
+        run.watch(list(events) if isinstance(events, (list, tuple)) else [events], args)
+    return run, t0, t1
+
+
+def solve(f, t_span=None, y0=None, *, method="auto", rtol=1e-6, atol=None, t_eval=None, jac=None,
+          mass=None, events=None, args=(), h=None, first_step=None, max_step=None, max_steps=None):
+    """Integrate y' = f(t, y), or mass y' = f(t, y) with a constant, possibly singular matrix.
+
+    f        f(t, y) -> array or list; or the name of a problem ("rober", "pendulum.steif:k=3")
+    t_span   (t0, t1); of a named problem None: its own
+    method   a spec of steif: "auto", "radau:s=3", "bdf", "cvode", ...
+    atol     a number or one for each component; None: rtol times the scale of the problem (1)
+    t_eval   times of the output; None: the steps
+    jac      jac(t, y) -> n x n, or a constant array; None: differences
+    events   g(t, y) or several; .terminal and .direction as in SciPy
+    h        a constant step size instead of tolerances
+
+    Returns a Result. A run that stops early has success False and says why in message; bad input is a
+    SteifError or ValueError; an exception in a callback ends the run and is raised again.
+    """
+    context = Context()
+    named = isinstance(f, (str, bytes, os.PathLike))
+    run = None
+    try:
+        if named:
+            run, t0, t1 = _known(context, f, t_span)
+        else:
+            run, t0, t1 = _own(f, t_span, y0, tuple(args), jac, mass, events)
+        _tolerances(run, rtol, atol, run.n)
+        run.options.set("t1", REAL, t1)
+        for member, value in (("h", h), ("h0", first_step), ("h_max", max_step)):
+            if value is not None:
+                run.options.set(member, REAL, float(value))
+        if max_steps is not None:
+            run.options.set("max_steps", c.c_long, int(max_steps))
+        times = _times(t_eval, t0, t1)
+        if times is None:
+            run.keep_steps()
+        return run.go(context, method, t0, t1, times)
+    finally:
+        if named and run is not None:
+            lib.steif_problem_clear(context.pointer, run.problem.address)
+        context.close()

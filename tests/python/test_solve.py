@@ -1,0 +1,116 @@
+"""The Python module: solutions, counts, events, errors, against closed forms and SciPy."""
+import math
+import signal
+import threading
+import unittest
+
+import numpy as np
+import steif
+
+try:
+    from scipy.integrate import solve_ivp
+except ImportError:
+    solve_ivp = None
+
+
+def vdpol(t, y, mu=100.0):
+    return [y[1], mu * (1 - y[0] ** 2) * y[1] - y[0]]
+
+
+class Solve(unittest.TestCase):
+    def test_closed_solution_at_given_times(self):
+        t = np.linspace(0, 2, 9)
+        for method in ("auto", "radau:s=3", "bdf", "rodas5p", "dopri87", "cvode"):
+            s = steif.solve(lambda t, y: [y[1], -y[0]], (0, 2), [1, 0], method=method, rtol=1e-8,
+                            t_eval=t)
+            self.assertTrue(s.success)
+            self.assertEqual(s.y.shape, (2, 9))
+            np.testing.assert_array_equal(s.t, t)
+            np.testing.assert_allclose(s.y, [np.cos(t), -np.sin(t)], atol=3e-6)
+
+    def test_steps_are_kept(self):
+        s = steif.solve(lambda t, y: -y, (0, 1), [1.0], rtol=1e-8)
+        self.assertEqual(s.t[0], 0)
+        self.assertEqual(s.t[-1], 1)
+        self.assertEqual(len(s.t), s.nsteps + 1)
+        np.testing.assert_allclose(s.y[0], np.exp(-s.t), rtol=1e-6)
+        self.assertGreater(s.nfev, 0)
+
+    @unittest.skipIf(solve_ivp is None, "no SciPy")
+    def test_stiff_as_scipy(self):
+        s = steif.solve(vdpol, (0, 50), [2, 0], rtol=1e-9)
+        r = solve_ivp(vdpol, (0, 50), [2, 0], method="Radau", rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(s.y[:, -1], r.y[:, -1], rtol=1e-6, atol=1e-6)
+
+    def test_jacobian_arguments_and_constant_step(self):
+        def jac(t, y, mu):
+            return [[0, 1], [-2 * mu * y[0] * y[1] - 1, mu * (1 - y[0] ** 2)]]
+
+        s = steif.solve(vdpol, (0, 1), [2, 0], args=(5.0,), jac=jac, rtol=1e-8, method="radau:s=3")
+        p = steif.solve(vdpol, (0, 1), [2, 0], args=(5.0,), rtol=1e-8, method="bdf")
+        np.testing.assert_allclose(s.y[:, -1], p.y[:, -1], rtol=1e-5)
+        e = steif.solve(lambda t, y: -y, (0, 1), [1], method="be", h=0.1)
+        self.assertAlmostEqual(e.y[0, -1], 1.1 ** -10, 12)
+
+    def test_singular_mass_and_a_start_that_is_repaired(self):
+        # x' = z, 0 = z^2 - x: z = 1 + t/2
+        s = steif.solve(lambda t, y: [y[1], y[1] ** 2 - y[0]], (0, 1), [1, 1],
+                        mass=[[1, 0], [0, 0]], rtol=1e-8)
+        np.testing.assert_allclose(s.y[:, -1], [2.25, 1.5], rtol=1e-7)
+
+    def test_events(self):
+        def ground(t, y):
+            return y[0]
+
+        ground.terminal, ground.direction = True, -1
+        s = steif.solve(lambda t, y: [y[1], -9.81], (0, 10), [1, 0], events=ground, rtol=1e-9)
+        self.assertEqual(s.status, 1)
+        self.assertAlmostEqual(s.t_events[0][0], math.sqrt(2 / 9.81), 8)
+        self.assertAlmostEqual(s.t[-1], math.sqrt(2 / 9.81), 8)
+        self.assertEqual(s.y_events[0][0].shape, (2,))
+
+    def test_named_problems(self):
+        s = steif.solve("rober", method="radau:s=3", rtol=1e-8)
+        self.assertEqual(s.t[-1], 1e11)
+        self.assertAlmostEqual(s.y[0, -1] / 2.0833401497e-8, 1, 5)
+        with self.assertRaisesRegex(steif.SteifError, "nearest is 'rober'"):
+            steif.solve("rober1")
+
+    def test_exceptions_come_back(self):
+        def bad(t, y):
+            if t > 0.5:
+                raise KeyError("lost")
+            return -y
+
+        with self.assertRaisesRegex(KeyError, "lost"):
+            steif.solve(bad, (0, 1), [1.0])
+        with self.assertRaises(ValueError):
+            steif.solve(lambda t, y: [1, 2, 3], (0, 1), [1.0, 2.0])
+        with self.assertRaises(steif.SteifError) as caught:
+            steif.solve(lambda t, y: -y, (0, 1), [1.0], method="radua:s=3")
+        self.assertIn("radau", str(caught.exception))
+        with self.assertRaises(steif.SteifError):
+            steif.solve(lambda t, y: -y, (1, 0), [1.0])
+        with self.assertRaises(steif.SteifError):
+            steif.solve(lambda t, y: -y, (0, 1), [float("nan")])
+
+    def test_a_run_that_stops_says_why(self):
+        s = steif.solve(lambda t, y: y ** 2, (0, 2), [1.0])
+        self.assertFalse(s.success)
+        self.assertLess(s.status, 0)
+        self.assertAlmostEqual(s.t[-1], 1, 3)
+        self.assertIn("t =", s.message)
+
+    def test_interrupt(self):
+        def slow(t, y):
+            return [math.cos(1e5 * t)]
+
+        timer = threading.Timer(0.3, signal.raise_signal, (signal.SIGINT,))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            steif.solve(slow, (0, 1000), [0.0], rtol=1e-10, max_steps=10 ** 8)
+        timer.join()
+
+
+if __name__ == "__main__":
+    unittest.main()
