@@ -109,7 +109,7 @@ class _Run:
         for i, event in enumerate(events):
             for member in ("direction", "terminal"):
                 at = lib.steif_layout(("event." + member).encode())
-                value = int(np.sign(getattr(event, member, 0)))
+                value = int(np.sign(float(getattr(event, member, 0))))
                 INT.from_address(c.addressof(rows) + i * size + at).value = value
 
         def work(t, y, value, user):
