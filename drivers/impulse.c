@@ -45,9 +45,7 @@ static const struct option options[] = {
    "nonlinear problem whose jump is not unique: positions first, then velocities", NULL},
   {"--projectors", FLAG, NULL, "show the spectral projectors, too (n > 400: of x(0-))", NULL},
   {"--vs", CHOICE, "ida|cvode|arkode",
-   "run this one, too, from the same x(0-) to --t1 (all: on each system), ida in every setting "
-   "of its error test and IDACalcIC: the one with the smallest errors, and the table of all",
-   NULL},
+   "run it, too, from x(0-) to --t1 (all: each); ida in every setting, best first", NULL},
   ANALYSIS_OPTIONS,
   OPTIONS_END,
 };
