@@ -1,6 +1,8 @@
 """One integration: callbacks from Python, arrays of NumPy on the memory of the library."""
 import ctypes as c
 import os
+import signal
+import threading
 
 import numpy as np
 
@@ -48,6 +50,29 @@ class _Arrays:
 
     def plain(self, address, n):
         return self._view(address, (n,))
+
+
+class _Interrupt:
+    """Ctrl-C sets the flag options.stop: an exception between two callbacks would be lost."""
+
+    def __init__(self, options):
+        self.flag = INT(0)
+        options.set("stop", POINTER, c.addressof(self.flag))
+        self.before = None
+
+    def __enter__(self):
+        usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        if usual and threading.current_thread() is threading.main_thread():
+            self.before = signal.signal(signal.SIGINT, self._raise)
+
+    def _raise(self, number, frame):
+        self.flag.value = 1
+
+    def __exit__(self, *reason):
+        if self.before is not None:
+            signal.signal(signal.SIGINT, self.before)
+        if self.flag.value:
+            raise KeyboardInterrupt
 
 
 class _Run:
@@ -140,14 +165,15 @@ class _Run:
         self.options.set("observe", POINTER, _OBSERVE(self.guarded(keep)))
 
     def go(self, context, method, t0, t1, times):
-        solver = lib.steif_solver_new(context.pointer, self.problem.address, method.encode(),
-                                      self.options.address)
-        if not solver:
-            raise self.raised or context.error()
-        try:
-            return self._advance(context, solver, t0, t1, times)
-        finally:
-            lib.steif_solver_free(c.byref(POINTER(solver)))
+        with _Interrupt(self.options):
+            solver = lib.steif_solver_new(context.pointer, self.problem.address, method.encode(),
+                                          self.options.address)
+            if not solver:
+                raise self.raised or context.error()
+            try:
+                return self._advance(context, solver, t0, t1, times)
+            finally:
+                lib.steif_solver_free(c.byref(POINTER(solver)))
 
     def _advance(self, context, solver, t0, t1, times):
         vector, n, code = self.arrays.vector, self.n, 0
