@@ -185,6 +185,8 @@ static void verdicts_hold_for_every_function(void)
   r.k = 4;
   CHECK(!measure(ctx, &r, "N-inc", 5, row, &result) && result.converges == 1);
   CHECK(!strncmp(result.verdict, "converges weakly in H^-5, order 0.9", 35));
+  r = (struct row){.method = "dirk:crouzeix23", .convention = STEIF_STAGE, .k = 2};
+  CHECK(!measure(ctx, &r, "N-inc", 3, row, &result) && result.converges == 1);
   r = (struct row){.method = "bdf:p=2", .start = "ramp", .convention = STEIF_R, .k = 2};
   CHECK(!measure(ctx, &r, "N-inc", 3, row, &result) && result.converges == 0);
   r = (struct row){.method = "be", .convention = STEIF_R, .k = 12};

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "pairing.h"
 #include <float.h>
+#include <string.h>
 
 /* Of a weight, in units of long double: a power and a sum of eight. */
 #define ROUNDING 4
@@ -17,13 +18,20 @@ static void add(stf_pairing *p, long double weight, const long double *x)
   for (int m = 0; m < p->n && weight != 0; m++) p->sum[m] += weight * x[m];
 }
 
+/* In order of time: nodes of a table need not ascend. */
 static void keep(stf_pairing *p, long double at, long double weight, const long double *x)
 {
   stf_events *e = p->events;
+  const size_t n = (size_t)p->n;
+  size_t k = e->count;
   if (e->count == e->room) return;
-  e->at[e->count] = at;
-  for (int m = 0; m < p->n; m++) e->value[e->count * (size_t)p->n + (size_t)m] = weight * x[m];
   e->count++;
+  for (; k > 0 && e->at[k - 1] > at; k--) {
+    e->at[k] = e->at[k - 1];
+    memcpy(e->value + k * n, e->value + (k - 1) * n, n * sizeof *x);
+  }
+  e->at[k] = at;
+  for (size_t m = 0; m < n; m++) e->value[k * n + m] = weight * x[m];
 }
 
 /* The event of node i in convention P, R or C. */
