@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
 #include "problem.h"
+#include "two_starts.h"
 
 /* Is there something to look for a consistent start in? */
 static bool has_start(const steif_problem *p, const steif_diagnosis *d)
@@ -18,6 +19,7 @@ static int look(struct call *call, const steif_problem *p, const steif_point *q)
   if (has_start(p, &a.diagnosis) &&
       steif_consistent(call->ctx, p, q, NULL, &a.start) != STEIF_OK)
     say(call, "%s", steif_message(call->ctx));
+  if (!q && a.start.y) two_starts_of_problem(call, p, a.start.y, a.beside);
   const int code = diagnosis_present(call, &a);
   steif_start_clear(&a.start);
   steif_diagnosis_clear(&a.diagnosis);

@@ -97,6 +97,7 @@ struct diagnosis_answer {
   const steif_problem *problem;
   steif_diagnosis diagnosis;
   steif_start start; /* y NULL: there is none */
+  char beside[640];  /* what x(0+) has to say of it; "": nothing */
 };
 int diagnosis_present(const struct call *call, const struct diagnosis_answer *a);
 

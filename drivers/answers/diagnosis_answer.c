@@ -41,6 +41,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_list(r, "start.y", there, s->y);
   steif_report_list(r, "start.yp", there, s->yp);
   steif_report_list(r, "start.moved", there, s->moved);
+  if (a->beside[0]) steif_report_text(r, "start.beside", a->beside);
   steif_report_text(r, "message", d->message);
 }
 
@@ -55,6 +56,6 @@ int diagnosis_present(const struct call *call, const struct diagnosis_answer *a)
   else if (undecided)
     say(call, "%s [STEIF_NOT_CERTIFIED]", d->message);
   else if (a->start.y)
-    say(call, "start: %s", a->start.message);
+    say(call, "start: %s%s%s", a->start.message, a->beside[0] ? "; " : "", a->beside);
   return code ? code : singular ? EXIT_SINGULAR : undecided ? EXIT_UNCERTIFIED : EXIT_OK;
 }

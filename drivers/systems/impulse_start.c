@@ -1,6 +1,7 @@
 /* impulse_start.c: the jump of E x' + F x = f at its start, and the spectral projectors.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "impulse.h"
+#include "two_starts.h"
 #include <stdlib.h>
 
 enum { SHOWN = 400 }; /* unknowns up to which projectors are shown as matrices */
@@ -56,8 +57,11 @@ static int tell(struct call *call, const struct descriptor *l, const steif_struc
                 const steif_impulse *i)
 {
   steif_report *r = steif_report_new(call->ctx);
+  char beside[TWO_STARTS_TEXT];
   int code = r ? EXIT_OK : fail(call);
   if (!code) report_impulse(r, l, i);
+  if (!code) two_starts_of_system(call, l, i->x_plus, beside);
+  if (!code && beside[0]) steif_report_text(r, "nearest", beside);
   if (!code && given(call, "--projectors")) code = report_projectors(call, l, s, r);
   if (!code && given(call, "--vs")) report_beside(call, l, word_of(call, "--vs"), r);
   if (!code) code = show(call, r);
