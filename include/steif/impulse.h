@@ -13,7 +13,9 @@
  * off. Sparse pencils: Cauchy integrals over a circle of radius R beyond the finite eigenvalues,
  * equilibrated, four nodes at a time in vector registers with the pivots of one complex
  * factorisation by KLU, refined where residuals ask; certified when the number of finite
- * eigenvalues counted inside the circle (Jensen's formula) equals the structural degree.
+ * eigenvalues counted inside the circle (Jensen's formula) equals the structural degree, or what is
+ * left of it where entries cancel exactly: ranks modulo two random primes near 2^62 tell, which also
+ * decide whether a pencil is singular.
  * What double precision does not decide is reported as undecided with a lower bound, never guessed.
  * Units of equations and unknowns decide nothing, whatever their sizes: rows and columns are scaled
  * by powers of two so that all entries come near to one size, where that is possible.

@@ -1,6 +1,7 @@
 /* test_certificates.c: what is certified is right, and what is right is certified: pencils whose truth is
  * known from integers or from the blocks they are made of, and each reason not to certify.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "dense_agreement.h"
 #include "dense_algorithm.h"
 #include "impulse/families.h"
 #include "impulse/systems.h"
@@ -171,6 +172,29 @@ static void one_is_outside(void)
 
 /* -- every reason --------------------------------------------------------------------------------- */
 
+/* x(0+) or one impulse apart; impulses that are nothing beside F c_0 = -E (x(0+) - x(0-)) may differ. */
+static void answers_are_compared(void)
+{
+  double E[4] = {1, 0, 0, 1}, F[4] = {1, 0, 0, 1}, Ex0[2] = {1, 2}, room[2];
+  double plus[2] = {1, 1}, other[2] = {1, 1}, c[4] = {1, 0, 0.5, 0}, d[4] = {1, 0, 0.5, 0};
+  const stf_dense_units units = {.n = 2, .E = E, .F = F};
+  const stf_sources sources = {2, -1, Ex0, NULL};
+  const steif_impulse one = {.n = 2, .index = 3, .count = 2, .x_plus = plus, .c = c};
+  const steif_impulse two = {.n = 2, .index = 3, .count = 2, .x_plus = other, .c = d};
+  const stf_two_starts both = {
+    .units = &units, .sources = &sources, .one = &one, .two = &two, .difference = room};
+  CHECK(stf_starts_agree(&both, 1e-3) && stf_starts_apart(&both) == 0);
+  d[3] = 0.01;
+  CHECK(!stf_starts_agree(&both, 1e-3) && stf_starts_apart(&both) == 0);
+  d[3] = 0, d[1] = 0.01;
+  CHECK(!stf_starts_agree(&both, 1e-3) && stf_starts_agree(&both, 0.1));
+  c[0] = d[0] = d[1] = 1e-8, d[0] = 0, c[2] = d[2] = 0;
+  CHECK(stf_starts_agree(&both, 1e-3));
+  other[1] = 1.01;
+  CHECK(!stf_starts_agree(&both, 1e-3));
+  CLOSE(stf_starts_apart(&both), 0.01 / sqrt(2), 1e-12);
+}
+
 static void each_reason_stands(void)
 {
   steif_structure a = {.index = 2, .finite = 3, .count = 3.01}, b = {.index = 2, .radius = 10};
@@ -214,5 +238,6 @@ CU_TestInfo tests_of_certificates[] = {
   {"by circles, too", nothing_is_left_by_circles},
   {"sums that are rounded are not certified, or snapped", rounded_sums},
   {"ranks know of eigenvalues outside", one_is_outside},
+  {"x(0+) and every impulse are compared", answers_are_compared},
   {"each reason not to certify stands alone", each_reason_stands},
   CU_TEST_INFO_NULL};
