@@ -5,6 +5,7 @@
 
 #include <steif/collection.h>
 #include <steif/input.h>
+#include <steif/model.h>
 #include <steif/report.h>
 
 #endif

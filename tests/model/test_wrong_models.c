@@ -1,6 +1,7 @@
 /* test_wrong_models.c: wrong models, and what is said about them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
+#include <ctype.h>
 
 typedef struct wrong {
   const char *text, *rest, *sentence; /* after the path of the folder */
@@ -38,6 +39,60 @@ static const wrong models[] = {
    "m.steif:2:10: a loop of 1e+12 passes; 1e8 is the most."},
   {"state u[i in 1:3] = 0\nfor i in 1:1000000000\nu[i]' = 0\nend\n", "",
    "m.steif:2:10: a loop of 1e+09 passes; 1e8 is the most."},
+  {"state x = 1, y = 1\n\nstate lambda\nx' = y + lambda\ny' = -x\ntime 0 to 1\n", "",
+   "m.steif: 2 equations for 3 unknowns: nothing determines 'lambda' (line 3), or else one of "
+   "'x', 'y' that "
+   "share its equations; add an equation that contains it or remove it"},
+  {"state x = 1, y = 1\nx' = vx\ny' = vy\nlet a = 1\nstate vx=1,vy=1\nvx' = 1\nvy' = 2\n0 = vx "
+   "+ vy - 1\ntime 0 to 1\n",
+   "",
+   "m.steif: 5 equations for 4 unknowns: those of lines 6, 7, 8 determine only 'vx', 'vy'; one "
+   "of the 3 is too many"},
+  {"state x = 1, z, w\nx' = z\n0 = z - 1\n0 = z + 2\ntime 0 to 1\n", "",
+   "m.steif: no matching: the equations of lines 3, 4 contain 'z' only, nothing determines 'w' "
+   "(line 1)"},
+  {"state y = 1\ny' = 1\nstate x\n\n\nx' = 2\ntime 0 to 1\n", "",
+   "m.steif:3:7: 'x' needs a start value since its derivative occurs; write 'state x = ...', "
+   "or '~' for a guess. "
+   "Only states without derivative may leave it out"},
+  {"state x = 1\nfunction f(x) = f(x-1)\nx' = f(x)\ntime 0 to 1\n", "",
+   "m.steif:2:10: function 'f' calls itself; recursion is not part of the language"},
+  {"param x0 = 2\nstate x = 2\n\n\nx' = 1/(x - x0)\ntime 0 to 1\n", "",
+   "m.steif:5:7: division by zero at the start (t = 0, x = 2); change the start or rewrite"},
+  {"state z = -1\nz'=0\nstate y = 1\n\ny' = log(z)\ntime 0 to 1\n", "",
+   "m.steif:5:6: log of -1 at the start (t = 0, z = -1)"},
+  {"\n\n\nstate u[i in 1:100] = 1\n\n\nfor i in 2:99\nu[i]' = 1\nend\ntime 0 to 1\n", "",
+   "m.steif: no equation for u[1], u[100] (declared in line 4)"},
+  {"\nparam n = 2.5\nstate u[1:n] = 1\n", "",
+   "m.steif:3:7: the size n = 2.5 must be a whole number from 1 to 1e7; declare 'param n = 2 "
+   "whole'"},
+  {"state v = 1\nv' = 1\nwhen v: v = 0\n", "",
+   "m.steif:3:6: expected a condition such as v < 0, or 'v falling'"},
+  {"state v = 1, k2 = 1\nv' = 1\nk2' = 1\nwhen v < 0: k2 = sin(\n", "",
+   "m.steif:4:22: expected an expression, found the end of the line"},
+  {"include \"../a\"\n", "",
+   "m.steif:1:9: '../a' leaves the directory of the model; copy the file beside it"},
+  {"table f = \"/etc/x\" column 1 linear\nstate x = 1\nx' = f(t)\ntime 0 to 1\n", "",
+   "m.steif:1:11: '/etc/x' leaves the directory of the model; copy the file beside it"},
+  {"state x = -1\nx' = 1\nrequire x >= 0\ntime 0 to 1\n", "",
+   "m.steif:3:9: x = -1 at the start contradicts 'require x >= 0'"},
+  {"state x = 1.1, y = 0, vx = 0, vy = 0, l\nx' = vx\ny' = vy\nvx' = -l*x\nvy' = -l*y - 1\n0 = "
+   "x^2 + y^2 - 1\ntime 0 to 1\n",
+   "", "m.steif: fixed values contradict each other"},
+  {"state x = 1\nx' = ln(x)\ntime 0 to 1\n", "",
+   "m.steif:2:6: 'ln' is written log, which is natural here"},
+  {"state x = 1\nx' = sin(x, 2) + x*(x < 1)\ntime 0 to 1\n", "",
+   "m.steif:2:19: expected a number, found a condition"},
+  {"state x = 1\nx' = sin(x, 2)\ntime 0 to 1\n", "",
+   "m.steif:2:6: 'sin' takes 1 argument, got 2"},
+  {"state x = 1\nfor i in 1:3\nx' = 1\ntime 0 to 1\n", "",
+   "m.steif:2:1: this loop has no 'end'; close it"},
+  {"param a = 3 in [0, 2]\nstate x = 1\nx' = a\ntime 0 to 1\n", "",
+   "m.steif:1:7: a = 3 must lie in [0, 2]"},
+  {"form ode\nstate x = 1, y\nx' = y\n0 = x - y\ntime 0 to 1\n", "",
+   "m.steif:1:6: the form is mass: an equation has no derivative"},
+  {"state x = 1\nx' = 1\ntime 1 to 0\n", "",
+   "m.steif:3:6: the interval from 1 to 0; the end lies after the start"},
 };
 
 static void have_their_sentence(void)
@@ -53,5 +108,59 @@ static void have_their_sentence(void)
   }
 }
 
-CU_TestInfo tests_of_wrong_models[] = {{"each has its sentence", have_their_sentence},
+/* 250 parentheses; a zero byte; a file that is a directory; a directory of a path that leaves. */
+static void are_survived(void)
+{
+  char text[600] = "state x = 1\nx' = ";
+  fixture s;
+  memset(text + strlen(text), '(', 250);
+  CHECK(fixture_text(&s, text, "") == STEIF_BAD_INPUT);
+  CU_ASSERT_PTR_NOT_NULL(strstr(steif_message(s.ctx), "nested more than 200 deep"));
+  steif_problem p;
+  CHECK(steif_problem_find(s.ctx, "/tmp/no such folder/m.steif", &p) == STEIF_IO);
+  fixture_close(&s);
+  CHECK(fixture_text(&s,
+                     "\xff\xfe"
+                     "a",
+                     "") == STEIF_BAD_INPUT);
+  CU_ASSERT_PTR_NOT_NULL(strstr(steif_message(s.ctx), "save it as UTF-8"));
+  fixture_close(&s);
+}
+
+/* Each example with one token left out or doubled is a model or has a sentence. */
+static void of_one_token(void)
+{
+  static const char *const examples[] = {"rober", "pendulum", "bounce", "brusselator",
+                                         "hunters"};
+  char text[2000], changed[2400];
+  steif_context *ctx = steif_context_new(NULL);
+  for (int k = 0; k < 5; k++) {
+    snprintf(text, sizeof text, "%s/%s.steif", EXAMPLES, examples[k]);
+    FILE *file = fopen(text, "r");
+    CU_ASSERT_FATAL(file != NULL);
+    const size_t length = fread(text, 1, sizeof text - 1, file);
+    fclose(file);
+    text[length] = 0;
+    for (size_t at = 0, end; at < length; at = end) {
+      end = at + 1;
+      while (end < length && isalnum((unsigned char)text[at]) &&
+             isalnum((unsigned char)text[end]))
+        end++;
+      for (int doubled = 0; doubled < 2; doubled++) {
+        steif_problem p = {0};
+        snprintf(changed, sizeof changed, "%.*s %.*s%s", (int)(doubled ? end : at), text,
+                 (int)(end - at), doubled ? text + at : "                        ", text + end);
+        steif_forget(ctx);
+        const int code = steif_model_parse(ctx, changed, "m.steif", NULL, &p);
+        CHECK(code == STEIF_OK || (code < 0 && strcmp(steif_message(ctx), "ok")));
+        steif_problem_clear(ctx, &p);
+      }
+    }
+  }
+  steif_context_free(&ctx);
+}
+
+CU_TestInfo tests_of_wrong_models[] = {{"hostile texts", are_survived},
+                                       {"one token more or less", of_one_token},
+                                       {"each has its sentence", have_their_sentence},
                                        CU_TEST_INFO_NULL};

@@ -3,34 +3,24 @@
 #include "model_file.h"
 #include "reactions.h"
 #include "text.h"
-#include <errno.h>
+#include <steif/model.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- reading
  * ---------------------------------------------------------------------------------
  */
 
-/* The whole file into the pool. */
-static int read_text(stf_model *m, const char *path)
+static int take_text(stf_model *m, const char *path, const char *text)
 {
-  FILE *file = stf_input_open(m->ctx, path);
-  if (!file) return steif_status(m->ctx);
-  long size = -1;
-  if (!fseek(file, 0, SEEK_END)) size = ftell(file);
-  int code = STEIF_OK;
-  char *text = NULL;
+  const size_t length = strlen(text);
+  STEIF_CHECK(length <= STF_LARGEST_TEXT, m->ctx, STEIF_BAD_INPUT,
+              "%s: %zu bytes; %d are the most. Use loops", path, length, STF_LARGEST_TEXT);
   stf_text *to = stf_vector_push(m->ctx, &m->syntax.sources.texts, sizeof *to);
-  if (size < 0 || fseek(file, 0, SEEK_SET))
-    code = STEIF_FAIL(m->ctx, STEIF_IO, "cannot read '%s'; check the path", path);
-  else if (size > STF_LARGEST_TEXT)
-    code = STEIF_FAIL(m->ctx, STEIF_BAD_INPUT, "%s: %ld bytes; %d are the most. Use loops",
-                      path, size, STF_LARGEST_TEXT);
-  else
-    text = stf_pool_array(m->pool, (size_t)size + 1, 1);
-  if (!code && (!text || !to)) code = STEIF_NO_MEMORY;
-  if (!code) *to = (stf_text){path, text, 0, (uint32_t)fread(text, 1, (size_t)size, file)};
-  fclose(file);
-  return code;
+  char *copy = to ? stf_pool_array(m->pool, length + 1, 1) : NULL;
+  if (!copy) return STEIF_NO_MEMORY;
+  *to = (stf_text){path, strcpy(copy, text), 0, (uint32_t)length};
+  return STEIF_OK;
 }
 
 int stf_number_of(stf_model *m, const stf_expression *e, double *value)
@@ -135,6 +125,7 @@ void stf_model_free(stf_model *m)
   stf_reactions_free(m);
   quantity_free(m, &m->events);
   quantity_free(m, &m->invariants);
+  quantity_free(m, &m->outputs);
   quantity_free(m, &m->f);
   quantity_free(m, &m->A.quantity);
   quantity_free(m, &m->E.quantity);
@@ -157,28 +148,39 @@ static int model_new(steif_context *ctx, stf_model **model)
   return stf_words_open(&m->syntax.words, ctx, pool);
 }
 
-static int build(stf_model *m, const char *path, const steif_spec *spec, steif_problem *p)
+static int build(stf_model *m, const char *path, const char *text, const steif_spec *spec,
+                 steif_problem *p)
 {
-  STEIF_TRY(read_text(m, path));
+  m->syntax.pool = m->pool;
+  STEIF_TRY(text ? take_text(m, path, text)
+                 : stf_source_read(&m->syntax.sources, m->pool, path, path));
   STEIF_TRY(stf_parse(&m->syntax, 0));
   STEIF_TRY(stf_complaints(&m->syntax.sources));
   STEIF_TRY(lower(m, spec));
   return stf_model_fill(m, p);
 }
 
-int stf_model_open(steif_context *ctx, const char *path, const steif_spec *spec,
-                   steif_problem *p)
+static int open_model(steif_context *ctx, const char *path, const char *text,
+                      const steif_spec *spec, steif_problem *p)
 {
   stf_model *m = NULL;
   stf_plain plain;
   int code = model_new(ctx, &m);
-  if (!code) code = stf_plain_begin(ctx, &plain);
-  if (!code) {
-    code = build(m, path, spec, p);
-    stf_plain_end(&plain);
-  }
   p->user = m;
+  if (!code) code = stf_plain_begin(ctx, &plain);
+  if (code) return code;
+  if (spec) m->spec = *spec;
+  code = build(m, path, text, spec, p);
+  if (code && code != STEIF_NO_MEMORY && m->syntax.sources.errors)
+    code = stf_complaints(&m->syntax.sources);
+  stf_plain_end(&plain);
   return code;
+}
+
+int stf_model_open(steif_context *ctx, const char *path, const steif_spec *spec,
+                   steif_problem *p)
+{
+  return open_model(ctx, path, NULL, spec, p);
 }
 
 void stf_model_close(steif_context *ctx, steif_problem *p)
@@ -186,4 +188,63 @@ void stf_model_close(steif_context *ctx, steif_problem *p)
   (void)ctx;
   if (p->user) stf_model_free(p->user);
   p->user = NULL;
+}
+
+/* ---- texts ----------------------------------------------------------------------------------- */
+
+static int no_build(steif_context *ctx, const steif_spec *spec, steif_problem *self)
+{
+  (void)spec;
+  return STEIF_FAIL(ctx, STEIF_UNSUPPORTED, "problem '%s' is made from a text already",
+                    self->name);
+}
+
+int steif_model_parse(steif_context *ctx, const char *text, const char *name,
+                      const steif_spec *parameters, steif_problem *p)
+{
+  STEIF_CHECK(text && name && p, ctx, STEIF_BAD_INPUT,
+              "a text, its name and a place for the problem are needed, got NULL");
+  char *copy = stf_allocate(ctx, strlen(name) + 1, 1);
+  if (!copy) return STEIF_NO_MEMORY;
+  *p =
+    (steif_problem){.name = strcpy(copy, name), .build = no_build, .destroy = stf_model_close};
+  const int code = open_model(ctx, copy, text, parameters, p);
+  if (!code) return STEIF_OK;
+  stf_model_close(ctx, p);
+  stf_release(ctx, copy);
+  *p = (steif_problem){0};
+  return code;
+}
+
+/* The value among those that are given. */
+static int give(steif_context *ctx, steif_spec *spec, const char *name, sunrealtype value)
+{
+  int i = 0;
+  while (i < spec->count && strcmp(spec->param[i].key, name)) i++;
+  STEIF_CHECK(
+    i < STEIF_SPEC_PARAMS && strlen(name) < STEIF_SPEC_WORD, ctx, STEIF_UNSUPPORTED,
+    "more than %d parameters that differ from the text, or a name too long; change the text",
+    STEIF_SPEC_PARAMS);
+  if (i == spec->count) strcpy(spec->param[spec->count++].key, name);
+  snprintf(spec->param[i].value, sizeof spec->param[i].value, "%.17g", value);
+  return STEIF_OK;
+}
+
+int steif_model_set(steif_context *ctx, steif_problem *p, const char *name, sunrealtype value)
+{
+  STEIF_CHECK(p && name && p->destroy == stf_model_close, ctx, STEIF_BAD_INPUT,
+              "a problem made from a text and the name of a parameter are needed");
+  const stf_model *m = p->user;
+  steif_problem next = {.name = p->name, .build = p->build, .destroy = p->destroy};
+  steif_spec spec = m->spec;
+  STEIF_TRY(give(ctx, &spec, name, value));
+  const int code =
+    open_model(ctx, p->name, STF_AT(m->syntax.sources.texts, stf_text, 0)->text, &spec, &next);
+  if (code)
+    stf_model_close(ctx, &next);
+  else {
+    stf_model_close(ctx, p);
+    *p = next;
+  }
+  return code;
 }

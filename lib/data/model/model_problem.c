@@ -45,13 +45,26 @@ static bool retried(const stf_model *m, stf_feed *feed, double *to)
   return finite(m->n, to);
 }
 
-static int run(sunrealtype t, N_Vector y, N_Vector yp, N_Vector out, const stf_model *m)
+/* The operation that has no value, as a failure that a smaller step may cure. */
+static int blame(stf_model *m, const stf_feed *feed, const double *f)
+{
+  stf_blame found;
+  int32_t i = 0;
+  int line, column;
+  while (i < m->n && isfinite(f[i])) i++;
+  if (i == m->n || !stf_find_blame(m, feed, i, &found)) return 1;
+  const stf_text *text = stf_place(&m->syntax.sources, found.at, &line, &column);
+  return STEIF_RECOVER(m->ctx, STEIF_NOT_FINITE, "%s:%d:%d: %s, in the equation of row %s",
+                       text->name, line, column, found.what, m->unknown[i]);
+}
+
+static int run(sunrealtype t, N_Vector y, N_Vector yp, N_Vector out, stf_model *m)
 {
   stf_feed feed = feed_at(m, t, y, yp);
   double *to = N_VGetArrayPointer(out);
   memset(to, 0, (size_t)m->n * sizeof *to);
   stf_quantity_run(m, &m->f, &feed, to);
-  return finite(m->n, to) || retried(m, &feed, to) ? 0 : 1;
+  return finite(m->n, to) || retried(m, &feed, to) ? 0 : blame(m, &feed, to);
 }
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
@@ -183,9 +196,9 @@ static const char *title(stf_model *m)
   for (size_t i = 0; i < m->syntax.statements.count; i++) {
     const stf_statement *s = stf_statement_at(m, (int32_t)i);
     if (s->kind != STF_SAY_TITLE) continue;
-    const stf_text *text = STF_AT(m->syntax.sources.texts, stf_text, 0);
     char *copy = stf_pool_array(m->pool, (size_t)s->strlength + 1, 1);
-    return copy ? memcpy(copy, text->text + s->string, s->strlength) : NULL;
+    return copy ? memcpy(copy, stf_source_at(&m->syntax.sources, s->string), s->strlength)
+                : NULL;
   }
   return "a model";
 }
@@ -210,6 +223,30 @@ static void events(stf_model *m, steif_problem *p)
   p->event_list = m->event_list;
   p->handle_event = stf_reactions_handle;
   p->begin = stf_reactions_begin;
+}
+
+/* A start at which an equation has no value is no start. */
+static int check_start(stf_model *m)
+{
+  stf_blame found;
+  stf_feed feed = m->feed;
+  feed.t = m->t0;
+  feed.y = m->y0;
+  feed.yp = m->yp0;
+  if (m->form == STEIF_IMPLICIT && !feed.yp) return STEIF_OK;
+  double *f = stf_allocate(m->ctx, (size_t)m->n, sizeof *f);
+  if (!f) return STEIF_NO_MEMORY;
+  stf_quantity_run(m, &m->f, &feed, f);
+  int32_t i = 0;
+  while (i < m->n && isfinite(f[i])) i++;
+  stf_release(m->ctx, f);
+  if (i == m->n || !stf_find_blame(m, &feed, i, &found)) return STEIF_OK;
+  char *mark = strstr(found.what, " (t = ");
+  if (mark) *mark = 0;
+  stf_complain(&m->syntax.sources, found.at, STEIF_NOT_FINITE,
+               "%s at the start%s%s; change the start or rewrite", found.what, mark ? " (" : "",
+               mark ? mark + 2 : "");
+  return stf_complaints(&m->syntax.sources);
 }
 
 int stf_model_fill(stf_model *m, steif_problem *p)
@@ -237,5 +274,6 @@ int stf_model_fill(stf_model *m, steif_problem *p)
   STEIF_TRY(stf_finish(m, p));
   STEIF_TRY(stf_reactions_begin(m->t0, m));
   STEIF_TRY(stf_consistent_start(m, p));
-  return stf_reactions_begin(m->t0, m);
+  STEIF_TRY(stf_reactions_begin(m->t0, m));
+  return check_start(m);
 }

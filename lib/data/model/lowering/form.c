@@ -116,20 +116,6 @@ static int classify(stf_model *m, stf_block *block, stf_equation *e, int32_t *ta
   return divide(m, block, e, taken_by, rest);
 }
 
-static int count_equations(stf_model *m)
-{
-  int64_t count = 0;
-  for (size_t i = 0; i < m->blocks.count; i++) {
-    const stf_block *block = *STF_AT(m->blocks, stf_block *, i);
-    count += stf_passes(&block->box) * (int64_t)block->equations.count;
-  }
-  if (count == m->n) return STEIF_OK;
-  return stf_complain(
-    &m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT, "%lld equation%s for %d unknowns; %s",
-    (long long)count, count == 1 ? "" : "s", (int)m->n,
-    count < m->n ? "add one for each that is missing" : "remove what is too much");
-}
-
 /* The rows that are left, in the order of the file. */
 static int others(stf_model *m, int32_t *taken_by)
 {
@@ -164,6 +150,24 @@ static int each(stf_model *m, int32_t *taken_by, bool explicit)
   return STEIF_OK;
 }
 
+/* A form that the text asks for: a more general one is taken, a simpler one cannot be. */
+static int wished(stf_model *m)
+{
+  for (size_t i = 0; i < m->syntax.statements.count; i++) {
+    const stf_statement *s = stf_statement_at(m, (int32_t)i);
+    if (s->kind != STF_SAY_FORM) continue;
+    m->wished = s->whole;
+    if (m->wished == STEIF_DESCRIPTOR && m->form != STEIF_IMPLICIT) return STEIF_OK;
+    if (m->wished < m->form || m->wished == STEIF_DESCRIPTOR)
+      return stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
+                          "the form is %s: %s; leave this line out", steif_form_name(m->form),
+                          m->why);
+    m->form = m->wished;
+    m->why = "the text asks for this form";
+  }
+  return STEIF_OK;
+}
+
 int stf_deduce_form(stf_model *m)
 {
   int32_t *taken_by = stf_allocate(m->ctx, (size_t)m->n, sizeof *taken_by);
@@ -171,9 +175,11 @@ int stf_deduce_form(stf_model *m)
   m->form = STEIF_ODE;
   m->why = "every equation is solved for a derivative of its own";
   int code = each(m, taken_by, true);
-  if (!code) code = count_equations(m);
+  if (!code) code = stf_count_equations(m, taken_by);
+  if (!code && m->syntax.sources.errors) code = STEIF_BAD_INPUT;
   if (!code) code = each(m, taken_by, false);
   if (!code) code = others(m, taken_by);
+  if (!code) code = wished(m);
   stf_release(m->ctx, taken_by);
   const int told = stf_complaints(&m->syntax.sources);
   return told ? told : code;

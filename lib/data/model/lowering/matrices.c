@@ -269,7 +269,15 @@ static int finish(stf_model *m, stf_vector *A, stf_vector *E)
 {
   m->linear = m->form != STEIF_IMPLICIT && !m->switches && !m->timers && !switched(m) &&
               !(dependence(m, A) & ~(STF_ON_PARAMETER | STF_ON_PASS));
-  if (m->linear && m->form == STEIF_MASS) m->form = STEIF_DESCRIPTOR;
+  const bool descriptor = m->wished ? m->wished == STEIF_DESCRIPTOR : m->form == STEIF_MASS;
+  if (m->wished == STEIF_DESCRIPTOR && !m->linear)
+    return stf_complain(&m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,
+                        "form descriptor needs equations with constant coefficients, linear in "
+                        "all unknowns, without events");
+  if (m->linear && descriptor) {
+    m->form = STEIF_DESCRIPTOR;
+    m->why = m->wished ? m->why : "linear with constant coefficients";
+  }
   STEIF_TRY(pattern(m, A, &m->A));
   STEIF_TRY(tapes(m, A, &m->A));
   if (m->form == STEIF_ODE) return build_values(m, false);

@@ -85,6 +85,7 @@ typedef struct stf_matrix {
 typedef struct stf_model {
   steif_context *ctx;
   stf_pool *pool;
+  steif_spec spec; /* parameters that are given */
   stf_syntax syntax;
   stf_vector symbols;   /* stf_symbol */
   stf_vector symbol_of; /* int32_t by word: 1 + symbol; 0: none */
@@ -97,14 +98,14 @@ typedef struct stf_model {
   const char *why; /* why not a simpler form */
   stf_matrix A, E;
   stf_quantity f; /* f, F or g */
-  stf_quantity events, invariants;
+  stf_quantity events, invariants, outputs;
   stf_feed feed;
   /* memory: discrete values, switches, timers */
   double *memory, *memory_start, *memory_literal;
   double t0, t1;
   uint8_t *constraint_of; /* statements: it is a constraint of the problem */
   bool constrained;
-  int32_t memories, switches, timers, invariant_count;
+  int32_t memories, switches, timers, invariant_count, output_count;
   uint8_t *switch_used, *switch_open; /* switches */
   stf_vector breaks;                  /* double */
   stf_block *event_block;
@@ -193,6 +194,14 @@ int stf_build_blocks(stf_model *m);
 int stf_deduce_form(stf_model *m);
 /* The value of a node that depends on parameters only. */
 int stf_fixed_value(stf_model *m, const stf_graph *g, int32_t node, double *value);
+/* counting.c: as many equations as unknowns, each with one of its own; taken_by: rows that are explicit. */
+int stf_count_equations(stf_model *m, const int32_t *taken_by);
+/* blame.c: why row `row` of f or F has no value. */
+typedef struct stf_blame {
+  uint32_t at;
+  char what[400];
+} stf_blame;
+bool stf_find_blame(stf_model *m, const stf_feed *feed, int32_t row, stf_blame *blame);
 /* matrices.c: tapes of f and the matrices. */
 int stf_build_tapes(stf_model *m);
 int stf_compile_quantity(stf_model *m, const stf_block *block, const stf_vector *stores,

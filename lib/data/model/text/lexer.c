@@ -247,6 +247,9 @@ int stf_lex(stf_sources *sources, size_t which, stf_words *words, stf_vector *to
     if (code) leave(&l);
     if (code && !byte(&l, l.at)) break;
   }
-  l.open = 0;
+  if (goes_on(&l) && l.tokens->count) { /* the place is that of what is missing */
+    const stf_token *last = STF_AT(*l.tokens, stf_token, l.tokens->count - 1);
+    if (last->at >= l.base) l.at = last->at - l.base + last->length;
+  }
   return push(&l, STF_TOKEN_END, 0, l.at, 0);
 }

@@ -35,6 +35,15 @@ int stf_complain(stf_sources *s, uint32_t at, int code, const char *format, ...)
 /* All that has been kept, as one failure; STEIF_OK when there is none. */
 int stf_complaints(stf_sources *s);
 
+/* A file as the next text, known by `name` in sentences; its contents live in the pool. */
+int stf_source_read(stf_sources *s, stf_pool *pool, const char *path, const char *name);
+/* "sub/feed.csv" in the folder of the first text or below it, in the pool; a path that leaves it is a
+ * complaint at `at`. */
+int stf_source_path(stf_sources *s, stf_pool *pool, uint32_t at, const char *name,
+                    uint32_t length, const char **path);
+/* The characters at a place. */
+const char *stf_source_at(const stf_sources *s, uint32_t at);
+
 /* Line and column of a place, from 1; columns count characters. */
 const stf_text *stf_place(const stf_sources *s, uint32_t at, int *line, int *column);
 int stf_line_of(const stf_sources *s, uint32_t at);

@@ -168,6 +168,31 @@ static bool acting(const stf_reader *r)
   return kind == STF_SAY_WHEN || kind == STF_SAY_AT || kind == STF_SAY_EVERY;
 }
 
+/* The statements of another file stand here. */
+static int include(stf_reader *r, uint32_t at)
+{
+  enum { FILES = 64, DEEP = 8 };
+  stf_syntax *x = r->p.syntax;
+  stf_statement s = stf_reader_fresh(r, STF_SAY_TITLE);
+  const char *path;
+  STEIF_TRY(stf_reader_string(r, &s));
+  if (r->parent >= 0)
+    return stf_reader_fail(r, at, "include stands outside of loops and events");
+  STEIF_TRY(stf_source_path(&x->sources, x->pool, s.string - 1,
+                            stf_source_at(&x->sources, s.string), s.strlength, &path));
+  if (x->depth == DEEP || x->sources.texts.count == FILES)
+    return stf_reader_fail(
+      r, at, "files included more than 8 deep, or more than 64; a file includes itself?");
+  const size_t which = x->sources.texts.count;
+  x->depth++;
+  const bool read = !stf_source_read(&x->sources, x->pool, path, path);
+  const int code = read ? stf_parse(x, which)
+                        : stf_complain(&x->sources, at, steif_status(x->sources.ctx),
+                                       "cannot read the included file");
+  x->depth--;
+  return code;
+}
+
 static int dispatch(stf_reader *r, const stf_token *t)
 {
   switch (t->word) {
@@ -180,6 +205,7 @@ static int dispatch(stf_reader *r, const stf_token *t)
   case STF_WORD_FUNCTION: return stf_reader_function(r);
   case STF_WORD_BOUNDARY: return stf_reader_list(r, STF_SAY_BOUNDARY, stf_reader_assignment);
   case STF_WORD_TABLE: return stf_reader_table(r);
+  case STF_WORD_INCLUDE: return include(r, t->at);
   case STF_WORD_FOR: return loop(r, t);
   case STF_WORD_WHEN: return when(r);
   case STF_WORD_AT: return instants(r);
@@ -227,8 +253,8 @@ int stf_parse(stf_syntax *syntax, size_t which)
   const size_t first = syntax->tokens.count;
   STEIF_TRY(stf_lex(&syntax->sources, which, &syntax->words, &syntax->tokens));
   stf_reader r = {.p = {.syntax = syntax, .at = first}, .parent = -1};
-  while (r.p.at < syntax->tokens.count && syntax->sources.errors < STF_ERRORS)
-    STEIF_TRY(line(&r));
+  const size_t end = syntax->tokens.count;
+  while (r.p.at < end && syntax->sources.errors < STF_ERRORS) STEIF_TRY(line(&r));
   if (r.parent < 0) return STEIF_OK;
   const stf_statement *open = STF_AT(syntax->statements, stf_statement, r.parent);
   return stf_complain(&syntax->sources, open->at, STEIF_BAD_INPUT,

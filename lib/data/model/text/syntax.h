@@ -81,6 +81,8 @@ typedef struct stf_statement {
 
 typedef struct stf_syntax {
   stf_sources sources;
+  stf_pool *pool;
+  int depth; /* of files included by files */
   stf_words words;
   stf_vector tokens, statements, codes, indices; /* indices: of stf_range */
 } stf_syntax;

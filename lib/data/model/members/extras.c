@@ -105,7 +105,8 @@ static int invariant_values(sunrealtype t, N_Vector y, sunrealtype *value, void 
   return 0;
 }
 
-static int invariants(stf_model *m, steif_problem *p)
+/* The values of all statements of a kind, as one quantity. */
+static int collect(stf_model *m, int kind, stf_quantity *q, int32_t *count)
 {
   stf_block block = {.graph = {.ctx = m->ctx}};
   stf_builder b;
@@ -114,19 +115,28 @@ static int invariants(stf_model *m, steif_problem *p)
   for (size_t i = 0; !code && i < m->syntax.statements.count; i++) {
     const stf_statement *s = stf_statement_at(m, (int32_t)i);
     int32_t node = 0;
-    if (s->kind != STF_SAY_INVARIANT) continue;
-    code = stf_build(&b, &s->value, &node);
+    if (s->kind != kind) continue;
+    if (s->dimensions)
+      code = stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
+                          "an output or invariant has no index");
+    if (!code) code = stf_build(&b, &s->value, &node);
     stf_store *to = code ? NULL : stf_vector_push(m->ctx, &stores, sizeof *to);
     if (!code && !to) code = STEIF_NO_MEMORY;
-    if (to) *to = (stf_store){.from = node, .a = m->invariant_count++};
+    if (to) *to = (stf_store){.from = node, .a = (*count)++};
   }
   stf_builder_close(&b);
-  if (!code && stores.count) code = stf_compile_quantity(m, &block, &stores, &m->invariants);
+  if (!code && stores.count) code = stf_compile_quantity(m, &block, &stores, q);
   stf_vector_free(m->ctx, &stores);
   stf_graph_free(&block.graph);
+  return m->syntax.sources.errors ? stf_complaints(&m->syntax.sources) : code;
+}
+
+static int invariants(stf_model *m, steif_problem *p)
+{
+  STEIF_TRY(collect(m, STF_SAY_INVARIANT, &m->invariants, &m->invariant_count));
   p->invariants = m->invariant_count;
   p->invariant = m->invariant_count ? invariant_values : NULL;
-  return m->syntax.sources.errors ? stf_complaints(&m->syntax.sources) : code;
+  return collect(m, STF_SAY_OUTPUT, &m->outputs, &m->output_count);
 }
 
 /* ---- reference
@@ -135,9 +145,8 @@ static int invariants(stf_model *m, steif_problem *p)
 
 static const char *text_of(stf_model *m, const stf_statement *s)
 {
-  const stf_text *text = STF_AT(m->syntax.sources.texts, stf_text, 0);
   char *copy = stf_pool_array(m->pool, (size_t)s->strlength + 1, 1);
-  return copy ? memcpy(copy, text->text + s->string, s->strlength) : NULL;
+  return copy ? memcpy(copy, stf_source_at(&m->syntax.sources, s->string), s->strlength) : NULL;
 }
 
 /* The values of a reference statement; count of them where value is NULL. */

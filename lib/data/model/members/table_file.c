@@ -37,24 +37,6 @@ static int point(stf_model *m, columns *c, double x, double y)
  * -----------------------------------------------------------------------------------
  */
 
-/* Beside the model or below: "sub/feed.csv". */
-static int path_of(stf_model *m, const stf_statement *s, const char **path, const char **name)
-{
-  const stf_text *text = STF_AT(m->syntax.sources.texts, stf_text, 0);
-  const char *slash = strrchr(text->name, '/');
-  const size_t folder = slash ? (size_t)(slash - text->name) + 1 : 0;
-  char *full = stf_pool_array(m->pool, folder + s->strlength + 1, 1);
-  if (!full) return STEIF_NO_MEMORY;
-  memcpy(full, text->name, folder);
-  memcpy(full + folder, text->text + (s->string - text->base), s->strlength);
-  *path = full;
-  *name = full + folder;
-  if (**name == '/' || !strncmp(*name, "..", 2) || strstr(*name, "/.."))
-    return complain(m, s, "leaves the directory of the model; copy the file beside it", *name,
-                    0);
-  return STEIF_OK;
-}
-
 /* Cell k of a line, without blanks and quotes. */
 static const char *cell(const char *line, long k, size_t *length)
 {
@@ -80,8 +62,7 @@ static bool is(const char *line, long k, const char *name, size_t length)
 static int header(stf_model *m, const stf_statement *table, const stf_statement *column,
                   const char *line, const char *file, long *x, long *y)
 {
-  const stf_text *text = STF_AT(m->syntax.sources.texts, stf_text, 0);
-  const char *name = text->text + (column->string - text->base);
+  const char *name = stf_source_at(&m->syntax.sources, column->string);
   double number = 0;
   *x = 0;
   *y = -1;
@@ -134,7 +115,9 @@ static int from_file(stf_model *m, const stf_statement *s, const stf_statement *
                      columns *c)
 {
   const char *path, *name;
-  STEIF_TRY(path_of(m, s, &path, &name));
+  STEIF_TRY(stf_source_path(&m->syntax.sources, m->pool, s->string - 1,
+                            stf_source_at(&m->syntax.sources, s->string), s->strlength, &path));
+  name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
   stf_lines *lines = stf_allocate(m->ctx, 1, sizeof *lines);
   if (!lines) return STEIF_NO_MEMORY;
   lines->ctx = m->ctx;

@@ -1,0 +1,60 @@
+/* steif/model.h: problems written as text.
+ *
+ *     model "Robertson's reaction"
+ *     param k1 = 0.04 {1/s}, k2 = 3e7, k3 = 1e4
+ *     state y1 = 1, y2 = 0 scale 1e-6, y3 = 0      # = fixed, ~ a guess, nothing: computed
+ *     y1' = -k1*y1 + k3*y2*y3
+ *     y2' =  k1*y1 - k3*y2*y3 - k2*y2^2
+ *     y3' =  k2*y2^2
+ *     time 0 to 1e11 {s}
+ *
+ * steif_problem_find opens a file by its name, "rober.steif" or "rober.steif:k1=0.05"; a model is a
+ * steif_problem from then on, with exact Jacobian and pattern, names, events and consistent start values.
+ * The order of lines is free. Equations may be implicit; the simplest form that all of them fit is deduced:
+ * ode, descriptor (linear with constant coefficients), mass or implicit. Equations in `for` loops are
+ * kept as loops. A model is data: nothing in it is executed but arithmetic.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_MODEL_H
+#define STEIF_MODEL_H
+
+#include <steif/problem.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A model from a text; `name` stands before the line in sentences, and tables are looked for in its
+ * folder. steif_problem_clear releases it. STEIF_BAD_INPUT or STEIF_UNKNOWN_NAME with "name:line:column:
+ * what; remedy", up to 20 of them a line each. */
+STEIF_EXPORT int steif_model_parse(steif_context *ctx, const char *text, const char *name,
+                                   const steif_spec *parameters, steif_problem *problem);
+/* Another value of a parameter, for the runs that begin afterwards: form, sizes and start values follow.
+ * Solvers made of the problem before must be freed first. On failure the problem is as it was. */
+STEIF_EXPORT int steif_model_set(steif_context *ctx, steif_problem *problem, const char *name,
+                                 sunrealtype value);
+
+typedef struct steif_model_facts {
+  int form;                           /* enum steif_form */
+  const char *why;                    /* ... and what keeps it from a simpler one */
+  sunindextype n, entries, entries_E; /* of dF/dy and dF/dy' */
+  int parameters, equations, loops;   /* equations as written; those kept as loops */
+  int relations, breaks;              /* events of relations and times; declared times */
+  long operations;                    /* of f in one evaluation */
+} steif_model_facts;
+
+/* STEIF_BAD_INPUT: the problem was not made from a text. */
+STEIF_EXPORT int steif_model_describe(steif_context *ctx, const steif_problem *problem,
+                                      steif_model_facts *facts);
+/* Name and value of parameter i, in the order of the text; NULL past the end. */
+STEIF_EXPORT const char *steif_model_parameter(const steif_problem *problem, size_t i,
+                                               sunrealtype *value);
+/* Name of output i; NULL past the end. Their values at (t, y), as many as there are names. */
+STEIF_EXPORT const char *steif_model_output(const steif_problem *problem, size_t i);
+STEIF_EXPORT int steif_model_outputs(const steif_problem *problem, sunrealtype t, N_Vector y,
+                                     sunrealtype *value);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,78 @@
+/* model_facts.c: what a model is, its parameters and outputs.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "model_file.h"
+#include "reactions.h"
+#include <nvector/nvector_serial.h>
+#include <steif/model.h>
+#include <string.h>
+
+static const stf_model *model_of(const steif_problem *p)
+{
+  return p && p->destroy == stf_model_close ? p->user : NULL;
+}
+
+static long operations(const stf_quantity *q)
+{
+  long count = 0;
+  for (size_t i = 0; i < q->tapes.count; i++) {
+    const stf_tape *t = STF_AT(q->tapes, stf_tape, i);
+    count += (long)(t->code.count - t->fixed) + (long)stf_passes(&t->box) * (long)t->wide.count;
+  }
+  return count;
+}
+
+int steif_model_describe(steif_context *ctx, const steif_problem *p, steif_model_facts *facts)
+{
+  const stf_model *m = model_of(p);
+  STEIF_CHECK(m && facts, ctx, STEIF_BAD_INPUT, "problem '%s' was not made from a text",
+              p && p->name ? p->name : "NULL");
+  *facts = (steif_model_facts){.form = m->form,
+                               .why = m->why,
+                               .n = m->n,
+                               .entries = m->A.entries,
+                               .entries_E = m->E.entries,
+                               .relations = p->events,
+                               .breaks = p->break_count,
+                               .operations = operations(&m->f)};
+  for (size_t i = 0; i < m->symbols.count; i++)
+    facts->parameters += stf_symbol_at(m, (int32_t)i)->kind == STF_IS_PARAMETER;
+  for (size_t i = 0; i < m->blocks.count; i++)
+    facts->loops += (*STF_AT(m->blocks, stf_block *, i))->box.dims > 0;
+  for (size_t i = 0; i < m->syntax.statements.count; i++)
+    facts->equations += stf_statement_at(m, (int32_t)i)->kind == STF_SAY_EQUATION;
+  return STEIF_OK;
+}
+
+const char *steif_model_parameter(const steif_problem *p, size_t which, sunrealtype *value)
+{
+  const stf_model *m = model_of(p);
+  for (size_t i = 0; m && i < m->symbols.count; i++) {
+    const stf_symbol *s = stf_symbol_at(m, (int32_t)i);
+    if (s->kind != STF_IS_PARAMETER || which--) continue;
+    if (value) *value = s->value;
+    return stf_named(m, s->word);
+  }
+  return NULL;
+}
+
+const char *steif_model_output(const steif_problem *p, size_t which)
+{
+  const stf_model *m = model_of(p);
+  for (size_t i = 0; m && i < m->syntax.statements.count; i++) {
+    const stf_statement *s = stf_statement_at(m, (int32_t)i);
+    if (s->kind == STF_SAY_OUTPUT && !which--) return stf_named(m, s->name);
+  }
+  return NULL;
+}
+
+int steif_model_outputs(const steif_problem *p, sunrealtype t, N_Vector y, sunrealtype *value)
+{
+  const stf_model *m = model_of(p);
+  if (!m || !y || !value) return STEIF_BAD_INPUT;
+  stf_feed feed = m->feed;
+  feed.t = t;
+  feed.y = N_VGetArrayPointer(y);
+  memset(value, 0, (size_t)m->output_count * sizeof *value);
+  stf_quantity_run(m, &m->outputs, &feed, value);
+  return STEIF_OK;
+}
