@@ -68,7 +68,7 @@ endif()
 steif_flags(pc_libs ${sundials_files})
 set(matio_file "")
 if(steif_matio)
-  set(matio_file ${MATIO_LIBRARY})
+  set(matio_file ${MATIO_LIBRARY} ${ZLIB_LIBRARY})
 endif()
 steif_flags(pc_libs_private ${private_files} ${KLU_LIBRARIES} ${LAPACK_LIBRARIES} ${JANSSON_LIBRARY}
             ${matio_file} ${CMAKE_THREAD_LIBS_INIT} m)

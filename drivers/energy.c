@@ -8,7 +8,7 @@
 static int find(struct call *call, struct energy_answer *a)
 {
   const steif_options o = options_of(call);
-  stop_on_signals();
+  interruption_poll();
   steif_energy *e = &a->energy;
   e->drift = calloc(a->columns, sizeof *e->drift);
   e->row = calloc(e->rows * a->columns, sizeof *e->row);

@@ -1,9 +1,16 @@
 /* main.c: the program steif: one verb per file.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _DEFAULT_SOURCE /* MAP_ANON */
 #include "program.h"
 #include "verbs.h"
 #include <stdio.h>
 #include <string.h>
+#include <sys/mman.h>
+
+static bool is(const char *text, const char *name, const char *option, const char *letter)
+{
+  return !strcmp(text, name) || !strcmp(text, option) || !strcmp(text, letter);
+}
 
 static int help(const struct verb *verb)
 {
@@ -21,11 +28,35 @@ static int run(struct call *call, int argc, char **argv)
   if (call->help) return help(call->verb);
   code = check_outputs(call);
   if (code != EXIT_OK) return code;
+  interruption_open(call->verb->name);
+  return call->verb->run(call);
+}
+
+/* OpenBLAS waits without end for the memory of its buffers, a few of 32 to 128 MB: is there as much? */
+static bool roomy(void)
+{
+  const size_t enough = (size_t)256 << 20;
+  void *room = mmap(NULL, enough, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANON, -1, 0);
+  return room != MAP_FAILED && !munmap(room, enough);
+}
+
+/* The verb is named by argv[1], or after "help". */
+static int dispatch(struct call *call, int argc, char **argv)
+{
+  const bool asked = is(argv[1], "help", "--help", "-h");
+  const char *name = asked ? argv[2] : argv[1];
+  if (is(argv[1], "version", "--version", "-V"))
+    return printf("steif %s\n", steif_version()) < 0;
+  call->verb = name ? verb_find(name) : NULL;
+  call->json = call_wants_json(argc - 2, argv + 2);
   call->ctx = steif_context_new(NULL);
   if (!call->ctx) return no_memory(call, "a context", "give the process more");
-  code = call->verb->run(call);
-  steif_context_free(&call->ctx);
-  return code;
+  if (!roomy()) return no_memory(call, "the buffers of BLAS, 256 MB", "raise 'ulimit -v'");
+  if (name && !call->verb)
+    return unknown_name(call,
+                        "no verb \"%s\"; the nearest is %s, and 'steif --help' lists them",
+                        name, verb_nearest(name));
+  return asked ? help(call->verb) : run(call, argc - 2, argv + 2);
 }
 
 int main(int argc, char **argv)
@@ -35,15 +66,8 @@ int main(int argc, char **argv)
     verbs_overview(stderr);
     return EXIT_USAGE;
   }
-  const bool asked = !strcmp(argv[1], "help") || !strcmp(argv[1], "--help");
-  const char *name = asked ? argv[2] : argv[1];
-  if (!strcmp(argv[1], "--version")) return printf("steif %s\n", steif_version()) < 0;
-  call.verb = name ? verb_find(name) : NULL;
-  if (name && !call.verb)
-    return unknown_name(&call,
-                        "no verb \"%s\"; the nearest is %s, and 'steif --help' lists them",
-                        name, verb_nearest(name));
-  const int code = asked ? help(call.verb) : run(&call, argc - 2, argv + 2);
+  const int code = dispatch(&call, argc, argv);
+  steif_context_free(&call.ctx);
   if (fflush(stdout) == 0 && !ferror(stdout)) return code;
   say(&call, "standard output could not be written; is the disk full? [STEIF_IO]");
   return EXIT_FAILED;

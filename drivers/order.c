@@ -49,7 +49,7 @@ static int run(struct call *call)
   if (steif_method_find(call->ctx, call->word[0], &a.method)) return fail(call);
   if (steif_problem_find(call->ctx, word_of(call, "--problem"), &p)) return fail(call);
   progress(call, "%s on %s", call->word[0], p.name);
-  stop_on_signals();
+  interruption_poll();
   int code =
     steif_order_measure(call->ctx, &p, call->word[0], &o, real_of(call, "--h"), a.count, a.row);
   if (code == STEIF_STOPPED && a.row[0].error >= 0) present_rows(call, &p, &a);

@@ -43,7 +43,7 @@ int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_
                                     .window = real_of(call, "--window"),
                                     .count = (int)whole_or(call, "--count", 0),
                                     .error = a->error,
-                                    .stop = stop_on_signals()};
+                                    .stop = interruption_poll()};
   const char *method = call->word[1];
   progress(call, "%s on %s", method, call->word[0]);
   const int code =

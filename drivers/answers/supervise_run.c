@@ -8,7 +8,7 @@ static void run_once(struct call *call, const steif_problem *p,
 {
   const bool alone = rule == STEIF_SUPERVISE_NONE;
   const steif_options o = options_of(call);
-  stop_on_signals();
+  interruption_poll();
   const steif_supervision how = {.rule = rule,
                                  .rate = real_of(call, "--rate"),
                                  .window = real_of(call, "--window"),

@@ -69,7 +69,7 @@ static bool one_run(steif_context *ctx, const steif_problem *p, const steif_opti
     q.y0 = k->plus;
     q.yp0 = NULL;
   }
-  o.stop = interruption();
+  o.stop = interruption_poll();
   o.rtol = fmax(factor * o.rtol, 1e-12);
   o.atol *= o.rtol / given->rtol;
   steif_solver *s = steif_solver_new(ctx, &q, "auto", &o);

@@ -140,7 +140,7 @@ void settings_run(const struct call *call, const steif_problem *p, const char *m
                   const steif_options *given, const known_solution *k, settings *s)
 {
   steif_options o = *given;
-  o.stop = interruption();
+  o.stop = interruption_poll();
   memset(s, 0, sizeof *s);
   s->rtol = o.rtol;
   s->atol = o.rtol * tolerance_ratio(p, &o);

@@ -39,7 +39,7 @@ static int open(struct call *call, workprec *w)
 /* Tolerances in the order given; after one that ended for its time none is tried. */
 static void one_method(struct call *call, workprec *w, const char *problem, const char *method)
 {
-  for (size_t k = 0; k < w->rtols; k++) {
+  for (size_t k = 0; k < w->rtols && !interrupted(); k++) {
     steif_bench_solve *run = &w->run[w->runs];
     progress(call, "%s, %s, rtol %.0e", problem, method, w->rtol[k]);
     const int code =
@@ -58,7 +58,8 @@ int bench_workprec(struct call *call)
   if (code) return code;
   steif_report *r = steif_report_new(call->ctx);
   work_header(&w, call, r);
-  for (size_t i = 0; i < w.problems.count; i++) {
+  interruption_poll();
+  for (size_t i = 0; i < w.problems.count && !interrupted(); i++) {
     w.runs = 0;
     for (size_t k = 0; k < w.methods.count; k++)
       one_method(call, &w, w.problems.item[i], w.methods.item[k]);
@@ -67,5 +68,7 @@ int bench_workprec(struct call *call)
   work_summary(&w, r);
   code = r ? present(call, r) : fail(call);
   steif_report_free(&r);
-  return code ? code : work_picture(&w, call);
+  if (!interrupted()) return code ? code : work_picture(&w, call);
+  say(call, "interrupted: solves that were left are not made [STEIF_STOPPED]");
+  return interruption_exit();
 }

@@ -165,6 +165,13 @@ static int check(const struct call *call)
   return code;
 }
 
+bool call_wants_json(int argc, char **argv)
+{
+  for (int i = 0; i < argc && strcmp(argv[i], "--"); i++)
+    if (!strcmp(argv[i], "--json")) return true;
+  return false;
+}
+
 int call_parse(struct call *call, int argc, char **argv)
 {
   int code = EXIT_OK;
@@ -172,6 +179,8 @@ int call_parse(struct call *call, int argc, char **argv)
   for (int i = 0; i < argc && code == EXIT_OK; i++) {
     if (!only_words && !strcmp(argv[i], "--"))
       only_words = true;
+    else if (!only_words && !strcmp(argv[i], "-h"))
+      call->help = true;
     else if (!only_words && argv[i][0] == '-' && argv[i][1] == '-')
       code = one_option(call, argc, argv, &i);
     else if (!only_words && argv[i][0] == '-')

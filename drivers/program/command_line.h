@@ -80,6 +80,8 @@ extern const struct option common_options[];
 /* Option i of a verb, its own before the common ones; NULL past the end. */
 const struct option *option_at(const struct verb *verb, size_t i);
 
+/* Is --json among the arguments? Errors of the others are told as JSON then, too. */
+bool call_wants_json(int argc, char **argv);
 /* EXIT_OK, or the exit code after the sentence has been said. */
 int call_parse(struct call *call, int argc, char **argv);
 /* What the value of an option must be where `text` is none, or NULL. */

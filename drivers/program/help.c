@@ -33,7 +33,7 @@ static const char method_help[] =
 static const char exit_help[] =
   "\n"
   "Exit codes: 0 ok, 1 the computation or the output failed, 2 usage, 3 bad input file,\n"
-  "4 singular pencil, 5 not certified, 130 interrupted.\n";
+  "4 singular pencil, 5 not certified, 130 or 143 interrupted.\n";
 
 void call_help(const struct verb *verb)
 {

@@ -1,51 +1,6 @@
 /* integration.c: one integration with the options of a call, and why it stopped.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "integration.h"
-#include <signal.h>
-#include <time.h>
-
-static volatile int stop_flag;
-static struct timespec asked; /* when the first SIGINT came */
-
-static double seconds_since(const struct timespec *then)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)(now.tv_sec - then->tv_sec) + 1e-9 * (double)(now.tv_nsec - then->tv_nsec);
-}
-
-/* The first SIGINT or SIGTERM ends the run after a step, a later one the program. Half a second belongs to
- * the first: timeout(1) and other parents send it to the child and to its group. */
-static void on_interrupt(int number)
-{
-  if (!stop_flag)
-    clock_gettime(CLOCK_MONOTONIC, &asked);
-  else if (seconds_since(&asked) > 0.5) {
-    signal(number, SIG_DFL);
-    raise(number);
-  }
-  stop_flag = 1;
-  stopped_by(number);
-}
-
-static void take(int number, struct sigaction *before)
-{
-  const struct sigaction ours = {.sa_handler = on_interrupt};
-  sigaction(number, NULL, before);
-  if (before->sa_handler != SIG_IGN) sigaction(number, &ours, NULL);
-}
-
-const volatile int *stop_on_signals(void)
-{
-  struct sigaction before;
-  take(SIGINT, &before);
-  take(SIGTERM, &before);
-  return &stop_flag;
-}
-
-const volatile int *interruption(void) { return &stop_flag; }
-
-bool interrupted(void) { return stop_flag; }
 
 steif_options options_of(const struct call *call)
 {
@@ -62,7 +17,7 @@ steif_options options_of(const struct call *call)
   o.h_max = real_of(call, "--h-max");
   o.max_steps = whole_or(call, "--max-steps", constant ? 1000000000 : o.max_steps);
   o.max_seconds = real_of(call, "--max-seconds");
-  o.stop = &stop_flag;
+  o.stop = interruption_poll();
   o.start = word_of(call, "--start");
   if (given(call, "--initial")) o.initial = (enum steif_initial)choice_of(call, "--initial");
   o.force_storage = given(call, "--storage");
@@ -81,17 +36,6 @@ static void explain(steif_context *ctx, const steif_problem *problem, const char
   for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
     if (o->code == codes[i] && !steif_failure_find(ctx, problem, method, options, &f))
       snprintf(o->why, sizeof o->why, "%s", f.message);
-}
-
-static int solve(steif_solver *s, double t1)
-{
-  struct sigaction before[2];
-  take(SIGINT, &before[0]);
-  take(SIGTERM, &before[1]);
-  const int code = steif_solve_to(s, t1);
-  sigaction(SIGINT, &before[0], NULL);
-  sigaction(SIGTERM, &before[1], NULL);
-  return code;
 }
 
 /* The sentence of a run that has ended. */
@@ -118,7 +62,7 @@ outcome integrate_from(steif_context *ctx, const steif_problem *problem, const c
   steif_solver *s = *solver = steif_solver_new(ctx, problem, method, options);
   if (s && options->observe) options->observe(s, o.t, steif_solution(s), options->observer);
   if (s && begun) begun(s, user);
-  o.code = s ? solve(s, t1) : steif_status(ctx);
+  o.code = s ? steif_solve_to(s, t1) : steif_status(ctx);
   if (s) {
     o.t = steif_time(s);
     o.stats = *steif_statistics(s);

@@ -33,12 +33,12 @@ typedef struct outcome {
    "storage of the matrices; krylov: GMRES, no factors", NULL}
 /* clang-format on */
 
-/* The options of a solver from those of a call, where given. */
+/* The options of a solver from those of a call, where given. A signal ends the run after a step. */
 steif_options options_of(const struct call *call);
 
 /* Integrate to options->t1 (the problem's when 0), the start shown to options->observe first. The
  * solver is kept in *solver unless that is NULL; it may be NULL afterwards when it could not be made.
- * The context's message is forgotten. SIGINT and SIGTERM end the run after a step. */
+ * The context's message is forgotten. */
 outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
                   const steif_options *options, steif_solver **solver);
 /* The same; begun is told of the solver at the start, as the method has made it, and a run that fails is not
@@ -46,11 +46,6 @@ outcome integrate(steif_context *ctx, const steif_problem *problem, const char *
 outcome integrate_from(steif_context *ctx, const steif_problem *problem, const char *method,
                        const steif_options *options, steif_solver **solver,
                        void (*begun)(steif_solver *s, void *user), void *user);
-/* From now on SIGINT and SIGTERM set what is returned, an option .stop: a verb then shows what it has. */
-const volatile int *stop_on_signals(void);
-/* Was a run stopped by a signal? And the flag of that, for options.stop. */
-bool interrupted(void);
-const volatile int *interruption(void);
 
 /* atol/rtol of a run: how much of the size of a component counts as nothing. */
 double tolerance_ratio(const steif_problem *problem, const steif_options *options);

@@ -1,15 +1,11 @@
 /* message.c: exit codes, sentences on stderr, the progress line.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "message.h"
-#include <signal.h>
+#include "interruption.h"
 #include <stdarg.h>
 #include <string.h>
 #include <steif/report.h>
 #include <unistd.h>
-
-static volatile sig_atomic_t exit_stopped = EXIT_INTERRUPTED;
-
-void stopped_by(int signal_number) { exit_stopped = 128 + signal_number; }
 
 int exit_of(int code)
 {
@@ -21,23 +17,35 @@ int exit_of(int code)
   case STEIF_IO: return EXIT_FILE;
   case STEIF_SINGULAR: return EXIT_SINGULAR;
   case STEIF_NOT_CERTIFIED: return EXIT_UNCERTIFIED;
-  case STEIF_STOPPED: return exit_stopped;
+  case STEIF_STOPPED: return interruption_exit();
   default: return EXIT_FAILED;
   }
 }
 
 /* ---- words ---- */
 
+/* status, and message: what a failure is as JSON. */
+static void object(const struct call *call, const char *code, const char *text)
+{
+  steif_report *r = call->json && call->ctx ? steif_report_new(call->ctx) : NULL;
+  if (!r) return;
+  steif_report_text(r, "status", code);
+  steif_report_text(r, "message", text);
+  steif_report_write(r, STEIF_JSON, stdout);
+  steif_report_free(&r);
+}
+
 /* code: its name, NULL where the sentence is no failure or names it itself. */
 static void sentence(const struct call *call, const char *code, const char *format,
                      va_list arguments)
 {
+  char text[4096];
   progress(call, NULL);
   fflush(stdout);
+  vsnprintf(text, sizeof text, format, arguments);
   fprintf(stderr, call->verb ? "steif %s: " : "steif: ", call->verb ? call->verb->name : "");
-  vfprintf(stderr, format, arguments);
-  if (code) fprintf(stderr, " [%s]", code);
-  putc('\n', stderr);
+  fprintf(stderr, code ? "%s [%s]\n" : "%s%s\n", text, code ? code : "");
+  if (code) object(call, code, text);
 }
 
 void say(const struct call *call, const char *format, ...)
@@ -72,18 +80,30 @@ int no_memory(const struct call *call, const char *what, const char *remedy)
   return EXIT_FAILED;
 }
 
+/* Is a file of a tableau, glm:file=PATH, what the message is about? */
+static bool about_table(const struct call *call, const char *message)
+{
+  for (int i = 0; i < call->words; i++) {
+    const char *path = strstr(call->word[i], "file=");
+    char name[256];
+    if (!path) continue;
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(path + 5, ","), path + 5);
+    if (*name && strstr(message, name)) return true;
+  }
+  return false;
+}
+
+int exit_of_run(const struct call *call, int code, const char *message)
+{
+  return code == STEIF_BAD_INPUT && about_table(call, message) ? EXIT_FILE : exit_of(code);
+}
+
 int fail(const struct call *call)
 {
   const int code = steif_status(call->ctx);
   say(call, "%s", steif_message(call->ctx));
-  steif_report *r = call->json ? steif_report_new(call->ctx) : NULL;
-  if (r) {
-    steif_report_text(r, "status", steif_code_name(code));
-    steif_report_text(r, "message", steif_message(call->ctx));
-    steif_report_write(r, STEIF_JSON, stdout);
-    steif_report_free(&r);
-  }
-  return code == STEIF_OK ? EXIT_FAILED : exit_of(code);
+  object(call, steif_code_name(code), steif_message(call->ctx));
+  return code == STEIF_OK ? EXIT_FAILED : exit_of_run(call, code, steif_message(call->ctx));
 }
 
 int fail_file(const struct call *call)

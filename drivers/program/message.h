@@ -9,12 +9,11 @@
 #include "command_line.h"
 
 enum { EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_FILE, EXIT_SINGULAR, EXIT_UNCERTIFIED };
-enum { EXIT_INTERRUPTED = 130 }; /* 128 + SIGINT, as shells have it */
-/* STEIF_STOPPED from now on exits with 128 + the number of this signal. */
-void stopped_by(int signal_number);
 
 /* Of an enum steif_code. */
 int exit_of(int code);
+/* The same, EXIT_FILE where the message names the file of a tableau in the call. */
+int exit_of_run(const struct call *call, int code, const char *message);
 
 /* "steif solve: sentence" on stderr. */
 void say(const struct call *call, const char *format, ...) STEIF_PRINTF(2, 3);

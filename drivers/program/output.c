@@ -10,8 +10,10 @@
 int show(const struct call *call, steif_report *report)
 {
   progress(call, NULL);
-  if (steif_report_write(report, call->json ? STEIF_JSON : STEIF_TABLE, stdout) == STEIF_OK)
+  if (steif_report_write(report, call->json ? STEIF_JSON : STEIF_TABLE, stdout) == STEIF_OK) {
+    fflush(stdout);
     return EXIT_OK;
+  }
   say(call, "%s", steif_message(call->ctx));
   return EXIT_FAILED;
 }

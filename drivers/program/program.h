@@ -4,6 +4,7 @@
 #define PROGRAM_H
 
 #include "command_line.h"
+#include "interruption.h"
 #include "message.h"
 #include "output.h"
 #include <steif/analysis.h>

@@ -58,7 +58,7 @@ int solution_present(struct call *call, const outcome *o, steif_solver *s, const
   const bool rounded = o->code == STEIF_OK && o->stats.rounding > 1;
   const int code = rounded               ? EXIT_UNCERTIFIED
                    : o->code == STEIF_OK ? EXIT_OK
-                                         : exit_of(o->code);
+                                         : exit_of_run(call, o->code, o->message);
   fill(tr->report, call->word, o, s, tr);
   int output = call->json || s ? show(call, tr->report) : EXIT_OK;
   if (tr->short_of_memory)

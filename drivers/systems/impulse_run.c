@@ -45,6 +45,7 @@ static int step(double t, N_Vector x, void *user)
     steif_report_list(k->shown, "x", k->n, value);
     report_output(k->shown, "y", k->linear, t, value);
   }
+  if (interrupted()) return 1;
   return k->call->plot || k->n <= KNOWN ? trajectory_keep(&k->path, t, x) : 0;
 }
 
@@ -85,6 +86,20 @@ static int output(struct record *k, const char *method)
   return code ? code : k->verdict;
 }
 
+/* A run that a signal has ended keeps its rows. */
+static int ended(struct record *k, const char *method, int code)
+{
+  if (code && !interrupted()) return descriptor_fail(k->call);
+  if (!code) return output(k, method);
+  steif_forget(k->call->ctx);
+  steif_report_whole(k->shown, "steps", k->steps);
+  show(k->call, k->shown);
+  save_csv(k->call, k->sheet);
+  say(k->call, "interrupted after %ld steps; the rows until then are kept [STEIF_STOPPED]",
+      k->steps);
+  return interruption_exit();
+}
+
 static int integrate_on(struct call *call, const struct descriptor *l, struct record *k)
 {
   steif_options o = steif_defaults();
@@ -102,10 +117,10 @@ static int integrate_on(struct call *call, const struct descriptor *l, struct re
                      o.t1, BREAKS);
   const steif_analysis a = descriptor_analysis(call, l);
   const steif_linear_output out = {jump, step, k};
-  return steif_linear_run(call->ctx, &l->system, l->x0, l->t0, method, &o, &a, count, k->breaks,
-                          &out)
-           ? descriptor_fail(call)
-           : output(k, method);
+  interruption_poll();
+  return ended(k, method,
+               steif_linear_run(call->ctx, &l->system, l->x0, l->t0, method, &o, &a, count,
+                                k->breaks, &out));
 }
 
 static int row(double t, const double *x, int layer, void *user)
@@ -154,12 +169,12 @@ static int through_layers(struct call *call, const struct descriptor *l, struct 
       k->breaks[0]);
   k->view = N_VMake_Serial((sunindextype)k->n, l->x0, steif_sundials(call->ctx));
   if (!k->view) return no_memory(call, "values", "give the process more");
+  interruption_poll();
   const int code =
     steif_layers_run(call->ctx, &l->system, l->x0, l->t0, method, &o, &a, row, k, &stats);
   N_VDestroy(k->view);
-  if (code) return descriptor_fail(call);
-  lengths(k->shown, &stats);
-  return output(k, method);
+  if (!code) lengths(k->shown, &stats);
+  return ended(k, method, code);
 }
 
 int impulse_run(struct call *call, const struct descriptor *l)

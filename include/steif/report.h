@@ -46,7 +46,8 @@ STEIF_EXPORT void steif_report_matrix(steif_report *r, const char *name, size_t 
                                       size_t columns, const sunrealtype *value);
 
 /* STEIF_TABLE: fields as "name  value" lines, sheets as aligned columns with 6 or so digits;
- * STEIF_CSV: the first sheet with a header line (or the fields as one row); STEIF_JSON: one object
+ * STEIF_CSV: the first sheet with a header line (or the fields as one row, a list as x1, x2, ..,
+ * a matrix as A1_1, A1_2, ..); STEIF_JSON: one object
  * on one line. STEIF_IO when the stream fails. */
 STEIF_EXPORT int steif_report_write(steif_report *r, enum steif_format format, FILE *stream);
 /* The same into a file; an unwritable path leaves no file. */

@@ -134,6 +134,7 @@ STEIF_EXPORT int steif_solve_step(steif_solver *s);
  * expects to save. */
 STEIF_EXPORT const char *steif_method_used(const steif_solver *s);
 
+/* Of a solver that could not be made, s NULL: NULL, NaN, zeros; steps and values give STEIF_BAD_INPUT. */
 STEIF_EXPORT N_Vector steif_solution(steif_solver *s); /* at the time last asked for */
 STEIF_EXPORT sunrealtype steif_time(const steif_solver *s);
 STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);

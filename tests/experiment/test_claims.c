@@ -299,8 +299,13 @@ static void circles_stay_clear_of_zero(void)
   CLOSE(by_phi(near), small, 4e-15);
   const double direct = fabs(creal(weight(-1)) / one - 1);
   CHECK(direct < 2e-14 && fabs(by_phi(-1) / one - 1) < 2e-14);
-  CHECK(fabs(by_circle(-1, 64) / one - 1) > 5 * fabs(by_circle(-1, 32) / one - 1));
-  CHECK(fabs(by_circle(-1, 64) / one - 1) > 5 * direct);
+  double few = direct,
+         many = 0; /* rounding grows as M^2: worst of eight numbers of points each */
+  for (int k = 0; k < 8; k++) {
+    few = fmax(few, fabs(by_circle(-1, 32 + k) / one - 1));
+    many = fmax(many, fabs(by_circle(-1, 256 + k) / one - 1));
+  }
+  CHECK(many > 5 * few);
 }
 
 /* Least det(I - h J) of a step of backward Euler from q = 2 over where it may end, (q, (q - 2)/h). */

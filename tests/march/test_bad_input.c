@@ -274,7 +274,48 @@ static void tolerances_beyond_a_method_are_refused(void)
                  "'trbdf2' of order 2 cannot keep rtol = 1e-10");
 }
 
+/* No solver: what a caller who did not look gets. */
+static void no_solver_is_no_crash(void)
+{
+  int count = 3;
+  const sunrealtype *c, *b;
+  N_Vector *X;
+  CHECK(steif_solution(NULL) == NULL && steif_method_used(NULL) == NULL);
+  CHECK(isnan(steif_time(NULL)));
+  CHECK(steif_statistics(NULL)->steps == 0);
+  CHECK(steif_solve_to(NULL, 1) == STEIF_BAD_INPUT &&
+        steif_solve_step(NULL) == STEIF_BAD_INPUT);
+  CHECK(steif_dense(NULL, 0, NULL) == STEIF_BAD_INPUT);
+  CHECK(steif_drift_now(NULL, &count, NULL) == STEIF_OK && count == 0);
+  count = 3;
+  CHECK(steif_stages(NULL, &count, &c, &b, &X) == STEIF_OK && count == 0);
+}
+
+/* An interval of 1e-320 has no steps; one of 1e-270 has. */
+static void intervals_may_be_short(void)
+{
+  static const double y0[] = {1, 1};
+  wrong w = {NONE, 0};
+  const steif_problem p = {
+    .name = "short", .n = 2, .t1 = 1, .y0 = y0, .f = f, .jac = dense, .user = &w};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int m = 0; m < METHODS; m++) {
+    steif_options o = steif_defaults();
+    o.t1 = 1e-320;
+    steif_solver *s = steif_solver_new(ctx, &p, methods[m], &o);
+    CHECK(!s && steif_status(ctx) == STEIF_BAD_INPUT &&
+          strstr(steif_message(ctx), "unit of time"));
+    o.t1 = 1e-270;
+    s = steif_solver_new(ctx, &p, methods[m], &o);
+    CHECK(s && steif_solve_to(s, o.t1) == STEIF_OK && steif_time(s) == o.t1);
+    steif_solver_free(&s);
+  }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_bad_input[] = {
+  {"no solver is no crash", no_solver_is_no_crash},
+  {"intervals may be short", intervals_may_be_short},
   {"callbacks that fail are named", callbacks_that_fail_are_named},
   {"Jacobians of NaN are not called singular", jacobians_of_nan_are_not_called_singular},
   {"patterns may change", patterns_may_change},

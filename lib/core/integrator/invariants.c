@@ -23,8 +23,8 @@ int stf_drift_open(steif_solver *s)
 int steif_drift_now(steif_solver *s, int *count, sunrealtype *drift)
 {
   const int room = *count;
-  *count = s->invariants ? s->problem->invariants : 0;
-  if (!s->invariants) return STEIF_OK;
+  *count = s && s->invariants ? s->problem->invariants : 0;
+  if (!*count) return STEIF_OK;
   sunrealtype *now = s->invariants + *count;
   STEIF_TRY(invariants(s, now));
   for (int k = 0; k < *count && k < room; k++) drift[k] = now[k] - s->invariants[k];

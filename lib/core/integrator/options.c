@@ -3,6 +3,8 @@
 #include "integrator.h"
 #include <math.h>
 
+static const sunrealtype SPAN_LEAST = 1e-280; /* of time: first steps are 1e10 times smaller */
+
 steif_options steif_defaults(void)
 {
   return (steif_options){.rtol = 1e-6, .max_steps = 1000000};
@@ -52,5 +54,10 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
   STEIF_CHECK(isfinite(o->t1) && o->t1 > p->t0, ctx, STEIF_BAD_INPUT,
               "the end t1 = %g must lie after the start t0 = %g of problem '%s'", o->t1, p->t0,
               p->name);
+  STEIF_CHECK(
+    o->t1 - p->t0 >= SPAN_LEAST, ctx, STEIF_BAD_INPUT,
+    "the interval from t0 = %g to t1 = %g of problem '%s' is shorter than %g, and 1 / h "
+    "of its steps would overflow: take another unit of time",
+    p->t0, o->t1, p->name, SPAN_LEAST);
   return STEIF_OK;
 }

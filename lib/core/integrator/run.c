@@ -13,11 +13,11 @@ static sunrealtype now(clockid_t clock)
   return (sunrealtype)t.tv_sec + 1e-9 * (sunrealtype)t.tv_nsec;
 }
 
-sunrealtype steif_time(const steif_solver *s) { return s->t_shown; }
+sunrealtype steif_time(const steif_solver *s) { return s ? s->t_shown : NAN; }
 
-const char *steif_method_used(const steif_solver *s) { return s->method; }
+const char *steif_method_used(const steif_solver *s) { return s ? s->method : NULL; }
 
-N_Vector steif_solution(steif_solver *s) { return s->shown; }
+N_Vector steif_solution(steif_solver *s) { return s ? s->shown : NULL; }
 
 /* The end of the last step as the method made it; an event may lie before. */
 static sunrealtype stepped(const steif_solver *s) { return s->engine ? s->run.t : s->step.t; }
@@ -125,6 +125,7 @@ static int stretch(steif_solver *s, sunrealtype t, sunrealtype begun)
 
 static int ready(steif_solver *s)
 {
+  if (!s) return STEIF_BAD_INPUT;
   STEIF_CHECK(!s->failed, s->ctx, s->failure,
               "the run had failed before, at t = %.12g (%s): make a new solver", s->end,
               s->why);
@@ -159,7 +160,7 @@ int steif_solve_step(steif_solver *s)
 {
   const sunrealtype before = now(CLOCK_PROCESS_CPUTIME_ID);
   const int code = stf_step_untimed(s);
-  s->cpu_s += now(CLOCK_PROCESS_CPUTIME_ID) - before;
+  if (s) s->cpu_s += now(CLOCK_PROCESS_CPUTIME_ID) - before;
   return code;
 }
 
@@ -205,6 +206,7 @@ int stf_dense(steif_solver *s, sunrealtype t, N_Vector y)
 
 int steif_dense(steif_solver *s, sunrealtype t, N_Vector y)
 {
+  if (!s) return STEIF_BAD_INPUT;
   const sunrealtype h = s->engine ? s->run.stats.h_last : s->step.h, from = stepped(s) - h;
   const sunrealtype slack = 1e-12 * (fabs(s->end) + h);
   STEIF_CHECK(s->engine || s->step.count > 0, s->ctx, STEIF_BAD_INPUT,
@@ -218,12 +220,14 @@ int steif_stages(steif_solver *s, int *count, const sunrealtype **c, const sunre
                  N_Vector **X)
 {
   *count = 0;
-  if (s->engine || !s->step.method->stages || s->step.count == 0) return STEIF_OK;
+  if (!s || s->engine || !s->step.method->stages || s->step.count == 0) return STEIF_OK;
   return s->step.method->stages(&s->step, count, c, b, X);
 }
 
 const steif_stats *steif_statistics(steif_solver *s)
 {
+  static const steif_stats none = {0};
+  if (!s) return &none;
   steif_stats *out = &s->stats;
   if (s->engine)
     *out = s->run.stats;

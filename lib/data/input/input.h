@@ -34,6 +34,8 @@ int stf_input_sized(steif_context *ctx, const char *path, const char *name, SUNM
 /* A variable of a MATLAB file that need not be there; a failure only when it is and cannot be
  * read. */
 int stf_input_variable(steif_context *ctx, const char *path, const char *name, SUNMatrix *M);
+/* A failure when a .mat file is not whole, or its variables claim more entries than it can have. */
+int stf_mat_check(steif_context *ctx, const char *path);
 /* B of f = B u in the rows of E, of a .mat file; *B NULL where there is none. */
 int stf_input_read(steif_context *ctx, const char *path, SUNMatrix *B);
 /* The texts of a cell array or the rows of a character array, without blanks at their ends, in the

@@ -9,49 +9,6 @@
 #ifdef STEIF_HAVE_MATIO
 #include <matio.h>
 
-/* Four bytes as a whole number. */
-static unsigned long four(const unsigned char *b, bool little)
-{
-  unsigned long x = 0;
-  for (int k = 0; k < 4; k++) x = 256 * x + b[little ? 3 - k : k];
-  return x;
-}
-
-/* Elements follow each other after the head, each with its type and its size before it: do all of
- * them end within the file? matio reads zeros where one does not. */
-static bool complete(FILE *file, bool little)
-{
-  unsigned char tag[8];
-  if (fseek(file, 0, SEEK_END)) return false;
-  const long size = ftell(file);
-  for (long at = 128; at < size;) {
-    if (fseek(file, at, SEEK_SET) || fread(tag, 1, sizeof tag, file) != sizeof tag)
-      return false;
-    const unsigned long length = four(tag + 4, little);
-    if (length > (unsigned long)(size - at - 8)) return false;
-    at += 8 + (long)length;
-  }
-  return true;
-}
-
-/* Bytes 124 to 127 of the file: version 1, and the order of bytes. Version 7.3 (HDF5) has 2. */
-static int check_file(steif_context *ctx, const char *path)
-{
-  unsigned char head[128] = {0};
-  FILE *file = stf_input_open(ctx, path);
-  if (!file) return steif_status(ctx);
-  const size_t used = fread(head, 1, sizeof head, file);
-  const bool little = head[126] == 'I' && head[127] == 'M',
-             big = head[126] == 'M' && head[127] == 'I', whole = complete(file, little);
-  fclose(file);
-  const int version = little ? head[124] + 256 * head[125] : 256 * head[124] + head[125];
-  STEIF_CHECK(used == sizeof head && (little || big) && version == 0x100, ctx, STEIF_BAD_INPUT,
-              "'%s' is no MATLAB file of version 5%s; save it with '-v7' or '-v6'", path,
-              used == sizeof head && version == 0x200 ? " but of version 7.3" : "");
-  STEIF_CHECK(whole, ctx, STEIF_BAD_INPUT, "'%s' is cut off; save it again", path);
-  return STEIF_OK;
-}
-
 /* Element k of an array of a type of matio; false for what is no number. */
 static bool element(const void *data, enum matio_types type, size_t k, sunrealtype *x)
 {
@@ -183,7 +140,7 @@ SUNMatrix steif_matrix_read_mat(steif_context *ctx, const char *path, const char
     STEIF_FAIL(ctx, STEIF_BAD_INPUT, "the name of the variable is empty; give a name");
     return NULL;
   }
-  return check_file(ctx, path) ? NULL : read(ctx, path, name, found);
+  return stf_mat_check(ctx, path) ? NULL : read(ctx, path, name, found);
 }
 
 /* ---- texts ----------------------------------------------------------------------------------- */
@@ -246,7 +203,7 @@ int stf_input_texts(steif_context *ctx, stf_pool *pool, const char *path, const 
   int found = 0;
   *count = 0;
   *text = NULL;
-  STEIF_TRY(check_file(ctx, path));
+  STEIF_TRY(stf_mat_check(ctx, path));
   steif_forget(ctx);
   matvar_t *v = variable(ctx, path, name, &found);
   const int code = v ? texts(ctx, pool, path, v, count, text) : steif_status(ctx);

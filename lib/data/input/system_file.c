@@ -205,6 +205,21 @@ static int of_market(steif_context *ctx, const char *path_E, const char *path_F,
   return pair(ctx, path_E, path_F, negated ? "A" : "F", *E, *F);
 }
 
+/* n equations need n entries: with fewer a row is empty in both, and det(s E + F) = 0, whatever n is. */
+static int populated(steif_context *ctx, const char *path, SUNMatrix E, SUNMatrix F)
+{
+  const sunindextype n = stf_input_columns(E);
+  double entries = 0;
+  for (sunindextype j = 0; j < n && entries < (double)n; j++)
+    entries += (double)stf_input_column(E, j) + (double)stf_input_column(F, j);
+  STEIF_CHECK(
+    entries >= (double)n, ctx, STEIF_SINGULAR,
+    "'%s': E and F have %.0f entries for %lld equations, so that one is empty and the "
+    "pencil singular; check the sizes of the matrices",
+    path, entries, (long long)n);
+  return STEIF_OK;
+}
+
 int steif_system_read(steif_context *ctx, const char *path_E, const char *path_F,
                       int state_space, SUNMatrix *E, SUNMatrix *F)
 {
@@ -213,8 +228,9 @@ int steif_system_read(steif_context *ctx, const char *path_E, const char *path_F
               "'%s' holds both matrices and tells F from A by their names: leave state_space 0",
               path_E ? path_E : "");
   *E = *F = NULL;
-  const int code =
+  int code =
     path_F ? of_market(ctx, path_E, path_F, state_space, E, F) : of_mat(ctx, path_E, E, F);
+  if (code == STEIF_OK) code = populated(ctx, path_E, *E, *F);
   if (code == STEIF_OK) return code;
   if (*E) SUNMatDestroy(*E);
   if (*F) SUNMatDestroy(*F);

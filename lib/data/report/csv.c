@@ -1,5 +1,5 @@
 /* csv.c: the first sheet (or the fields as one row) as comma-separated values, RFC 4180 quoting.
- * A list of numbers takes one column per entry: x1, x2, ...
+ * A list of numbers takes one column per entry: x1, x2, ..., a matrix among the fields A1_1, A1_2, ...
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "report.h"
 #include <string.h>
@@ -38,7 +38,7 @@ static bool spread(const json_t *value)
   return json_is_array(value) && stf_report_is_number(json_array_get(value, 0));
 }
 
-/* Texts in one cell, separated by spaces; rows of a matrix are left to JSON. */
+/* Texts in one cell, separated by spaces. */
 static void joined(FILE *stream, const json_t *list)
 {
   for (size_t i = 0; i < json_array_size(list); i++) {
@@ -116,6 +116,22 @@ static void line(FILE *stream, json_t *columns, json_t *row)
   putc('\n', stream);
 }
 
+/* A field of the flat row; a matrix as its rows "A1_", "A2_", ... */
+static bool field(json_t *row, const char *key, json_t *value)
+{
+  bool good = true;
+  json_t *numbers;
+  size_t i;
+  if (!json_is_array(json_array_get(value, 0))) return !json_object_set(row, key, value);
+  json_array_foreach(value, i, numbers)
+  {
+    char name[288];
+    snprintf(name, sizeof name, "%s%zu_", key, i + 1);
+    good = good && !json_object_set(row, name, numbers);
+  }
+  return good;
+}
+
 /* Fields and members of objects as one flat row; borrowed values. */
 static json_t *flat(json_t *root)
 {
@@ -125,13 +141,13 @@ static json_t *flat(json_t *root)
   json_object_foreach(root, key, value)
   {
     if (!json_is_object(value))
-      good = good && !json_object_set(row, key, value);
+      good = good && field(row, key, value);
     else
       json_object_foreach(value, inner, member)
       {
         char name[256];
         snprintf(name, sizeof name, "%s.%s", key, inner);
-        good = good && !json_object_set(row, name, member);
+        good = good && field(row, name, member);
       }
   }
   if (good) return row;
