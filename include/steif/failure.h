@@ -20,8 +20,10 @@
 extern "C" {
 #endif
 
-/* Causes of a failure in the order in which they are looked for; noise that spoils a Jacobian made by
- * differences, a limit of ACCURACY, comes before BLOW_UP. */
+/* Causes of a failure. They are looked for in this order: values that are not finite at the point, noise
+ * that spoils a Jacobian made by differences (a limit of ACCURACY), BLOW_UP over more than two decades,
+ * values not finite along the step, IMPASSE, JUMP after t0, JACOBIAN, SINGULAR, START, INDEX, ACCURACY
+ * (not of prescribed steps), STIFF, RINGING. */
 enum steif_cause_kind {
   STEIF_CAUSE_UNKNOWN,
   STEIF_CAUSE_NOT_FINITE,
@@ -49,6 +51,7 @@ typedef struct steif_history {
   const sunrealtype *atols; /* n instead of atol; NULL: none */
   const sunrealtype *error; /* n: last error estimate; NULL: not known */
   int explicit_method;      /* its steps may be held by stability */
+  int prescribed;           /* steps are: no tolerance was to be met */
   int weighted;             /* norms scale component j by h^(number_j - 1) */
   const char *method;       /* for the sentence; NULL: "the method" */
 } steif_history;

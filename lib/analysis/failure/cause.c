@@ -145,6 +145,7 @@ int stf_cause_accuracy(stf_search *c)
   stf_view v = {0};
   stf_factor *f = NULL;
   sunrealtype rate;
+  if (c->scene->prescribed) return STEIF_OK;
   for (size_t j = 0; j < s->n; j++)
     if (8 * STF_EPS * fabs(s->y0[j]) > c->weight[j]) {
       blame_tolerance(c, j);
@@ -160,20 +161,42 @@ int stf_cause_accuracy(stf_search *c)
 
 /* -- order ------------------------------------------------------------------------------- */
 
-/* F at the point and along the attempted step. */
-static int not_finite(stf_search *c)
+static int residual_ahead(stf_point *s, sunrealtype dt, sunrealtype *y, sunrealtype *r)
+{
+  for (size_t j = 0; j < s->n; j++) y[j] = s->y0[j] + dt * s->yp0[j], r[j] = 0;
+  return stf_point_residual(s, s->t + dt, y, s->yp0, r);
+}
+
+/* Halve [from, *dt] down to the first time known where F cannot be had; F there in r. */
+static int border(stf_point *s, sunrealtype from, sunrealtype *dt, sunrealtype *y,
+                  sunrealtype *r)
+{
+  for (int k = 0; k < 60; k++) {
+    const sunrealtype middle = from + (*dt - from) / 2;
+    const int code = residual_ahead(s, middle, y, r);
+    if (code < 0 && code != STEIF_CALLBACK) return code;
+    if (code)
+      *dt = middle;
+    else
+      from = middle;
+  }
+  const int code = residual_ahead(s, *dt, y, r);
+  return code < 0 && code != STEIF_CALLBACK ? code : STEIF_OK;
+}
+
+/* F at the point and along a step of length h, at `count` parts of it from the first. */
+static int finite_along(stf_search *c, sunrealtype h, int first, int count)
 {
   static const sunrealtype part[] = {0, 0.25, 0.5, 1, 8, 64, 512};
   stf_point *s = c->point;
   sunrealtype *y = s->scratch, *r = s->scratch + s->n;
   char e[STEIF_SPEC_WORD];
-  const bool tiny = fabs(c->scene->h) < 1e-9 * fabs(s->t - c->scene->t0);
-  for (int k = 0; k < (tiny ? 7 : 4); k++) { /* tiny: longer steps were refused before */
-    const sunrealtype dt = part[k] * c->scene->h;
-    for (size_t j = 0; j < s->n; j++) y[j] = s->y0[j] + dt * s->yp0[j], r[j] = 0;
-    const int code = stf_point_residual(s, s->t + dt, y, s->yp0, r);
+  for (int k = first; k < first + count; k++) {
+    sunrealtype dt = part[k] * h;
+    const int code = residual_ahead(s, dt, y, r);
     if (code < 0 && code != STEIF_CALLBACK) return code;
     if (!code) continue;
+    if (k) STEIF_TRY(border(s, k > 1 ? part[k - 1] * h : 0, &dt, y, r));
     steif_cause *cause = c->cause;
     cause->kind = STEIF_CAUSE_NOT_FINITE, cause->t = s->t + dt;
     for (size_t i = s->n; i-- > 0;)
@@ -189,6 +212,31 @@ static int not_finite(stf_search *c)
     return STEIF_OK;
   }
   return STEIF_OK;
+}
+
+static int not_finite(stf_search *c) { return finite_along(c, c->scene->h, 0, 1); }
+
+/* After blow-up, which overflows along steps as well. */
+static int not_finite_near(stf_search *c)
+{
+  const bool tiny = fabs(c->scene->h) < 1e-9 * fabs(c->point->t - c->scene->t0);
+  return finite_along(c, c->scene->h, 1, tiny ? 6 : 3); /* tiny: longer steps were rejected */
+}
+
+/* Steps that shrink far below the last accepted one were first tried at its length. */
+static int not_finite_ahead(stf_search *c)
+{
+  const steif_history *s = c->scene;
+  const sunrealtype last = s->count > 1 ? s->t[s->count - 1] - s->t[s->count - 2] : 0;
+  return fabs(s->h) < 1e-6 * last ? finite_along(c, last, 1, 4) : STEIF_OK;
+}
+
+/* Noise moves starts as well, and is told by accuracy, which comes next. */
+static int start_without_noise(stf_search *c)
+{
+  for (size_t i = 0; i < c->point->n; i++)
+    if (loud(c, i)) return STEIF_OK;
+  return stf_cause_start(c);
 }
 
 static int open_case(stf_search *c)
@@ -235,9 +283,10 @@ static int look(stf_search *c)
     bool large; /* for any number of unknowns; the others are dense */
   } tests[] = {
     {not_finite, true},          {stf_cause_differences, false}, {stf_cause_blow_up, true},
-    {stf_cause_impasse, false},  {stf_cause_jump, true},         {stf_cause_jacobian, false},
-    {stf_cause_singular, false}, {stf_cause_accuracy, true},     {stf_cause_stiff, false},
-    {stf_cause_start, false},    {stf_cause_ringing, true},      {stf_cause_index, false}};
+    {not_finite_near, true},     {stf_cause_impasse, false},     {stf_cause_jump, true},
+    {stf_cause_jacobian, false}, {stf_cause_singular, false},    {start_without_noise, false},
+    {stf_cause_index, false},    {stf_cause_accuracy, true},     {stf_cause_stiff, false},
+    {stf_cause_start, false},    {stf_cause_ringing, true},      {not_finite_ahead, true}};
   const size_t count = c->scene ? sizeof tests / sizeof *tests : 0;
   const int code = open_case(c);
   if (code < 0) return code;

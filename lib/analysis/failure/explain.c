@@ -212,6 +212,25 @@ static int name_high_index(stf_search *c)
   return STEIF_OK;
 }
 
+/* SUNDIALS' integrators keep their estimates to themselves: what the index does to any of them. */
+static int name_index_of_engine(stf_search *c)
+{
+  const steif_diagnosis *d = &c->diagnosis;
+  steif_cause *cause = c->cause;
+  size_t at = 0;
+  for (size_t j = 1; j < c->point->n; j++)
+    if (d->number[j] > d->number[at]) at = j;
+  cause->kind = STEIF_CAUSE_INDEX, cause->unknown = (sunindextype)at;
+  cause->value[0] = d->index, cause->value[1] = d->number[at];
+  stf_point_say(cause->message, "Index is %d (%s), and %s is for index 1: errors of ", d->index,
+                steif_confidence_name(d->confidence),
+                c->scene->method ? c->scene->method : "the method");
+  stf_point_list(c->point, cause->message, false, d->number, 2, true);
+  stf_point_say(cause->message, " do not fall with h. Use radau or auto, which control them by "
+                                "their index, or a form of index 1");
+  return STEIF_OK;
+}
+
 int stf_cause_index(stf_search *c)
 {
   const size_t n = c->point->n;
@@ -220,7 +239,9 @@ int stf_cause_index(stf_search *c)
   STEIF_TRY(stf_cause_diagnose(c));
   const steif_diagnosis *d = &c->diagnosis;
   if (d->index > 3 && !c->point->system.linear) return name_high_index(c);
-  if (d->index < 2 || c->scene->weighted || !error) return STEIF_OK;
+  if (d->index < 2 || c->scene->prescribed) return STEIF_OK;
+  if (!error) return d->index > 2 ? name_index_of_engine(c) : STEIF_OK;
+  if (c->scene->weighted) return STEIF_OK;
   size_t at = 0;
   for (size_t j = 1; j < n; j++)
     if (fabs(error[j]) / c->weight[j] > fabs(error[at]) / c->weight[at]) at = j;

@@ -156,6 +156,7 @@ static int explain(steif_solver *s, const record *r, steif_failure *f)
                                .error = f->count ? N_VGetArrayPointer(step->error) : NULL,
                                .explicit_method =
                                  !s->engine && (step->method->traits & STF_EXPLICIT),
+                               .prescribed = !s->engine && !step->adaptive,
                                .weighted = s->problem->index != NULL,
                                .method = s->method};
   STEIF_TRY(residuals(s->ctx, r, &q, f));

@@ -184,16 +184,20 @@ static int look(path *p, sunrealtype reach, bool *found)
   const size_t n = p->c->point->n;
   size_t at = 0, unknown;
   sunrealtype middle = 0, size;
-  const sunrealtype width = 2 * reach / (SAMPLES - 1);
+  const stf_search *c = p->c;
+  const sunrealtype from = fmax(-reach, c->scene->t0 - c->point->t); /* nothing is before t0 */
+  const sunrealtype width = (reach - from) / (SAMPLES - 1);
   for (size_t k = 0; k < SAMPLES; k++)
-    STEIF_TRY(walk(p, -reach + width * (sunrealtype)k, p->F + k * n));
+    STEIF_TRY(walk(p, from + width * (sunrealtype)k, p->F + k * n));
   const size_t i = outstanding(p, &at, &middle);
   if (i == n) return STEIF_OK;
   const sunrealtype first = fabs(p->F[(at + 1) * n + i] - p->F[at * n + i]);
-  sunrealtype a = -reach + width * (sunrealtype)at, b = a + width;
+  sunrealtype a = from + width * (sunrealtype)at, b = a + width;
   STEIF_TRY(bisect(p, i, &a, &b, &size));
   const sunrealtype least = 1e4 * STF_EPS * p->c->scale[i] + 30 * p->c->noise[i];
   if (!(fabs(size) > 0.5 * first) || !(fabs(size) > least)) return STEIF_OK;
+  const sunrealtype t0 = c->scene->t0; /* what changes there has no other side */
+  if (c->point->t + b <= t0 + 16 * STF_EPS * fmax(fabs(t0), fabs(c->scene->h))) return STEIF_OK;
   STEIF_TRY(guilty(p, i, a, b, size, &unknown));
   *found = true;
   return tell(p, i, b, size, middle, unknown);

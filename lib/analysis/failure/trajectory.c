@@ -25,7 +25,7 @@ static sunrealtype misfit(size_t count, const sunrealtype *t, const sunrealtype 
 
 /* -- blow-up ----------------------------------------------------------------------------- */
 
-static const sunrealtype spacing = 1.5, least_growth = 20, blow_up_misfit = 0.05,
+static const sunrealtype spacing = 2, least_growth = 250, blow_up_misfit = 0.05,
                          blow_up_distance = 1e-6;
 
 /* Points backward from the last at which |y_j'| has fallen by `spacing` each time, but none so near the
@@ -45,6 +45,15 @@ static size_t collect(const steif_history *s, size_t n, size_t j, sunrealtype *t
   return count;
 }
 
+/* What blows up is larger than ever before. */
+static bool largest_now(const steif_history *s, size_t n, size_t j)
+{
+  const sunrealtype now = fabs(s->y[(s->count - 1) * n + j]);
+  for (size_t k = 0; k + 1 < s->count; k++)
+    if (fabs(s->y[k * n + j]) > now) return false;
+  return true;
+}
+
 int stf_cause_blow_up(stf_search *c)
 {
   const steif_history *s = c->scene;
@@ -53,7 +62,9 @@ int stf_cause_blow_up(stf_search *c)
   size_t at = n;
   for (size_t j = 0; j < n; j++) {
     if (collect(s, n, j, t, x) < 9 || !(x[0] > least_growth * x[8])) continue;
-    for (int step = 0; step <= 23; step++) {
+    if (!largest_now(s, n, j)) continue;
+    for (int step = 0; step <= 15;
+         step++) { /* to q = 1, a logarithm: what is above stays finite */
       const sunrealtype q = 0.25 + 0.05 * step;
       sunrealtype root;
       for (int k = 0; k < 9; k++) z[k] = pow(x[k] / x[0], -q);
