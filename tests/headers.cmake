@@ -22,3 +22,17 @@ foreach(header ${headers})
     endif()
   endif()
 endforeach()
+
+# C++20 warns of what is deprecated there: all headers at once, where the compiler knows it.
+file(WRITE one_line.cc "#include <steif/steif.h>\n#include <steif/data.h>\n"
+                       "#include <steif/linear.h>\n#include <steif/analysis.h>\n")
+file(WRITE empty.cc "")
+if(CXX)
+  execute_process(COMMAND ${CXX} -std=c++20 -fsyntax-only empty.cc RESULT_VARIABLE unknown ERROR_QUIET)
+  if(NOT unknown)
+    execute_process(COMMAND ${CXX} -std=c++20 ${flags} one_line.cc RESULT_VARIABLE code)
+    if(code)
+      message(SEND_ERROR "the headers do not compile as C++20")
+    endif()
+  endif()
+endif()

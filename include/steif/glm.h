@@ -47,8 +47,8 @@
 extern "C" {
 #endif
 
-enum { STEIF_STAGES = 32 }; /* largest number of stages */
-enum { STEIF_PAST = 16 };   /* largest number of external values */
+/* Largest numbers of stages and of external values; one enum, for C++20 multiplies no two. */
+enum { STEIF_STAGES = 32, STEIF_PAST = 16 };
 
 /* Matrices by rows without gaps. */
 typedef struct steif_glm {
