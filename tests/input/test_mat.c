@@ -34,6 +34,9 @@ static void two_matrix_market_files_are_a_system(void)
   CHECK(steif_system_read(ctx, in_folder("E5.mtx"), in_folder("E5.mtx"), 0, &E, &F) ==
         STEIF_SINGULAR);
   SAYS(ctx, "have 2 entries for 200000 equations");
+  put("E6.mtx", "%%MatrixMarket matrix coordinate real general\n1 100000000 1\n1 1 2\n");
+  CHECK(!steif_matrix_read(ctx, in_folder("E6.mtx")) && steif_status(ctx) == STEIF_BAD_INPUT);
+  SAYS(ctx, "1 x 100000000 with 1 entries in all");
   CHECK(steif_system_read(ctx, NULL, in_folder("E.mtx"), 0, &E, &F) == STEIF_BAD_INPUT);
   CHECK(steif_system_read(ctx, in_folder("E.mtx"), in_folder("F.mtx"), 0, NULL, &F) ==
         STEIF_BAD_INPUT);

@@ -12,6 +12,9 @@
 /* Whole numbers up to here are exact in double precision, through which indices are read. */
 #define LARGEST 9007199254740992.0
 
+/* Rows and columns that may be empty, each a number in memory: sizes farther from the entries are wrong. */
+#define SPARE 1e7
+
 /* What was expected on this line, and what is there from `found` on. */
 static int reject(const stf_lines *l, const char *expected, const char *found)
 {
@@ -112,6 +115,11 @@ static int sizes(stf_lines *l, stf_market *m)
   STEIF_CHECK(m->symmetry == STF_GENERAL || m->rows == m->columns, l->ctx, STEIF_BAD_INPUT,
               "%s, line %ld: a symmetric matrix of %lld x %lld; make it square, or general",
               l->path, l->number, (long long)m->rows, (long long)m->columns);
+  const sunindextype longest = m->rows > m->columns ? m->rows : m->columns;
+  STEIF_CHECK(
+    m->array || (double)longest <= SPARE + 100 * (double)m->entries, l->ctx, STEIF_BAD_INPUT,
+    "%s, line %ld: %lld x %lld with %lld entries in all; are these the sizes?", l->path,
+    l->number, (long long)m->rows, (long long)m->columns, (long long)m->entries);
   if (!m->array) return STEIF_OK;
   STEIF_CHECK(area(m) <= LARGEST, l->ctx, STEIF_BAD_INPUT,
               "%s, line %ld: an array of %lld x %lld is too large; write it by coordinates",
