@@ -24,7 +24,12 @@ static int perturbed(const stf_measure *w, sunrealtype eps, SUNMatrix *E)
   return STEIF_OK;
 }
 
-/* Where E + eps F passes for singular in double, nothing is known. */
+/* Where E + eps F is or behaves as if it were singular in double, nothing is known. */
+static bool unknown(int code)
+{
+  return code == STEIF_NOT_FINITE || code == STEIF_SINGULAR || code == STEIF_NO_CONVERGENCE;
+}
+
 static int pair(stf_measure *w, const steif_linear *linear)
 {
   stf_subject s;
@@ -34,13 +39,13 @@ static int pair(stf_measure *w, const steif_linear *linear)
   s.weight = w->subject.weight;
   s.sides.count = w->subject.sides.count, s.sides.breaks = w->subject.sides.breaks;
   const int code =
-    s.index == 0 ? stf_subject_pair(&s, w->value, &accuracy, how, sizeof how) : STEIF_OK;
+    s.index ? STEIF_SINGULAR : stf_subject_pair(&s, w->value, &accuracy, how, sizeof how);
   for (int m = 0; m < s.n; m++) {
-    w->level[m] = DISTRUST * accuracy;
-    if (s.index != 0) w->value[m] = NAN;
+    w->level[m] = code ? INFINITY : DISTRUST * accuracy;
+    if (code) w->value[m] = NAN;
   }
   stf_subject_close(&s);
-  return code;
+  return unknown(code) ? STEIF_OK : code;
 }
 
 int stf_cobb_run(stf_measure *w, sunrealtype eps)

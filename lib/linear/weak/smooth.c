@@ -18,6 +18,8 @@
 #include <stdio.h>
 #include <string.h>
 
+/* eps in what the pencil gives of x(0-), at least. */
+#define FOUND 16
 enum { OCTAVES = 40, FIRST = 4, PANELS_MOST = 512 };
 static const sunrealtype agreed = 1e-12;
 
@@ -289,6 +291,39 @@ static int pair_impulses(stf_subject *s, sunrealtype t, const steif_impulse *i,
   return STEIF_OK;
 }
 
+static sunrealtype largest(const sunrealtype *x, size_t count)
+{
+  sunrealtype most = 0;
+  for (size_t i = 0; x && i < count; i++) most = fmax(most, fabs(x[i]));
+  return most;
+}
+
+sunrealtype stf_subject_rounding(const stf_subject *s)
+{
+  const size_t n = (size_t)s->n;
+  const steif_impulse *impulse = &s->impulse;
+  sunrealtype size = largest(s->problem.y0, n), units = 1;
+  if (s->block.k) return 4 * STF_EPS * size;
+  size = fmax(size, largest(impulse->x_plus, n));
+  for (int i = 0; i < impulse->count; i++) {
+    units /= (sunrealtype)s->weight.t1;
+    size = fmax(size, units * largest(impulse->c + (size_t)i * n, n));
+  }
+  return size * fmax(FOUND * STF_EPS, isfinite(impulse->estimate) ? impulse->estimate : 0);
+}
+
+/* |g^(i)(0)| t1^(i + 1), i = 0 .. index - 2, and i = 0 at least. */
+static int weigh_start(const stf_subject *s, sunrealtype *weight)
+{
+  long double g[STF_DERIVATIVES], units = s->weight.t1;
+  const int last = s->index > 2 ? s->index - 2 : 0;
+  *weight = 0;
+  STEIF_TRY(stf_weight_at(&s->weight, 0, last, g));
+  for (int i = 0; i <= last; i++, units *= s->weight.t1)
+    *weight += (sunrealtype)(fabsl(g[i]) * units);
+  return STEIF_OK;
+}
+
 int stf_subject_pair(stf_subject *s, sunrealtype *value, sunrealtype *accuracy, char *how,
                      size_t room)
 {
@@ -300,6 +335,9 @@ int stf_subject_pair(stf_subject *s, sunrealtype *value, sunrealtype *accuracy, 
   }
   STEIF_TRY(pair_smooth(s, value, accuracy));
   const sunrealtype smooth = *accuracy;
+  sunrealtype weight;
+  STEIF_TRY(weigh_start(s, &weight));
+  *accuracy += weight * stf_subject_rounding(s);
   STEIF_TRY(pair_impulses(s, 0, &s->impulse, value, accuracy));
   for (size_t b = 0; b < s->jumps; b++)
     STEIF_TRY(pair_impulses(s, s->jump[b].t, &s->jump[b].at, value, accuracy));

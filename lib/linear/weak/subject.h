@@ -44,6 +44,8 @@ stf_apart *stf_subject_apart(stf_subject *subject, const char *method, const cha
  * found, in words. */
 int stf_subject_pair(stf_subject *subject, sunrealtype *value, sunrealtype *accuracy, char *how,
                      size_t room);
+/* The rounding level of x(0+) and of impulses c_i / t1^(i + 1). */
+sunrealtype stf_subject_rounding(const stf_subject *subject);
 /* The smooth part at t[0] = 0 (right limit), t[1], ... ascending: rows of n. */
 int stf_subject_smooth(stf_subject *subject, size_t count, const sunrealtype *t,
                        sunrealtype *x);
