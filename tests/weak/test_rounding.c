@@ -148,9 +148,43 @@ static void impulses_may_be_too_small_to_be_seen(void)
   steif_context_free(&ctx);
 }
 
+/* E x' + x = 0 with E = (1, -1; 1, -1), E^2 = 0, from x(0-) in its kernel: the solution is 0 and so is what
+ * is paired, to rounding of x(0-) that no order may be read from. */
+static void nothing_has_no_order(void)
+{
+  static const char *const method[] = {"be", "radau:s=2", "gauss:s=2", "dirk:alexander3"};
+  steif_context *ctx = steif_context_new(NULL);
+  const sunrealtype x0[] = {1. / 3, 1. / 3};
+  const steif_linear l = {SUNDenseMatrix(2, 2, steif_sundials(ctx)),
+                          SUNDenseMatrix(2, 2, steif_sundials(ctx)), NULL, NULL};
+  for (int i = 0; i < 2; i++) {
+    SM_ELEMENT_D(l.F, i, i) = 1;
+    SM_ELEMENT_D(l.E, i, 0) = 1, SM_ELEMENT_D(l.E, i, 1) = -1;
+  }
+  for (int i = 0; i < 4; i++) {
+    steif_weak_row row[4];
+    steif_ball_row norm[4];
+    steif_weak_result result;
+    steif_weak_ball ball;
+    const steif_weak_query query = {.method = method[i],
+                                    .linear = &l,
+                                    .x0 = x0,
+                                    .convention = i ? STEIF_STAGE : STEIF_R,
+                                    .h = 0.1,
+                                    .rows = 4,
+                                    .component = STEIF_ALL};
+    CHECK(!steif_weak_measure(ctx, &query, row, &result) && result.converges != 0);
+    CHECK(!steif_weak_measure_ball(ctx, &query, 0, norm, &ball) && ball.converges != 0);
+    CHECK(fabs(row[3].error) < 1e-13 && !row[3].usable && !norm[3].usable);
+  }
+  SUNMatDestroy(l.E), SUNMatDestroy(l.F);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_rounding[] = {
   {"rounding levels are the differences to closed values", levels_are_those_of_closed_values},
   {"errors are right within their levels", errors_are_right_within_their_levels},
   {"no verdict is wrong", no_verdict_is_wrong},
+  {"nothing has no order", nothing_has_no_order},
   {"impulses may be too small to be seen", impulses_may_be_too_small_to_be_seen},
   CU_TEST_INFO_NULL};
