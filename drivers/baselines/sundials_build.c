@@ -66,6 +66,16 @@ double sundials_ratio(steif_context *ctx)
 #endif
 }
 
+void sundials_caption(steif_context *ctx, char title[64], char axis[96])
+{
+  const double ratio = sundials_ratio(ctx);
+  *title = *axis = 0;
+  if (isnan(ratio)) return;
+  snprintf(title, 64, "SUNDIALS compiled %s optimisation",
+           ratio > SUNDIALS_SLOW ? "without" : "with");
+  snprintf(axis, 96, "vector sums of SUNDIALS take %.1f times as long as a plain loop", ratio);
+}
+
 double sundials_describe(steif_context *ctx, char *text, size_t room)
 {
   char version[24] = "";

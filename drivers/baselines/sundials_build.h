@@ -12,5 +12,7 @@
 double sundials_ratio(steif_context *ctx);
 /* "SUNDIALS 6.4.1 compiled without optimisation: its vector sums take 8 times as long as a plain loop". */
 double sundials_describe(steif_context *ctx, char *text, size_t room);
+/* The same in two parts, for the title and the axis of a picture; "" where it is not measured. */
+void sundials_caption(steif_context *ctx, char title[64], char axis[96]);
 
 #endif

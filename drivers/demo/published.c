@@ -71,7 +71,7 @@ static int sweep(demo *d, const steif_problem *p)
 {
   static const double rtol[] = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
   static work_curves work;
-  sundials_describe(d->call->ctx, work.note, sizeof work.note);
+  sundials_caption(d->call->ctx, work.note, work.measured);
   for (size_t k = 1; k < METHODS; k++) {
     steif_options o = steif_defaults();
     work_open(&work, methods[k]);

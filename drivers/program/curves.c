@@ -57,7 +57,7 @@ int work_plot(const struct call *call, const work_curves *w, const char *problem
               const char *path)
 {
   steif_curve curve[WORDS];
-  char title[240];
+  char title[160], axis[160];
   size_t count = 0;
   for (size_t k = 0; k < w->count; k++) {
     const size_t first = w->first[k], end = k + 1 < w->count ? w->first[k + 1] : w->points;
@@ -65,8 +65,9 @@ int work_plot(const struct call *call, const work_curves *w, const char *problem
     curve[count++] =
       (steif_curve){w->label[k], end - first, w->digits + first, w->seconds + first, 1};
   }
-  snprintf(title, sizeof title, "Work against precision: %s%s%s", problem, *w->note ? "; " : "",
+  snprintf(title, sizeof title, "Work against precision: %s%s%s", problem, *w->note ? ", " : "",
            w->note);
-  const steif_plot plot = {title, "digits (mescd)", "processor seconds", 0, 1, 0, count, curve};
+  snprintf(axis, sizeof axis, "digits (mescd)%s%s", *w->measured ? "; " : "", w->measured);
+  const steif_plot plot = {title, axis, "processor seconds", 0, 1, 0, count, curve};
   return save_plot(call, &plot, path);
 }

@@ -27,7 +27,7 @@ enum { WORK_POINTS = WORDS * REALS_MOST };
 typedef struct work_curves {
   size_t count, points;
   const char *label[WORDS];
-  char note[160]; /* for the title: which build of SUNDIALS was measured; "" */
+  char note[64], measured[96]; /* for title and axis: which build of SUNDIALS this is; "" */
   size_t first[WORDS];
   double digits[WORK_POINTS], seconds[WORK_POINTS];
 } work_curves;
