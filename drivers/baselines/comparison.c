@@ -21,7 +21,7 @@ static outcome best(struct call *call, comparison *c, const char *method,
   known_open(call, &c->problem, o, &known);
   settings_run(call, &c->problem, method, o, &known, s);
   known_close(call, &known);
-  return s->run[s->best].out;
+  return s->run[0].out;
 }
 
 /* Processor seconds of short runs: the least of five, the first of which finds cold caches. */
@@ -55,7 +55,7 @@ void compare_method(struct call *call, comparison *c, const char *method)
     outcome out = many ? best(call, c, method, &o, &s)
                        : integrate(call->ctx, &c->problem, method, &o, NULL);
     if (out.why[0]) say(call, "%s, %s %.3g: %s", method, what, value[i], out.why);
-    const char *const spec = many ? s.run[s.best].spec : method;
+    const char *const spec = many ? s.run[0].spec : method;
     repeat(call, c, spec, &o, &out);
     report_run(c->report, method, &c->problem, &o, &out);
     steif_report_text(c->report, "rows.settings", spec);

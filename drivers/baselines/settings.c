@@ -136,6 +136,17 @@ static bool better(const setting_run *x, const setting_run *y)
   return x->end != y->end ? x->end < y->end : x->start < y->start;
 }
 
+/* The best first; equals stay in their order. */
+static void rank(settings *s)
+{
+  for (size_t i = 1; i < s->count; i++) {
+    const setting_run run = s->run[i];
+    size_t k = i;
+    for (; k > 0 && better(&run, &s->run[k - 1]); k--) s->run[k] = s->run[k - 1];
+    s->run[k] = run;
+  }
+}
+
 void settings_run(const struct call *call, const steif_problem *p, const char *method,
                   const steif_options *given, const known_solution *k, settings *s)
 {
@@ -153,8 +164,8 @@ void settings_run(const struct call *call, const steif_problem *p, const char *m
     setting_run *run = &s->run[s->count++];
     snprintf(run->spec, sizeof run->spec, "%s", count > 1 ? of_ida[i] : method);
     one(call, p, &o, k, s, run);
-    if (better(run, &s->run[s->best])) s->best = i;
   }
+  rank(s);
 }
 
 /* --- reports --- */
@@ -194,7 +205,7 @@ void report_settings(steif_report *r, const char *sheet, const char *problem, co
 
 void report_best(steif_report *r, const char *object, const settings *s)
 {
-  const setting_run *best = &s->run[s->best];
+  const setting_run *best = &s->run[0];
   text(r, object, "settings", best->spec);
   text(r, object, "word", best->word);
   cell(r, object, "error_plus", best->start);

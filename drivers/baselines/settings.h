@@ -50,8 +50,8 @@ typedef struct setting_run {
 
 typedef struct settings {
   double rtol, atol;
-  size_t count, best;
-  setting_run run[SETTINGS_MOST];
+  size_t count;                   /* at least 1 */
+  setting_run run[SETTINGS_MOST]; /* by their verdicts, then their errors at t1 and at 0+ */
 } settings;
 
 /* "ida" alone asks for all settings of IDA that make a difference for a DAE of this index; every other spec

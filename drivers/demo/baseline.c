@@ -42,7 +42,7 @@ static int one(demo *d, size_t i)
   known_open(d->call, &p, &o, &known);
   settings_run(d->call, &p, "ida", &o, &known, &s);
   known_close(d->call, &known);
-  const setting_run *best = &s.run[s.best];
+  const setting_run *best = &s.run[0];
   steif_report_row(d->report, "ida");
   steif_report_text(d->report, "ida.problem", problems[i]);
   report_best(d->report, "ida", &s);

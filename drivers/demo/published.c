@@ -47,7 +47,7 @@ static void best(demo *d, size_t i, const steif_problem *p, const char *method,
   known_open(d->call, p, o, &known);
   settings_run(d->call, p, method, o, &known, &s);
   known_close(d->call, &known);
-  row(d, problems[i].problem, method, o, s.run[s.best].spec, &s.run[s.best].out);
+  row(d, problems[i].problem, method, o, s.run[0].spec, &s.run[0].out);
 }
 
 static void one_method(demo *d, size_t i, const steif_problem *p, const char *method)

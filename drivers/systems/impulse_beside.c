@@ -35,7 +35,7 @@ void report_beside(const struct call *call, const struct descriptor *l, const ch
     known_open(call, &p, &o, &known);
     settings_run(call, &p, method, &o, &known, &s);
     known_close(call, &known);
-    got = s.run[s.best].out;
+    got = s.run[0].out;
   }
   steif_report_text(r, "vs.method", method);
   report_status(r, "vs.", &got);
@@ -43,7 +43,7 @@ void report_beside(const struct call *call, const struct descriptor *l, const ch
   steif_report_whole(r, "vs.steps", got.stats.steps);
   if (s.count) {
     report_best(r, "vs", &s);
-    steif_report_text(r, "vs.verdict", s.run[s.best].verdict);
+    steif_report_text(r, "vs.verdict", s.run[0].verdict);
   }
   steif_report_text(r, "vs.impulses", NULL); /* it has none in any setting */
   report_settings(r, "settings", NULL, &s);
