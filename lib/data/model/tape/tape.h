@@ -37,16 +37,17 @@ typedef struct stf_box {
 } stf_box;
 
 typedef struct stf_tape {
-  stf_vector code;       /* stf_step_code, scalar; the first `fixed` of parameters only */
-  stf_vector wide;       /* stf_step_code, on lanes */
-  stf_vector numbers;    /* stf_load: kind NUMBER, a: into `values` */
-  stf_vector values;     /* double */
-  stf_vector loads;      /* stf_load, scalar; the first `parameters` of them once */
-  stf_vector wide_loads; /* stf_load */
-  stf_vector broadcasts; /* stf_step_code: to a lane register from a scalar one, a */
-  stf_vector stores;     /* stf_store */
-  size_t fixed;
-  int32_t registers, lanes; /* scalar registers, lane registers */
+  stf_vector code;           /* stf_step_code, scalar; the first `fixed` of parameters only */
+  stf_vector wide;           /* stf_step_code, on lanes */
+  stf_vector numbers;        /* stf_load: kind NUMBER, a: into `values` */
+  stf_vector values;         /* double */
+  stf_vector loads;          /* stf_load, scalar; the first `parameters` of them once */
+  stf_vector wide_loads;     /* stf_load */
+  stf_vector broadcasts;     /* stf_step_code: to a lane register from a scalar one, a */
+  stf_vector stores;         /* stf_store */
+  size_t fixed, fixed_loads; /* of code and loads: those of parameters only, which come first */
+  stf_vector at;             /* const double *: values of each lane register */
+  int32_t registers, lanes;  /* scalar registers, lane registers */
   stf_box box;
 } stf_tape;
 

@@ -120,7 +120,9 @@ static int nodes(compiler *c)
       const int mine = wide(n) ? 2 : fixed ? 0 : 1;
       if (mine == turn) STEIF_TRY(turn < 2 ? scalar_node(c, i) : lane_node(c, i));
     }
-    if (turn == 0) c->tape->fixed = c->tape->code.count;
+    if (turn > 0) continue;
+    c->tape->fixed = c->tape->code.count;
+    c->tape->fixed_loads = c->tape->loads.count;
   }
   return STEIF_OK;
 }
@@ -155,6 +157,7 @@ int stf_tape_compile(const stf_graph *g, const stf_box *box, size_t count,
     code = nodes(&c);
   }
   if (!code) code = stores(&c, count, outputs);
+  if (!code) code = stf_vector_resize(g->ctx, &tape->at, (size_t)tape->lanes, sizeof(double *));
   stf_vector_free(g->ctx, &c.scalar);
   stf_vector_free(g->ctx, &c.lane);
   stf_vector_free(g->ctx, &c.live);
@@ -164,8 +167,8 @@ int stf_tape_compile(const stf_graph *g, const stf_box *box, size_t count,
 
 void stf_tape_free(steif_context *ctx, stf_tape *t)
 {
-  stf_vector *all[] = {&t->code,  &t->wide,       &t->numbers,    &t->values,
-                       &t->loads, &t->wide_loads, &t->broadcasts, &t->stores};
+  stf_vector *all[] = {&t->code,       &t->wide,       &t->numbers, &t->values, &t->loads,
+                       &t->wide_loads, &t->broadcasts, &t->stores,  &t->at};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) stf_vector_free(ctx, all[i]);
 }
 

@@ -24,13 +24,12 @@ static void run_scalar(const stf_step_code *s, const stf_step_code *end, double 
 }
 
 /* One instruction on `count` passes. */
-static void run_lane(const stf_step_code *s, double *lanes, int count, const stf_lookup *l)
+static void run_lane(const stf_step_code *s, const double *const *at, double *lanes, int count,
+                     const stf_lookup *l)
 {
   double *restrict to = lanes + (size_t)s->to * STF_PASSES;
-  const double *x = lanes + (size_t)s->a * STF_PASSES;
   const bool table = s->kind == STF_OP_LOOKUP || s->kind == STF_OP_TILT;
-  const double *y = table ? x : lanes + (size_t)s->b * STF_PASSES;
-  const double *z = lanes + (size_t)s->c * STF_PASSES;
+  const double *x = at[s->a], *y = table ? x : at[s->b], *z = at[s->c];
   switch (s->kind) {
 #define STF_ONE(name, word, value)                                                             \
   case STF_OP_##name:                                                                          \
@@ -81,8 +80,7 @@ void stf_tape_prepare(const stf_tape *t, const stf_feed *feed, double *space)
   for (size_t i = 0; i < t->numbers.count; i++)
     space[l[i].to] = *STF_AT(t->values, double, l[i].a);
   l = t->loads.data;
-  for (size_t i = 0; i < t->loads.count; i++)
-    if (l[i].kind == STF_OP_PARAMETER) space[l[i].to] = feed->p[l[i].a];
+  for (size_t i = 0; i < t->fixed_loads; i++) space[l[i].to] = feed->p[l[i].a];
   const stf_step_code *s = t->code.data;
   if (s) run_scalar(s, s + t->fixed, space, feed->lookups);
 }
@@ -101,6 +99,7 @@ static void fill(const stf_tape *t, const stf_feed *feed, const int32_t *counter
                  double *lanes)
 {
   const int inner = t->box.dims - 1;
+  const double **at = t->at.data;
   const stf_load *l = t->wide_loads.data;
   for (size_t i = 0; i < t->wide_loads.count; i++, l++) {
     double *to = lanes + (size_t)l->to * STF_PASSES;
@@ -111,19 +110,19 @@ static void fill(const stf_tape *t, const stf_feed *feed, const int32_t *counter
     const double *from = array_of(feed, l->kind) + offset(l->a, l->stride, counter);
     const int64_t step = l->stride[inner];
     if (step == 1)
-      memcpy(to, from, (size_t)count * sizeof *to);
+      at[l->to] = from;
     else
       for (int k = 0; k < count; k++) to[k] = from[k * step];
   }
 }
 
 static void store(const stf_tape *t, const int32_t *counter, int64_t pass, int count,
-                  const double *lanes, double *out)
+                  const double *const *at, double *out)
 {
   const int inner = t->box.dims - 1;
   const stf_store *s = t->stores.data;
   for (size_t i = 0; i < t->stores.count; i++, s++) {
-    const double *from = lanes + (size_t)s->from * STF_PASSES;
+    const double *from = at[s->from];
     if (s->slot) {
       const int32_t *slot = s->slot + pass;
       for (int k = 0; k < count; k++) out[slot[k]] += from[k];
@@ -150,8 +149,9 @@ static void run_passes(const stf_tape *t, const stf_feed *feed, double *lanes, d
       counter[inner] = b->low[inner] + k;
       fill(t, feed, counter, count, lanes);
       const stf_step_code *s = t->wide.data;
-      for (size_t i = 0; i < t->wide.count; i++) run_lane(s + i, lanes, count, feed->lookups);
-      store(t, counter, pass + k, count, lanes, out);
+      for (size_t i = 0; i < t->wide.count; i++)
+        run_lane(s + i, t->at.data, lanes, count, feed->lookups);
+      store(t, counter, pass + k, count, t->at.data, out);
     }
     pass += b->count[inner];
     int d = inner - 1;
@@ -166,8 +166,10 @@ static void run_passes(const stf_tape *t, const stf_feed *feed, double *lanes, d
 void stf_tape_run(const stf_tape *t, const stf_feed *feed, double *space, double *out)
 {
   double *lanes = space + t->registers;
+  const double **at = t->at.data;
+  for (int32_t i = 0; i < t->lanes; i++) at[i] = lanes + (size_t)i * STF_PASSES;
   const stf_load *l = t->loads.data;
-  for (size_t i = 0; i < t->loads.count; i++) space[l[i].to] = loaded(feed, l + i);
+  for (size_t i = t->fixed_loads; i < t->loads.count; i++) space[l[i].to] = loaded(feed, l + i);
   const stf_step_code *s = t->code.data;
   if (s) run_scalar(s + t->fixed, s + t->code.count, space, feed->lookups);
   if (t->box.dims) {
