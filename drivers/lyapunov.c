@@ -16,14 +16,17 @@ static int find(struct call *call, const steif_problem *p)
                      (long)p->n);
   a.exponent = malloc(4 * a.count * sizeof *a.exponent);
   a.check = malloc((a.count + 2) * sizeof *a.check);
+  a.separation = calloc(a.count, sizeof *a.separation);
   int code = EXIT_FAILED;
-  if (a.exponent && a.check) {
+  if (a.exponent && a.check && a.separation) {
     a.interval = a.exponent + a.count;
     a.error = a.exponent + 3 * a.count;
     code = lyapunov_measure(call, p, &a);
   } else {
     code = no_memory(call, "the exponents", "ask for fewer with --count");
   }
+  series_close(&a);
+  free(a.separation);
   free(a.check);
   free(a.exponent);
   return code;
@@ -42,6 +45,8 @@ static const struct option options[] = {
    NULL},
   {"--steps", COUNT, "M", "steps in the period P, instead of --h: h = P/M", NULL},
   {"--search", FLAG, NULL, "look for the longest steps that keep the decay in any case", NULL},
+  {"--series", OUTPUT, "FILE", "t, |x| and the local error of every step, comma-separated",
+   NULL},
   {"--accuracy", POSITIVE, "R",
    "accuracy of the sum against the mean trace, in largest exponents", "0.01"},
   {"--count", COUNT, "K", "number of exponents, the largest first (default: all)", NULL},
@@ -57,6 +62,7 @@ const struct verb verb_lyapunov = {
     "PROBLEM METHOD --h H --t1 T [--transient T --window W --count K --period P --search]",
   .least = 2,
   .most = 2,
+  .picture = true,
   .option = options,
   .rule = rules,
   .run = run,

@@ -47,14 +47,23 @@ struct lyapunov_answer {
   size_t count;
   double t0, t1; /* t1: as asked for */
   double *exponent, *interval, *error;
+  steif_separation *separation; /* of neighbours */
   steif_lyapunov_facts facts;
   steif_growth_facts growth;
-  bool measured; /* growth */
+  bool measured; /* growth, and by steps: */
+  size_t steps, room;
+  double *t, *norm, *lte; /* NULL: not wanted */
   steif_decay decay;
   bool judged, decided; /* decay is there; and says something, or is not for this problem */
   steif_lyapunov_check *check;
   int checks;
 };
+/* Room for the steps, where --series or --plot is given, and its end; tell: for steif_growth_measure. */
+int series_open(struct call *call, struct lyapunov_answer *a, size_t room);
+void series_close(struct lyapunov_answer *a);
+int series_tell(double t, double norm, double lte, void *answer);
+/* --series and --plot. */
+int series_save(const struct call *call, const struct lyapunov_answer *a);
 /* Everything but the room, by the options of the call; then presented. */
 int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_answer *a);
 int lyapunov_present(const struct call *call, const struct lyapunov_answer *a);

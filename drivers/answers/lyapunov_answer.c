@@ -20,6 +20,19 @@ static void checks(steif_report *r, const struct lyapunov_answer *a)
   }
 }
 
+static void separations(steif_report *r, const struct lyapunov_answer *a)
+{
+  static const struct member members[] = {
+    MEMBER(steif_separation, window, A_NUMBER),   MEMBER(steif_separation, low, A_NUMBER),
+    MEMBER(steif_separation, high, A_NUMBER),     MEMBER(steif_separation, spread, A_NUMBER),
+    MEMBER(steif_separation, separated, A_TRUTH), MEMBERS_END};
+  for (size_t i = 0; i + 1 < a->count; i++) {
+    steif_report_row(r, "separation");
+    steif_report_whole(r, "separation.exponent", (long)i + 1);
+    report_members(r, "separation.", members, &a->separation[i]);
+  }
+}
+
 /* Every measure of one solution of a linear problem. */
 static void diagnostics(steif_report *r, const steif_growth_facts *g)
 {
@@ -108,6 +121,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
     &(struct steps_made){
       .t0 = a->t0, .h = a->facts.h, .end = a->facts.end, .last_h = a->facts.h, .asked = a->t1});
   checks(r, a);
+  separations(r, a);
   if (a->measured) diagnostics(r, &a->growth);
 }
 

@@ -37,14 +37,18 @@ static int present_part(struct call *call, struct lyapunov_answer *a)
 
 int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_answer *a)
 {
-  const steif_lyapunov_options o = {.h = step_of(call),
-                                    .t1 = real_of(call, "--t1"),
-                                    .transient = real_of(call, "--transient"),
-                                    .window = real_of(call, "--window"),
-                                    .count = (int)whole_or(call, "--count", 0),
-                                    .error = a->error,
-                                    .stop = interruption_poll()};
+  steif_lyapunov_options o = {.h = step_of(call),
+                              .t1 = real_of(call, "--t1"),
+                              .transient = real_of(call, "--transient"),
+                              .window = real_of(call, "--window"),
+                              .count = (int)whole_or(call, "--count", 0),
+                              .error = a->error,
+                              .separation = a->separation,
+                              .stop = interruption_poll()};
   const char *method = call->word[1];
+  const double steps = (a->t1 - p->t0) / o.h + 2;
+  const int full = steps < 1e8 ? series_open(call, a, (size_t)steps) : EXIT_OK;
+  if (full) return full;
   progress(call, "%s on %s", method, call->word[0]);
   const int code =
     steif_lyapunov(call->ctx, p, method, &o, a->exponent, a->interval, &a->facts);
@@ -56,7 +60,9 @@ int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_
     return fail(call);
   decide(call, p, &o, a);
   /* One solution of a linear problem can be followed as long as it neither overflows nor is 0. */
+  if (a->t) o.tell = series_tell, o.user = a;
   a->measured = a->facts.linear && !steif_growth_measure(call->ctx, p, method, &o, &a->growth);
   steif_forget(call->ctx);
-  return lyapunov_present(call, a);
+  const int output = lyapunov_present(call, a), saved = series_save(call, a);
+  return saved ? saved : output;
 }

@@ -40,6 +40,17 @@
 extern "C" {
 #endif
 
+/* Exponents i and i + 1 are integrally separated where the mean of ln R_ii - ln R_jj, j = i + 1, over every
+ * window of some length is above a positive number (arXiv 1709.02059, definition 2.2). Then an error of
+ * O(h^p) in the steps changes them by O(h^p), else by more. Windows of 1/64, 1/32, .. 1/4 of the run are
+ * looked at: here is the first that separates them, else the longest. That no window does proves nothing:
+ * a gap below what the shortest of them blurs is not seen. NaN: too few steps. */
+typedef struct steif_separation {
+  sunrealtype window, low, high; /* length; smallest and largest mean over one of that length */
+  sunrealtype spread; /* standard deviation of the smallest ones in 16 parts of the run */
+  int separated;      /* 1: low - 2 spread > 0 */
+} steif_separation;
+
 typedef struct steif_lyapunov_options {
   sunrealtype h;         /* the constant step, used as it is: the run ends at t0 + N h, the last
                             whole step that is not after t1 */
@@ -56,6 +67,12 @@ typedef struct steif_lyapunov_options {
                             parts of the run: the exponent of the recurrence lies within 1 of them
                             in 2/3 of all runs, within 2.131 in 19/20 (Student's t), or more often;
                             NaN below 32 steps. NULL: not wanted */
+  steif_separation
+    *separation; /* room for count - 1 (count 0: n - 1) pairs; NULL: not wanted */
+  /* Called by steif_growth_measure after every step: |x_n|, and how far it is from the exact flow of the
+   * step; nonzero ends the run with STEIF_CALLBACK. */
+  int (*tell)(sunrealtype t, sunrealtype norm, sunrealtype lte, void *user);
+  void *user;
   const volatile int
     *stop; /* nonzero: steif_lyapunov returns STEIF_STOPPED after the step at hand, with
                                the averages of the steps made; without any where facts.steps is 0 */

@@ -209,6 +209,43 @@ static void constant_coefficients(void)
   steif_context_free(&ctx);
 }
 
+/* Neighbours of x' = A x: -1 and -3 differ by 2 in every window; a complex pair, -0.2 +- 3 i, turns and has no
+ * gap; two equal exponents of a diagonal neither. */
+static int turning(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector u,
+                   N_Vector v, N_Vector w)
+{
+  (void)t, (void)y, (void)fy, (void)user, (void)u, (void)v, (void)w;
+  SM_ELEMENT_D(J, 0, 0) = SM_ELEMENT_D(J, 1, 1) = -0.2;
+  SM_ELEMENT_D(J, 0, 1) = 1, SM_ELEMENT_D(J, 1, 0) = -9;
+  return 0;
+}
+
+static void separation_is_seen(void)
+{
+  static const double y0[] = {1, 1};
+  static const struct {
+    constant A;
+    steif_jacobian jac;
+    int separated;
+    double gap;
+  } rows[] = {{{-1, 2, -3}, jac, 1, 2}, {{-1, 0, -1}, jac, 0, 0}, {{0, 0, 0}, turning, 0, 0}};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int i = 0; i < 3; i++) {
+    constant A = rows[i].A;
+    const steif_problem p = {
+      .name = "pair", .n = 2, .t1 = 200, .y0 = y0, .f = f, .jac = rows[i].jac, .user = &A};
+    steif_separation pair = {.separated = -1};
+    const steif_lyapunov_options o = {
+      .h = 0.02, .transient = 30, .linear = 1, .separation = &pair};
+    double x[2];
+    CHECK(steif_lyapunov(ctx, &p, "gauss:s=3", &o, x, NULL, NULL) == STEIF_OK);
+    CHECK(pair.separated == rows[i].separated && pair.low <= pair.high + 1e-12);
+    CHECK(pair.low < rows[i].gap + 1e-6 && pair.high > rows[i].gap - 1e-6);
+    CHECK(pair.window > (i == 0 ? 2 : 42) && pair.window < (i == 0 ? 3 : 43));
+  }
+  steif_context_free(&ctx);
+}
+
 static void what_cannot_be_judged_is_said(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -236,5 +273,6 @@ CU_TestInfo tests_of_decay[] = {
   {"growth on the way is seen", growth_on_the_way_is_seen},
   {"the longest good step", the_longest_good_step},
   {"constant coefficients", constant_coefficients},
+  {"integral separation", separation_is_seen},
   {"what cannot be judged is said", what_cannot_be_judged_is_said},
   CU_TEST_INFO_NULL};

@@ -1,6 +1,7 @@
 /* lyapunov.c: exponents and spectral intervals by discrete QR of the computed recurrence.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "lyapunov_thresholds.h"
+#include "integral_separation.h"
 #include "variation.h"
 #include <math.h>
 #include <stdlib.h>
@@ -11,6 +12,7 @@ enum { PARTS = 16 };
 typedef struct spectrum {
   stf_variation v;
   stf_constant constant;
+  stf_gaps separation;           /* sum NULL: not asked for */
   long steps, transient, window; /* averaged; before; of an interval */
   long made;                     /* averaged until the run was stopped */
   sunrealtype *w, *R;
@@ -153,6 +155,7 @@ static void record(spectrum *s, long n)
     s->high[i] = fmax(s->high[i], rate);
   }
   if (s->steps >= 2 * PARTS && n * PARTS >= (s->parts + 1) * s->steps) close_part(s, n, now);
+  if (s->separation.sum) stf_gaps_record(&s->separation, n, now);
   if (2 * n >= s->steps) s->mu = fmax(s->mu, now[0] / ((sunrealtype)n * h));
   s->rise = fmax(s->rise, s->climb);
   s->trace += (trace(&s->v) - s->trace) / (sunrealtype)n;
@@ -201,6 +204,7 @@ static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype
     if (o->error)
       o->error[i] = s->parts == PARTS ? sqrt(s->spread[i] / (PARTS * (PARTS - 1))) : NAN;
   }
+  if (s->separation.sum) stf_gaps_judge(&s->separation, s->v.h, o->separation);
   out.dimension = dimension(s, exponent, s->begun);
   if (facts) *facts = out;
 }
@@ -240,6 +244,7 @@ static int run(stf_pool *pool, steif_context *ctx, const steif_problem *p, const
                                o->linear, &s->v));
   STEIF_TRY(forget_start(s));
   STEIF_TRY(room(pool, s));
+  if (o->separation) STEIF_TRY(stf_gaps_open(pool, s->steps, s->v.m, &s->separation));
   stf_variation_scatter(&s->v);
   STEIF_TRY(straighten(s));
   for (long n = 0; n < s->transient; n++) {

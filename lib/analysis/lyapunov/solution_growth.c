@@ -185,7 +185,7 @@ static int begin(column *c)
   return begin_general(c);
 }
 
-static int follow(column *c)
+static int follow(column *c, const steif_lyapunov_options *o)
 {
   const int lag = c->multistep ? c->v.g->k - 1 : 0;
   const size_t bytes = (size_t)c->v.d * sizeof *c->x;
@@ -198,8 +198,12 @@ static int follow(column *c)
     STEIF_TRY(stf_variation_step(&c->v));
     STEIF_TRY(exact_step(c, t, c->v.h, c->old));
     stf_variation_solution(&c->v, c->x);
-    defect(c, distance(c->v.d, c->x, c->old));
+    const sunrealtype lte = distance(c->v.d, c->x, c->old);
+    defect(c, lte);
     size(c);
+    const int wish = o->tell ? o->tell(c->v.t, c->out.norm_end, lte, o->user) : 0;
+    STEIF_CHECK(wish == 0, c->v.ctx, STEIF_CALLBACK,
+                "the callback .tell stopped the run at t = %.12g", c->v.t);
     growth(c, n);
     if (c->multistep) STEIF_TRY(residuals(c, t, before));
     STEIF_CHECK(
@@ -255,7 +259,7 @@ int steif_growth_measure(steif_context *ctx, const steif_problem *problem, const
   if (!pool) return STEIF_NO_MEMORY;
   int code = open(pool, ctx, problem, method, options, &c);
   if (code == STEIF_OK) code = begin(&c);
-  if (code == STEIF_OK) code = follow(&c);
+  if (code == STEIF_OK) code = follow(&c, options);
   if (code == STEIF_OK) *facts = c.out;
   stf_pool_free(&pool);
   return code;
