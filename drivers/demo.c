@@ -42,10 +42,13 @@ static int run(struct call *call)
   static demo d;
   int code = demo_open(&d, call);
   if (call->json && !code) d.report = steif_report_new(call->ctx);
-  for (size_t i = 0; i < sizeof parts / sizeof *parts && !code; i++) code = show_part(&d, i);
-  if (!code) return demo_finish(&d);
+  for (size_t i = 0; i < sizeof parts / sizeof *parts && !code && !interrupted(); i++)
+    code = show_part(&d, i);
+  if (!code && !interrupted()) return demo_finish(&d);
   steif_report_free(&d.report);
-  return code;
+  if (!interrupted()) return code;
+  say(call, "interrupted: the parts that were left are not shown [STEIF_STOPPED]");
+  return interruption_exit();
 }
 
 static const struct option options[] = {
