@@ -1,6 +1,6 @@
 /* equation_rise.c: how far x' = A(t) x takes a solution at most above what it was: ln max |X(t, s)|, s < t.
  *
- * The 2-norm over all directions, from 16 times s of a period, or of the run: solutions of a method turn
+ * The 2-norm over all directions, from 16 times s of a period, or of the run, at no common phase: solutions of a method turn
  * through all directions in time, and what the equation itself does to one of them is no fault of theirs.
  * A start is left once |X(t, s)| K < 1 with the K so far: it rises above 1 no more.
  *
@@ -65,7 +65,7 @@ int stf_equation_rise(const stf_question *q, sunrealtype h, sunrealtype t1, sunr
   if (!code && !work) code = STEIF_NO_MEMORY;
   *rise = 0;
   for (int k = 0; k < STARTS && !code; k++)
-    code = from(&v, t0 + k * span / STARTS, t1, work, rise);
+    code = from(&v, t0 + span * fmod(k * STF_GOLDEN, 1), t1, work, rise);
   stf_pool_free(&pool);
   return code > 0 ? steif_status(q->ctx) : code;
 }

@@ -115,11 +115,13 @@ static int by_runs(const stf_question *q, sunrealtype h, stf_rate *rate)
     STEIF_TRY(stf_rate_of_run(q, q->exact, h, t1, &now));
     const sunrealtype off = fabs(now.value - before.value);
     rate->value = now.value, rate->rise = now.rise;
-    /* Runs of a chaotic solution agree to their standard errors and no further. */
-    const sunrealtype blur = q->linear ? 0 : now.error + before.error;
+    /* Runs end at different phases, and those of a chaotic solution are not the same one: they agree to their
+     * standard errors and no further. */
+    const sunrealtype blur = now.error + before.error;
     if (!(off <= STF_FLOW_AGREES * (1 + fabs(now.value)) + blur)) continue;
     rate->error = off + now.error;
-    return whole ? stf_equation_rise(q, h, t1, &rate->rise) : STEIF_OK;
+    const sunrealtype fine = fmax(h / 4, (t1 - q->problem->t0) / STF_FLOW_STEPS);
+    return whole ? stf_equation_rise(q, fine, t1, &rate->rise) : STEIF_OK;
   }
   return STEIF_OK;
 }
