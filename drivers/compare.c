@@ -9,12 +9,13 @@ static int run(struct call *call)
   for (int k = 1; k < call->words; k++)
     if (steif_method_find(call->ctx, call->word[k], &m) != STEIF_OK) return fail(call);
   if (steif_problem_find(call->ctx, call->word[0], &c.problem) != STEIF_OK) return fail(call);
+  c.given = c.problem;
   c.report = steif_report_new(call->ctx);
   steif_report_text(c.report, "problem", call->word[0]);
-  for (int k = 1; c.report && k < call->words; k++) compare_method(call, &c, call->word[k]);
-  int code = c.report ? present(call, c.report) : fail(call);
-  steif_report_free(&c.report);
-  steif_problem_clear(call->ctx, &c.problem);
+  int code = c.report ? compare_start(call, &c) : fail(call);
+  for (int k = 1; !code && k < call->words; k++) compare_method(call, &c, call->word[k]);
+  if (!code) code = present(call, c.report);
+  compare_end(call, &c);
   if (interrupted()) {
     say(call, "interrupted: runs that were left are not made [STEIF_STOPPED]");
     return exit_of(STEIF_STOPPED);

@@ -50,6 +50,7 @@ void compare_method(struct call *call, comparison *c, const char *method)
   for (size_t i = 0; i < count && !interrupted(); i++) {
     steif_options o = options_of(call);
     o.h = steps ? value[i] : 0;
+    o.initial = STEIF_AS_GIVEN;
     if (!steps) o.rtol = value[i];
     progress(call, "%s, %s %.3g", method, what, value[i]);
     outcome out = many ? best(call, c, method, &o, &s)

@@ -9,8 +9,16 @@ typedef struct comparison {
   steif_problem problem;
   steif_report *report;
   work_curves work;
-  size_t good; /* runs that came to the end */
+  size_t good;         /* runs that came to the end */
+  steif_problem given; /* as it was found */
+  sunrealtype *start;  /* consistent, instead of the given one; NULL: none */
+  int *number;         /* index of each component, where it was found; NULL: as given */
 } comparison;
+
+/* One policy for the rows of all methods, baselines among them: an inconsistent start of a DAE is repaired
+ * once (--initial), which the report tells, and each method takes it as it is. */
+int compare_start(struct call *call, comparison *c);
+void compare_end(struct call *call, comparison *c);
 
 /* Rows of one method; of a baseline with several settings the best at each tolerance, and all of them in the
  * sheet "settings". */
