@@ -11,12 +11,12 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Numbers of four digits ask for more memory and time than a fuzzer has. */
+/* Numbers of three digits ask for more memory and time than a fuzzer has. */
 static int large(const char *text)
 {
   int run = 0;
   for (; *text; text++)
-    if ((run = isdigit((unsigned char)*text) || strchr("eE+", *text) ? run + 1 : 0) == 4)
+    if ((run = isdigit((unsigned char)*text) || strchr("eE+", *text) ? run + 1 : 0) == 3)
       return 1;
   return 0;
 }

@@ -38,10 +38,15 @@ static size_t inflated(unsigned char *b, size_t used)
 static bool believable(const unsigned char *b, size_t used, double room, bool little)
 {
   double entries = 1;
-  if (used < 4 * TAG || four(b + 4, little) != TAG) return true; /* matio's to reject */
+  if (used < 4 * TAG) return true; /* matio's to reject */
+  if (four(b + 4, little) != TAG) return false;
   const unsigned long kind = four(b + TAG, little) & 255,
                       length = four(b + 2 * TAG + 4, little);
-  const size_t sizes = length / 4;
+  const size_t sizes = length / 4, name = 3 * TAG + (length + 7) / 8 * 8;
+  if (length > LOOKED - 4 * TAG) return false; /* matio takes memory for as many sizes */
+  if (name + TAG <= used && !(four(b + name, little) >> 16) &&
+      four(b + name + 4, little) > LOOKED)
+    return false; /* and for a name of this length, where its tag is not of the short kind */
   for (size_t k = 0; k < sizes && 3 * TAG + 4 * k + 4 <= used; k++) {
     const double size = (double)four(b + 3 * TAG + 4 * k, little);
     entries = kind == SPARSE ? size : entries * size; /* sparse: columns stand last */
