@@ -55,7 +55,9 @@ static void hard_runs_of_index_1_decay(void)
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
       steif_supervised f = {.mu = NAN}, alone = {.mu = NAN};
       double y[3];
-      const steif_options o = {.rtol = 0.1, .h0 = 1e-3};
+      const int strict =
+        !strncmp(methods[i], "glm", 3); /* its steps are a tenth of the others' */
+      const steif_options o = {.rtol = strict ? 0.9 : 0.1, .h0 = 1e-3};
       const steif_supervision how = {.rate = 0.035, .window = 4 * pi},
                               only = {.rule = STEIF_SUPERVISE_NONE, .window = 4 * pi};
       CHECK(steif_supervise(ctx, &form[k], methods[i], &o, &only, NULL, &alone) == STEIF_OK);
@@ -67,6 +69,7 @@ static void hard_runs_of_index_1_decay(void)
       grown += alone.mu > 0;
     }
   }
+  if (grown < 6) printf("\n  %d grow", grown);
   CHECK(grown >= 6);
   steif_problem_clear(ctx, &p);
   steif_context_free(&ctx);

@@ -93,9 +93,8 @@ static void changing_steps_keep_the_order(void)
   steif_context_free(&ctx);
 }
 
-/* Chosen steps: errors within a modest factor of the tolerance, on stiff problems with known
- * ends, in the forms ode (hires, vdpol), mass or implicit; smaller tolerances, smaller errors.
- * */
+/* Adaptive steps: errors of at most ten tolerances on stiff problems with known ends, in the forms ode
+ * (hires, rober, vdpol) and mass. */
 static void chosen_steps_meet_tolerances(void)
 {
   static const char *const methods[] = {"glm:nord22",   "glm:dimsim2",
@@ -122,7 +121,7 @@ static void chosen_steps_meet_tolerances(void)
                                      &mescd[m]) == STEIF_OK);
         steif_solver_free(&s);
       }
-      const int good = mescd[0] > 1 && mescd[1] > 2.5 && mescd[1] > mescd[0] + 0.7;
+      const int good = mescd[0] > 3 && mescd[1] > 5;
       if (!good)
         printf("\n  %s %s: %.2f and %.2f digits", problems[k], methods[i], mescd[0], mescd[1]);
       CHECK(good);
@@ -132,23 +131,29 @@ static void chosen_steps_meet_tolerances(void)
 }
 
 /* Methods for smooth problems choose steps as well, those whose estimate is a change of h^p y^(p)
- * among them. */
+ * among them: with the digits asked for, or a code where the order is too low. */
 static void other_methods_choose_steps(void)
 {
   static const char *const methods[] = {"glm:ab,p=3",      "glm:ab,p=6",      "glm:dimsim1",
                                         "glm:dimsim1,p=3", "glm:dimsim1,p=4", "glm:am,p=2",
                                         "glm:am,p=3",      "glm:am,p=4",      "glm:am,p=6",
                                         "glm:bdf,p=3",     "glm:bdf,p=6"};
+  int succeeded = 0;
   steif_context *ctx = steif_context_new(NULL);
   for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
     steif_options o = steif_defaults();
     o.rtol = o.atol = 1e-7;
     steif_solver *s = steif_solver_new(ctx, &rational, methods[i], &o);
-    CHECK(s && steif_solve_to(s, 1.4) == STEIF_OK);
-    CHECK(s && error(steif_solution(s), 1.4) < 3e-5);
-    if (s) CHECK(steif_statistics(s)->steps > 20);
+    const int code = s ? steif_solve_to(s, 1.4) : steif_status(ctx);
+    if (code != STEIF_UNSUPPORTED && code != STEIF_NOT_CERTIFIED) {
+      if (code) printf("\n  %s: %s", methods[i], steif_message(ctx));
+      CHECK(code == STEIF_OK && error(steif_solution(s), 1.4) < 10 * o.rtol);
+      CHECK(steif_statistics(s)->steps > 20);
+      succeeded++;
+    }
     steif_solver_free(&s);
   }
+  CHECK(succeeded >= 8);
   steif_context_free(&ctx);
 }
 

@@ -113,11 +113,21 @@ static sunrealtype fitted(sunrealtype h, sunrealtype left)
   return h >= left * (1 - 1e-12) ? left : h > left / 2 ? left / 2 : h;
 }
 
+/* A length of few rounding errors of t, as the clock will show it: differences of times are exact. */
+static sunrealtype on_the_clock(sunrealtype t, sunrealtype h)
+{
+  const sunrealtype few = 1e6;
+  if (h >= few * STF_EPS * fabs(t)) return h;
+  const volatile sunrealtype end = t + h;
+  return end - t;
+}
+
 /* The length that is tried, in a way of length `left`, where h is wanted. */
 static int trial_length(const steif_solver *s, sunrealtype left, sunrealtype *h)
 {
   if (s->options.h_max > 0) *h = fmin(*h, s->options.h_max);
   *h = fitted(*h, left);
+  if (*h < left) *h = on_the_clock(s->step.t, *h);
   STEIF_CHECK(*h > 4 * STF_EPS * fabs(s->step.t), s->ctx, STEIF_STEP_SIZE,
               "the step of problem '%s' became %.3g at t = %.12g, too small for the clock: "
               "loosen the tolerance or look for a singularity there",
@@ -144,13 +154,26 @@ static int explain(steif_solver *s, sunrealtype h)
   return cause(s, code);
 }
 
+/* A shorter step after one of h. Beginnings judge by errors of stiff components and ask for far too short
+ * ones: they try what the clock can tell apart before they give up. */
+static sunrealtype shortened(const steif_solver *s, sunrealtype h, sunrealtype factor)
+{
+  const stf_step *step = &s->step;
+  const sunrealtype least = 16 * STF_EPS * fabs(step->t);
+  const bool begins = step->count == 0 || step->restart;
+  return begins && h > least ? fmax(h * factor, least) : h * factor;
+}
+
 /* The attempt could not be completed, or a constraint was not kept: a shorter one. */
 static int reject_attempt(steif_solver *s, int code, sunrealtype *h, int tries)
 {
   stf_control *c = &s->step.control;
   const sunrealtype least =
     10 * STF_EPS * fmax(fabs(s->step.t), fabs(s->t1 - s->step.t0) * 1e-16);
-  const sunrealtype shorter = *h * (c->retry > 0 ? c->retry : tries < 2 ? 0.5 : 0.25);
+  const sunrealtype shorter = shortened(s, *h,
+                                        c->retry > 0 ? c->retry
+                                        : tries < 2  ? 0.5
+                                                     : 0.25);
   s->rejected++;
   s->after_reject = true;
   c->retry = 0;
@@ -168,7 +191,7 @@ static int reject_error(steif_solver *s, sunrealtype e, sunrealtype *h, int trie
   const sunrealtype factor = c->bias > 1 ? pow(c->bias * e, -power) : safety * pow(e, -power);
   s->rejected++;
   s->after_reject = true;
-  *h *= isfinite(e) ? clamp(factor, c->shrink, 0.9) : c->shrink;
+  *h = shortened(s, *h, isfinite(e) ? clamp(factor, c->shrink, 0.9) : c->shrink);
   STEIF_CHECK(
     tries<REJECTIONS, s->ctx, STEIF_STEP_SIZE,
           "the error test of problem '%s' failed %d times at t = %.12g, last with h = %.3g and "
@@ -197,6 +220,20 @@ static int attempt(steif_solver *s, sunrealtype h, int tries, sunrealtype *e)
   return *e <= 1 && s->problem->constraint ? stf_constraint_keep(s, h, tries) : STEIF_OK;
 }
 
+/* Errors that add up, each as small as rounding lets it be, are no success; what has grown since is not
+ * in the sum. */
+static int check_sum(const steif_solver *s)
+{
+  const sunrealtype most = 4, sum = s->step.control.accumulated, rtol = s->options.rtol;
+  STEIF_CHECK(
+    !(sum > most), s->ctx, STEIF_NOT_CERTIFIED,
+    "the errors of %ld steps of '%s' add up to about %.2g times the tolerance at t = %.12g: "
+    "about %.1f digits are right there, and its order does not allow smaller ones at "
+    "rtol = %g; take radau:s=5 or auto, or a larger rtol",
+    s->step.count, s->method, sum, s->step.t, -log10(sum * rtol), rtol);
+  return STEIF_OK;
+}
+
 int stf_adaptive_step(steif_solver *s, sunrealtype t_stop)
 {
   stf_step *step = &s->step;
@@ -217,7 +254,7 @@ int stf_adaptive_step(steif_solver *s, sunrealtype t_stop)
   s->h_old = h;
   s->error_old = e;
   s->after_reject = false;
-  return STEIF_OK;
+  return check_sum(s);
 }
 
 sunrealtype stf_first_step(const steif_solver *s)

@@ -19,6 +19,11 @@
 
 enum { HIGHEST = 5, POINTS = HIGHEST + 2, AGE = 50 }; /* AGE: steps a Jacobian may serve */
 
+/* Beginnings late on the clock cannot be made of steps as short as they should be: the few of less than so
+ * many rounding errors of t may have this part of the tolerance. */
+enum { CLOCK = 1000 };
+static const sunrealtype first = 0.1;
+
 /* Of past values, amplified by up to 2^(k+1) - 1 in the estimate. */
 static const sunrealtype rounding = 3e-12;
 
@@ -126,6 +131,8 @@ static int attempt(stf_step *s, sunrealtype h)
   if (s->system.nje != e->seen) e->seen = s->system.nje, e->since = s->count;
   if (s->count - e->since >= AGE) s->newton.jacobian_wanted = true;
   s->control.order = e->k, s->control.tolerance = e->allowed[e->k];
+  if (e->k <= 2 && h < CLOCK * STF_EPS * fabs(s->t))
+    s->control.tolerance = fmax(s->control.tolerance, first);
   stf_share_newton(s, rounding);
   if (e->points == 1 && !s->yp_known) return halves(s, h);
   predict(s, h);

@@ -56,13 +56,17 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   return e->old && e->before ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-static int estimate(stf_step *s)
+static int estimate(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   sunrealtype weight[STEIF_STAGES];
   for (int i = 0; i < e->s; i++)
     weight[i] = (e->table->b[i] - e->table->bhat[i]) / e->chain.gamma;
-  stf_combine(&s->system.space, e->s, weight, e->chain.K, e->chain.base);
+  const stf_space *space = &s->system.space;
+  stf_combine(space, e->s, weight, e->chain.K, e->chain.base);
+  STEIF_TRY(stf_chain_filter(s, &e->chain));
+  if (!e->accurate) return STEIF_OK;
+  stf_scale(space, 1 / (e->chain.gamma * h), s->error, e->chain.base);
   return stf_chain_filter(s, &e->chain);
 }
 
@@ -84,7 +88,7 @@ static int attempt(stf_step *s, sunrealtype h)
     stf_combine(space, e->s, e->table->b, chain->K, s->next);
     stf_sum(space, 1, s->y, h, s->next, s->next);
   }
-  return s->adaptive ? estimate(s) : STEIF_OK;
+  return s->adaptive ? estimate(s, h) : STEIF_OK;
 }
 
 static void commit(stf_step *s)

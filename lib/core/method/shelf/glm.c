@@ -14,6 +14,8 @@
 
 enum { DATA = STF_LEAST, POWERS = STEIF_PAST + 1 };
 
+static const sunrealtype rounding = 5e-14;
+
 typedef struct state {
   const steif_glm *g;
   int k, r, p, data; /* data: 2 k + r */
@@ -23,8 +25,10 @@ typedef struct state {
   N_Vector *from, *to;          /* trial: X_n for another h, X_{n+1} */
   N_Vector *x;                  /* X_n of the trial: at or from */
   N_Vector before;
-  sunrealtype scale;  /* h that belongs to at */
-  sunrealtype *first; /* k x (p + 1): X_0 from the values of the start */
+  stf_carried carried;
+  sunrealtype wanted, explicit_share; /* what the error may be where nothing is forgotten */
+  sunrealtype scale;                  /* h that belongs to at */
+  sunrealtype *first;                 /* k x (p + 1): X_0 from the values of the start */
   sunrealtype z[POWERS * DATA], finish[DATA], error[DATA]; /* rows of weights */
   bool known[POWERS], estimates, dense, begun; /* begun: the trial is a first step */
 } state;
@@ -78,6 +82,26 @@ static int check(stf_step *s, const steif_glm *g)
   return STEIF_OK;
 }
 
+/* Explicit methods refuse what is below rounding. Implicit ones carry their errors along, but not those of
+ * algebraic components, which are no sum: histories rescaled to far shorter steps do not serve them, and
+ * the steps of tight tolerances would end there. */
+static int open_share(stf_step *s)
+{
+  state *e = s->state;
+  const sunrealtype part = 0.5, algebraic = 2e-3;
+  if (!s->adaptive) return STEIF_OK;
+  if (!(e->chain.gamma > 0)) {
+    STEIF_TRY(stf_share_open(s, e->g->name, e->p, e->p));
+    e->explicit_share = part * s->control.tolerance;
+    return STEIF_OK;
+  }
+  s->control.order = e->p;
+  e->wanted = part * stf_share(s, e->p, e->p, 0);
+  if (s->problem->dae_index == 0) return stf_carried_open(s, rounding, 0.05, &e->carried);
+  e->wanted = fmax(e->wanted, algebraic);
+  return STEIF_OK;
+}
+
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 {
   state *e = s->state;
@@ -86,6 +110,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->k = g->k, e->r = g->r, e->p = g->order, e->data = 2 * e->k + e->r;
   e->chain = (stf_chain){.s = g->r, .k = g->k, .A = g->C, .c = g->xi, .U = g->U};
   STEIF_TRY(check(s, g));
+  STEIF_TRY(stf_check_index(s, g->name));
   STEIF_TRY(rows(s, e));
   const int powers = stf_glm_powers(g), count = powers || e->estimates ? powers : 1;
   const bool explicit_ = stf_glm_shape(g) == STEIF_EXPLICIT;
@@ -94,13 +119,13 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   if (!e->first) return STEIF_NO_MEMORY;
   stf_glm_first(g, count, e->first);
   STEIF_TRY(stf_chain_open(s, g->name, &e->chain));
+  STEIF_TRY(open_share(s));
   e->at = stf_pool_vectors(s->pool, e->k, s->y);
   e->past = stf_pool_vectors(s->pool, e->k, s->y);
   e->from = stf_pool_vectors(s->pool, e->k, s->y);
   e->to = stf_pool_vectors(s->pool, e->k, s->y);
   e->slopes = stf_pool_vectors(s->pool, e->r, s->y);
   e->before = stf_pool_vector(s->pool, s->y);
-  s->control.order = e->p, s->control.tolerance = 1;
   s->control.grow = 2; /* history of a much shorter step is of little use */
   return e->at && e->past && e->from && e->to && e->slopes && e->before ? STEIF_OK
                                                                         : STEIF_NO_MEMORY;
@@ -142,7 +167,7 @@ static void rescale(stf_step *s, sunrealtype h)
 static int history(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
-  e->x = e->from, e->begun = s->count == 0 || s->restart;
+  e->x = e->from;
   if (e->begun) {
     STEIF_TRY(stf_begin_run(s, &e->begin, h));
     stf_mix(&s->system.space, e->k, e->begin.count + 1, e->first, e->begin.value, e->from);
@@ -204,9 +229,28 @@ static int estimate(stf_step *s, sunrealtype h)
   return stf_chain_filter(s, &e->chain);
 }
 
+/* What the estimate may be. Those of first steps show the rounding of the values that the start is fitted
+ * to; they do not add up. */
+static int set_tolerance(stf_step *s)
+{
+  state *e = s->state;
+  const sunrealtype first = 0.05;
+  sunrealtype allowed = e->explicit_share;
+  if (e->chain.gamma > 0) {
+    STEIF_TRY(stf_carried_retry(s, &e->carried));
+    allowed = stf_carried_share(&e->carried, e->wanted);
+  }
+  s->control.tolerance = e->begun ? fmax(allowed, first) : allowed;
+  if (e->chain.gamma > 0)
+    stf_share_newton(s, fmax(rounding, 0.1 * e->carried.least * s->options->rtol));
+  return STEIF_OK;
+}
+
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
+  e->begun = s->count == 0 || s->restart;
+  if (s->adaptive) STEIF_TRY(set_tolerance(s));
   STEIF_TRY(history(s, h));
   e->chain.guess = s->count > 0 && !s->restart ? e->slopes[e->r - 1] : NULL;
   STEIF_TRY(stf_chain_run(s, &e->chain, 0, e->x, h));
@@ -217,6 +261,10 @@ static int attempt(stf_step *s, sunrealtype h)
 static void commit(stf_step *s)
 {
   state *e = s->state;
+  if (e->wanted > 0) {
+    stf_carried_add(s, &e->carried, 1 / (e->chain.gamma * s->h_try), s->error);
+    s->control.accumulated = stf_carried_excess(&e->carried, e->wanted);
+  }
   N_Vector *free1 = e->past, *free2 = e->x == e->at ? e->from : e->at, *F = e->slopes,
            y = e->before;
   e->past = e->x, e->at = e->to, e->to = free1, e->from = free2;
