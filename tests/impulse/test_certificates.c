@@ -230,6 +230,32 @@ static void each_reason_stands(void)
   CHECK(!!stf_dense_objection(&good, text, sizeof text));
 }
 
+/* E x' + F x = 0 with the finite eigenvalue 0 only, x(0-) = (1, 2, 3): x_3 = 6 x_1, x_2 = -x_1'/2, x_3' = 0,
+ * so x_3(0+) = 3, x_1 = 1/2, and E (x(0+) - x(0-)) = (1/4, 0, 0) asks for c_0 = (0, 1/4, 0). A circle of
+ * radius 1e-35, which such a spectrum allows, loses c_0. */
+static void agreement_on_what_is_wrong(void)
+{
+  const double entry[2][9] = {{-.5, 0, 0, 0, 0, 0, 0, 1, 0}, {0, 0, 3, -1, 0, 0, 0, 0, -.5}};
+  const double x0[] = {1, 2, 3}, right[] = {0, 0.25, 0};
+  steif_context *ctx = steif_context_new(NULL);
+  SUNMatrix M[2];
+  for (int m = 0; m < 2; m++) {
+    M[m] = SUNDenseMatrix(3, 3, steif_sundials(ctx));
+    memcpy(SM_DATA_D(M[m]), entry[m], sizeof entry[m]);
+  }
+  for (int k = 0; k < 2; k++) {
+    const steif_analysis by = {.algorithm = k ? STEIF_CONTOUR : STEIF_STAIRCASE};
+    steif_impulse found;
+    CU_ASSERT_FATAL(!steif_impulse_find(ctx, M[0], M[1], x0, 0, NULL, NULL, &by, NULL, &found));
+    const double off = fmax(fabs(found.c[0] - right[0]), fabs(found.c[2] - right[2]));
+    CHECK(off < 1e-10 || !found.certified);
+    CHECK(k || found.certified);
+    steif_impulse_clear(ctx, &found);
+  }
+  for (int m = 0; m < 2; m++) SUNMatDestroy(M[m]);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_certificates[] = {
   {"a pencil in whole numbers is singular exactly", exactly_singular},
   {"so are random ones, and regular by one entry", random_whole_numbers},
@@ -240,4 +266,5 @@ CU_TestInfo tests_of_certificates[] = {
   {"ranks know of eigenvalues outside", one_is_outside},
   {"x(0+) and every impulse are compared", answers_are_compared},
   {"each reason not to certify stands alone", each_reason_stands},
+  {"circles that agree on what is wrong certify nothing", agreement_on_what_is_wrong},
   CU_TEST_INFO_NULL};
