@@ -76,17 +76,30 @@ static void list_moved(stf_repair *r, const sunrealtype *y)
   if (r->report.moved > SHOWN) stf_point_say(text, " and %d more", r->report.moved - SHOWN);
 }
 
+/* F_i = 0 where equation i has derivatives, or where tolerances of its unknowns, allowed_i in all, make as
+ * much of it. */
+static void keep_violations(const stf_repair *r, sunrealtype *F, sunrealtype *allowed)
+{
+  const stf_view *v = &r->view;
+  for (size_t j = 0; j < v->n; j++)
+    for (sunindextype k = v->column[j]; k < v->column[j + 1]; k++) {
+      if (v->has[k] & 1) F[v->row[k]] = 0;
+      allowed[v->row[k]] += fabs(v->b[k]) * r->weight[j];
+    }
+  for (size_t i = 0; i < v->n; i++)
+    if (fabs(F[i]) <= 0.1 * allowed[i]) F[i] = 0;
+}
+
 /* The equations without derivatives that the given start violates most. */
 static int list_violated(stf_repair *r)
 {
   enum { SHOWN = 3 };
   stf_point *s = &r->point;
   char room[STEIF_SPEC_WORD];
-  sunrealtype *F = stf_allocate(r->ctx, s->n, sizeof *F), below = INFINITY;
+  sunrealtype *F = stf_allocate(r->ctx, 2 * s->n, sizeof *F), below = INFINITY;
   if (!F) return STEIF_NO_MEMORY;
   int code = stf_point_residual(s, s->t, s->y0, s->yp0, F);
-  for (sunindextype k = 0; k < r->view.column[s->n] && !code; k++)
-    if (r->view.has[k] & 1) F[r->view.row[k]] = 0;
+  if (!code) keep_violations(r, F, F + s->n);
   for (int shown = 0; shown < SHOWN && !code; shown++) {
     size_t at = 0;
     sunrealtype most = 0;
