@@ -92,6 +92,39 @@ static void the_nearest_branch(void)
   steif_solver_free(&s);
 }
 
+/* The same with x in units of 1e-12: 1e-12 X' = z, 0 = z^2 - 1e-12 X. */
+static int small_unit_f(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  const sunrealtype *u = N_VGetArrayPointer(y);
+  (void)t, (void)user;
+  NV_Ith_S(r, 0) = u[1];
+  NV_Ith_S(r, 1) = u[1] * u[1] - 1e-12 * u[0];
+  return 0;
+}
+
+static int small_unit_mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  SM_ELEMENT_D(E, 0, 0) = 1e-12;
+  return 0;
+}
+
+static void units_do_not_matter(void)
+{
+  const sunrealtype y0[] = {1e12, 0.9};
+  const steif_problem p = {
+    .name = "units", .n = 2, .t1 = 1, .y0 = y0, .f = small_unit_f, .E = small_unit_mass};
+  const steif_options o = asked(1e-6, STEIF_REPAIR);
+  steif_solver *s = steif_solver_new(ctx, &p, "radau:s=3", &o);
+  CU_ASSERT_FATAL(s != NULL);
+  const steif_repair *done = steif_initial_used(s);
+  CHECK(done->moved == 1 && done->index == 0); /* by Newton's iteration, without a diagnosis */
+  CLOSE(done->y ? done->y[1] : 0, 1, 1e-9);
+  CHECK(steif_solve_to(s, 1) == STEIF_OK);
+  CLOSE(NV_Ith_S(steif_solution(s), 0), 2.25e12, 1e-5);
+  steif_solver_free(&s);
+}
+
 static void policies(void)
 {
   const sunrealtype wrong[] = {1, 0.99}, right[] = {1, 1};
@@ -243,6 +276,53 @@ static void positions_are_no_guesses(void)
   steif_solver_free(&s);
 }
 
+/* A sixth unknown w = 5 x, of index 1 and without a derivative, is no position: any guess serves. */
+static int with_output_f(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  pendulum_f(t, y, r, user);
+  NV_Ith_S(r, 5) = NV_Ith_S(y, 5) - 5 * NV_Ith_S(y, 0);
+  return 0;
+}
+
+static void outputs_are_guesses(void)
+{
+  const sunrealtype y0[] = {1, 0, 0.3, 0, 0, 0};
+  const steif_problem p = {
+    .name = "output", .n = 6, .t1 = 1, .y0 = y0, .f = with_output_f, .E = pendulum_mass};
+  steif_solver *s = steif_solver_new(ctx, &p, "auto", NULL);
+  CU_ASSERT_FATAL(s != NULL && steif_initial_used(s)->y != NULL);
+  CLOSE(steif_initial_used(s)->y[5], 5, 1e-8);
+  CLOSE_FLOOR(steif_initial_used(s)->y[2], 0, 1e-8, 1);
+  CHECK(steif_solve_to(s, 1) == STEIF_OK);
+  CLOSE_FLOOR(NV_Ith_S(steif_solution(s), 5), 5 * NV_Ith_S(steif_solution(s), 0), 1e-4, 1);
+  steif_solver_free(&s);
+}
+
+/* 0 = z^2 + 1 has no solution: the report says so, a check is an error. */
+static int hopeless_f(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  (void)t, (void)user;
+  NV_Ith_S(r, 0) = NV_Ith_S(y, 1);
+  NV_Ith_S(r, 1) = NV_Ith_S(y, 1) * NV_Ith_S(y, 1) + 1;
+  return 0;
+}
+
+static void what_has_no_start_is_said(void)
+{
+  const sunrealtype y0[] = {1, 0.7};
+  const steif_problem p = {
+    .name = "hopeless", .n = 2, .t1 = 1, .y0 = y0, .f = hopeless_f, .E = corner_mass};
+  steif_options o = asked(1e-6, STEIF_REPAIR);
+  steif_solver *s = steif_solver_new(ctx, &p, "radau:s=3", &o);
+  CU_ASSERT_FATAL(s != NULL);
+  CHECK(strstr(steif_initial_used(s)->message, "not repaired") != NULL);
+  CHECK(!steif_initial_used(s)->y && steif_solve_to(s, 1) < 0);
+  steif_solver_free(&s);
+  o.initial = STEIF_CHECK;
+  CHECK(!steif_solver_new(ctx, &p, "radau:s=3", &o));
+  CHECK(steif_status(ctx) == STEIF_NO_CONVERGENCE);
+}
+
 static int setup(void) { return !(ctx = steif_context_new(NULL)); }
 
 #define IN_CONTEXT(name)                                                                       \
@@ -259,6 +339,9 @@ IN_CONTEXT(consistent_starts_cost_little)
 IN_CONTEXT(index_three_is_found)
 IN_CONTEXT(velocities_jump_as_by_an_impact)
 IN_CONTEXT(positions_are_no_guesses)
+IN_CONTEXT(units_do_not_matter)
+IN_CONTEXT(outputs_are_guesses)
+IN_CONTEXT(what_has_no_start_is_said)
 
 CU_TestInfo tests_of_repair[] = {
   {"index 1 is repaired from 1, 10 and 100 %", index_one_here},
@@ -268,4 +351,7 @@ CU_TestInfo tests_of_repair[] = {
   {"index 3 is found and used", index_three_is_found_here},
   {"velocities jump as by an impact", velocities_jump_as_by_an_impact_here},
   {"positions move within errors of data", positions_are_no_guesses_here},
+  {"units do not matter", units_do_not_matter_here},
+  {"outputs are guesses", outputs_are_guesses_here},
+  {"what has no start is said", what_has_no_start_is_said_here},
   CU_TEST_INFO_NULL};

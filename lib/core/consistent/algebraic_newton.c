@@ -8,23 +8,34 @@
 #include <sunmatrix/sunmatrix_sparse.h>
 
 enum { MOST = 50, HALVINGS = 12 };
-/* C x = C (1, ..., 1) is solved with errors above this: C is taken for singular. */
+/* C x = b is solved for a known x with relative errors above this: C is taken for singular. */
 static const sunrealtype regular_to = 1e-7;
 /* Iterations end where a correction is this part of the tolerances, or of |y| by rounding. */
 static const sunrealtype enough = 1e-9, rounding = 1e-14;
 
-/* Relative error of a solve whose solution is known. */
+/* 1 over the largest entry of column j: whatever the units of unknowns are, all have a part in C x. */
+static sunrealtype known(SUNMatrix C, size_t j)
+{
+  sunrealtype top = 0;
+  for (sunindextype k = SM_INDEXPTRS_S(C)[j]; k < SM_INDEXPTRS_S(C)[j + 1]; k++)
+    top = fmax(top, fabs(SM_DATA_S(C)[k]));
+  return top > 0 ? 1 / top : 1;
+}
+
+/* Largest relative error of a solve whose solution is known. */
 static sunrealtype probe(stf_repair *r, const stf_view_factor *c)
 {
   N_Vector x = r->point.r;
   sunrealtype *a = N_VGetArrayPointer(x), worst = 0;
   const size_t n = r->point.n;
   memset(a, 0, n * sizeof *a);
-  for (size_t j = 0; j < n; j++)
+  for (size_t j = 0; j < n; j++) {
+    const sunrealtype xj = known(c->C, j);
     for (sunindextype k = SM_INDEXPTRS_S(c->C)[j]; k < SM_INDEXPTRS_S(c->C)[j + 1]; k++)
-      a[SM_INDEXVALS_S(c->C)[k]] += SM_DATA_S(c->C)[k];
+      a[SM_INDEXVALS_S(c->C)[k]] += SM_DATA_S(c->C)[k] * xj;
+  }
   if (steif_pencil_solve(c->pencil, 0, 1, &x, NULL)) return INFINITY;
-  for (size_t j = 0; j < n; j++) worst = fmax(worst, fabs(a[j] - 1));
+  for (size_t j = 0; j < n; j++) worst = fmax(worst, fabs(a[j] / known(c->C, j) - 1));
   return worst;
 }
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Of the interval: rounding of velocities is eps/h, what is left of smooth motion h^2. */
-static const sunrealtype part = 1e-6;
+static const sunrealtype part = 1e-6, longest = 1e-3;
 
 /* work: 2 n */
 static int move(stf_repair *r, sunrealtype h, sunrealtype *work, sunrealtype *delta)
@@ -41,7 +41,8 @@ static int pair(stf_repair *r, sunrealtype h, sunrealtype *work, sunrealtype *la
   return STEIF_OK;
 }
 
-/* A jump is there for every h; motion and rounding are not: several are tried before one is believed. */
+/* A jump is there for every short h; motion and rounding are not: several are tried before one is
+ * believed. */
 int stf_first_jump(stf_repair *r, sunrealtype *largest)
 {
   sunrealtype *work = stf_allocate(r->ctx, 4 * r->point.n, sizeof *work), slow, fast;
@@ -52,9 +53,10 @@ int stf_first_jump(stf_repair *r, sunrealtype *largest)
                            1e-3 * part * span};
   int code = STEIF_OK;
   *largest = INFINITY;
-  for (size_t k = 0; k<sizeof h / sizeof *h && * largest> 1 && !code; k++) {
+  const size_t count = sizeof h / sizeof *h;
+  for (size_t k = 0; k < count && !(*largest <= 1) && !code; k++) {
     sunrealtype found = INFINITY;
-    if (h[k] > 0 && h[k] < span) code = pair(r, h[k], work, &found);
+    if (h[k] > 0 && h[k] <= longest * span) code = pair(r, h[k], work, &found);
     *largest = fmin(*largest, found);
   }
   stf_release(r->ctx, work);

@@ -196,7 +196,8 @@ static int use_index(stf_repair *r, const steif_diagnosis *d)
   return STEIF_OK;
 }
 
-/* Positions of a system of index 3 are no guesses of velocities: they move within errors of data only. */
+/* Positions of a system of index 3, its components of index 1 with a derivative, are no guesses as
+ * velocities are: they move within errors of data only. */
 static int check_positions(stf_repair *r, const steif_diagnosis *d, const steif_start *start)
 {
   static const sunrealtype most = 1e-2;
@@ -204,7 +205,7 @@ static int check_positions(stf_repair *r, const steif_diagnosis *d, const steif_
   sunrealtype size = 0, moved = 0;
   size_t at = 0;
   for (size_t j = 0; j < r->point.n && d->index >= 3; j++) {
-    if (d->number[j] != 1) continue;
+    if (d->number[j] != 1 || r->algebraic[j]) continue;
     size = fmax(size, fabs(r->point.y0[j]));
     if (fabs(start->moved[j]) > moved) moved = fabs(start->moved[j]), at = j;
   }
@@ -247,6 +248,17 @@ static int by_stages(stf_repair *r, stf_evidence *e, const steif_diagnosis *d)
   return code;
 }
 
+/* A start that violates hidden constraints and stays as it is: said, or an error where a check is wanted. */
+static int leave(stf_repair *r, const char *why)
+{
+  STEIF_CHECK(r->policy == STEIF_REPAIR, r->ctx, STEIF_UNSUPPORTED,
+              "hidden constraints of '%s' do not hold at its start, and it is not repaired: %s",
+              r->given->name, why);
+  stf_point_say(r->report.message,
+                "start: hidden constraints do not hold, and nothing was moved: %s", why);
+  return STEIF_OK;
+}
+
 static int diagnosed(stf_repair *r, bool wanted)
 {
   stf_evidence evidence;
@@ -257,9 +269,11 @@ static int diagnosed(stf_repair *r, bool wanted)
   int code = stf_diagnose(&r->point, &evidence, &d);
   if (!code && wanted) code = use_index(r, &d);
   if (!code) code = stf_first_jump(r, &jump);
-  if (!code && (jump > 1 || any_fixed(r)) && r->point.n <= STEIF_DIAGNOSE_LARGEST &&
-      d.index >= 0)
+  const bool small = r->point.n <= STEIF_DIAGNOSE_LARGEST;
+  if (!code && (jump > 1 || any_fixed(r)) && small && d.index >= 0)
     code = by_stages(r, &evidence, &d);
+  else if (!code && jump > 1)
+    code = leave(r, small ? "its index is not decided" : "they have too many unknowns");
   stf_evidence_free(&evidence);
   steif_diagnosis_clear(&d);
   return code;
@@ -313,15 +327,19 @@ static int start(stf_repair *r)
   return r->count ? index_one(r) : STEIF_OK;
 }
 
-/* What a look cannot evaluate, the run meets itself and tells better. */
+/* What a look cannot evaluate, the run meets itself and tells better. A start without a repair near it may
+ * serve all the same: the run tries it, and the report has the reason. */
 static int pass(stf_repair *r, int code)
 {
+  const bool check = r->policy == STEIF_CHECK;
   const bool ours = code == STEIF_NO_MEMORY || code == STEIF_BAD_INPUT || code == STEIF_OK ||
-                    (code == STEIF_NO_CONVERGENCE && r->policy == STEIF_CHECK);
+                    (check && (code == STEIF_NO_CONVERGENCE || code == STEIF_UNSUPPORTED));
   if (ours) return code;
-  steif_forget(r->ctx);
   r->problem = *r->given;
   r->report = (steif_repair){0};
+  if (code == STEIF_NO_CONVERGENCE)
+    stf_point_say(r->report.message, "start: not repaired; %s", steif_message(r->ctx));
+  steif_forget(r->ctx);
   return STEIF_OK;
 }
 
