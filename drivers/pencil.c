@@ -7,7 +7,7 @@ static int verdict(const struct call *call, const struct descriptor *l,
                    const struct structure_answer *a)
 {
   const bool open = a->eigenvalues && !a->values.certified;
-  if (!a->found.regular) return descriptor_singular(call, l, &a->found);
+  if (!a->found.regular) return descriptor_singular(call, l, &a->found, true);
   if (!a->found.certified) say(call, "%s [STEIF_NOT_CERTIFIED]", a->found.message);
   if (open) say(call, "%s [STEIF_NOT_CERTIFIED]", a->values.message);
   return a->found.certified && !open ? EXIT_OK : EXIT_UNCERTIFIED;

@@ -15,11 +15,11 @@ expect(2 help slove ERR "nearest is solve")
 
 # Usage, with its reason as JSON; before and after the word that is wrong.
 expect(2 slove --json ERR "nearest is solve")
-member(STEIF_UNKNOWN_NAME status)
+member("unknown name" status)
 expect(2 solve --json)
-member(STEIF_BAD_INPUT status)
+member("bad input" status)
 expect(2 solve vdpol be --rtoll 1 --json)
-member(STEIF_BAD_INPUT status)
+member("bad input" status)
 expect(2 solve vdpol be --json --h nan)
 member("--h is \"nan\" and must be a finite number above 0" message)
 

@@ -25,18 +25,18 @@ int exit_of(int code)
 /* ---- words ---- */
 
 /* status, and message: what a failure is as JSON. */
-static void object(const struct call *call, const char *code, const char *text)
+static void object(const struct call *call, int code, const char *text)
 {
   steif_report *r = call->json && call->ctx ? steif_report_new(call->ctx) : NULL;
   if (!r) return;
-  steif_report_text(r, "status", code);
+  steif_report_text(r, "status", steif_code_name(code));
   steif_report_text(r, "message", text);
   steif_report_write(r, STEIF_JSON, stdout);
   steif_report_free(&r);
 }
 
-/* code: its name, NULL where the sentence is no failure or names it itself. */
-static void sentence(const struct call *call, const char *code, const char *format,
+/* symbol: the code's, NULL where the sentence is no failure or names it itself. */
+static void sentence(const struct call *call, int code, const char *symbol, const char *format,
                      va_list arguments)
 {
   char text[4096];
@@ -44,15 +44,15 @@ static void sentence(const struct call *call, const char *code, const char *form
   fflush(stdout);
   vsnprintf(text, sizeof text, format, arguments);
   fprintf(stderr, call->verb ? "steif %s: " : "steif: ", call->verb ? call->verb->name : "");
-  fprintf(stderr, code ? "%s [%s]\n" : "%s%s\n", text, code ? code : "");
-  if (code) object(call, code, text);
+  fprintf(stderr, symbol ? "%s [%s]\n" : "%s%s\n", text, symbol ? symbol : "");
+  if (symbol) object(call, code, text);
 }
 
 void say(const struct call *call, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
-  sentence(call, NULL, format, arguments);
+  sentence(call, STEIF_OK, NULL, format, arguments);
   va_end(arguments);
 }
 
@@ -60,7 +60,7 @@ int bad_usage(const struct call *call, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
-  sentence(call, "STEIF_BAD_INPUT", format, arguments);
+  sentence(call, STEIF_BAD_INPUT, "STEIF_BAD_INPUT", format, arguments);
   va_end(arguments);
   return EXIT_USAGE;
 }
@@ -69,9 +69,18 @@ int unknown_name(const struct call *call, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
-  sentence(call, "STEIF_UNKNOWN_NAME", format, arguments);
+  sentence(call, STEIF_UNKNOWN_NAME, "STEIF_UNKNOWN_NAME", format, arguments);
   va_end(arguments);
   return EXIT_USAGE;
+}
+
+int refuse(const struct call *call, int code, const char *symbol, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  sentence(call, code, symbol, format, arguments);
+  va_end(arguments);
+  return exit_of(code);
 }
 
 int no_memory(const struct call *call, const char *what, const char *remedy)
@@ -102,7 +111,7 @@ int fail(const struct call *call)
 {
   const int code = steif_status(call->ctx);
   say(call, "%s", steif_message(call->ctx));
-  object(call, steif_code_name(code), steif_message(call->ctx));
+  object(call, code, steif_message(call->ctx));
   return code == STEIF_OK ? EXIT_FAILED : exit_of_run(call, code, steif_message(call->ctx));
 }
 

@@ -19,6 +19,9 @@ int exit_of_run(const struct call *call, int code, const char *message);
 void say(const struct call *call, const char *format, ...) STEIF_PRINTF(2, 3);
 /* The same with STEIF_BAD_INPUT and STEIF_UNKNOWN_NAME; both return EXIT_USAGE. */
 int bad_usage(const struct call *call, const char *format, ...) STEIF_PRINTF(2, 3);
+/* A failure with this code of the library and its symbol, as JSON too; its exit code. */
+int refuse(const struct call *call, int code, const char *symbol, const char *format, ...)
+  STEIF_PRINTF(4, 5);
 int unknown_name(const struct call *call, const char *format, ...) STEIF_PRINTF(2, 3);
 /* "no memory for `what`; `remedy`" with STEIF_NO_MEMORY; EXIT_FAILED. */
 int no_memory(const struct call *call, const char *what, const char *remedy);

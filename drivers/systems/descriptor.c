@@ -46,17 +46,21 @@ static const char *named(char *text, size_t room, const char *what, const char *
 }
 
 int descriptor_singular(const struct call *call, const struct descriptor *l,
-                        const steif_structure *s)
+                        const steif_structure *s, bool presented)
 {
-  char one[512], two[512];
+  char one[512], two[512], text[2048];
   const bool equations = s->equations_count, unknowns = s->unknowns_count;
   const steif_names none = {NULL, NULL}, *names = l->names ? l->names : &none;
+  const int code = s->certified ? STEIF_SINGULAR : STEIF_NOT_CERTIFIED;
   named(one, sizeof one, "equation", names->equation, (long)s->equations_count, s->equations);
   named(two, sizeof two, "unknown", names->unknown, (long)s->unknowns_count, s->unknowns);
-  say(call, "%s%s%s%s%s [STEIF_SINGULAR]", s->message,
-      equations || unknowns ? "; look at " : "", equations ? one : "",
-      equations && unknowns ? " and " : "", unknowns ? two : "");
-  return EXIT_SINGULAR;
+  snprintf(text, sizeof text, "%s%s%s%s%s", s->message,
+           equations || unknowns ? "; look at " : "", equations ? one : "",
+           equations && unknowns ? " and " : "", unknowns ? two : "");
+  const char *symbol = s->certified ? "STEIF_SINGULAR" : "STEIF_NOT_CERTIFIED";
+  if (!presented) return refuse(call, code, symbol, "%s", text);
+  say(call, "%s [%s]", text, symbol);
+  return exit_of(code);
 }
 
 /* ---- matrices ---- */

@@ -60,9 +60,10 @@ void descriptor_close(struct call *call, struct descriptor *l);
 bool descriptor_is_file(const char *word);
 bool ends_in(const char *word, const char *ending);
 steif_analysis descriptor_analysis(const struct call *call, const struct descriptor *l);
-/* Say why there is no solution, with the first equations and unknowns to look at; EXIT_SINGULAR. */
+/* Say why there is no solution, with the first equations and unknowns to look at; EXIT_SINGULAR, or
+ * EXIT_UNCERTIFIED where the entries exactly as given are regular. presented: JSON shows s already. */
 int descriptor_singular(const struct call *call, const struct descriptor *l,
-                        const steif_structure *s);
+                        const steif_structure *s, bool presented);
 /* fail(), where input is to blame and came from a file: EXIT_FILE. */
 int descriptor_fail(const struct call *call);
 

@@ -89,7 +89,7 @@ int impulse_of_system(struct call *call, struct descriptor *l)
   progress(call, "%ld equations", (long)l->n);
   if (steif_structure_find(call->ctx, l->system.E, l->system.F, &a, &s))
     return descriptor_fail(call);
-  const int code = !s.regular                ? descriptor_singular(call, l, &s)
+  const int code = !s.regular                ? descriptor_singular(call, l, &s, false)
                    : given(call, "--method") ? impulse_run(call, l)
                                              : start(call, l, &s);
   steif_structure_clear(call->ctx, &s);

@@ -92,7 +92,7 @@ static void singular_pencil(void)
   small(N, e, f, NULL, &s, ctx);
   CHECK(!s.regular && s.index == -1 && s.degree == N);
   CHECK(s.rcond < 1e-15);
-  CHECK(says(s.message, "singular pencil"));
+  CHECK(says(s.message, "singular to rounding") && !s.certified);
   steif_structure_clear(ctx, &s);
   static const double e3[9] = {[0] = 1, [5] = 1}, f3[9] = {[1] = 1, [8] = 1};
   small(3, e3, f3, NULL, &s, ctx);

@@ -26,5 +26,8 @@ int stf_contour_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                      const steif_analysis *analysis, steif_structure *structure,
                      stf_contour_circle *circle);
 void stf_contour_say(const stf_contour_circle *circle, steif_structure *structure);
+/* The sentence of a start whose circles of R and 2 R differ by gap. */
+void stf_contour_say_start(const steif_structure *structure, sunrealtype gap,
+                           steif_impulse *out);
 
 #endif

@@ -30,6 +30,7 @@ typedef struct residue {
   bool borrowed; /* it is the structure's */
   steif_pencil_stats before;
   sunrealtype R;       /* of at[0]; 2 R of at[1] */
+  sunrealtype gap;     /* between at[0] and at[1] */
   sunrealtype norm[2]; /* of E and F, Frobenius */
   answer at[3];
 } residue;
@@ -62,13 +63,16 @@ static int singular(stf_descriptor *d)
     s->equations_count = s->unknowns_count = 0;
     STEIF_TRY(stf_field_singular(d->ctx, &w->found.field, &exactly));
     if (exactly) STEIF_TRY(stf_structural_dependent(d->ctx, w->units.E, w->units.F, s));
-    snprintf(
-      s->message, sizeof s->message,
-      "singular pencil%s (reciprocal condition %.1e at best) although its pattern is not; "
-      "look for an equation that follows from others%s",
-      exactly ? ": det(s E + F) = 0 for all s exactly"
-              : " to rounding: s E + F is so at every s tried",
-      s->rcond, exactly ? "" : " but for rounding");
+    snprintf(s->message, sizeof s->message,
+             exactly
+               ? "singular pencil: det(s E + F) = 0 for all s exactly (reciprocal condition "
+                 "%.1e at best) although its pattern is not; look for an equation that "
+                 "follows from others"
+               : "singular to rounding: s E + F is so at every s tried (reciprocal "
+                 "condition %.1e at best), though det(s E + F) is not 0 for all s exactly as "
+                 "given; undecided: scale the equations, give them more exactly, or use a "
+                 "dense algorithm",
+             s->rcond);
   }
   s->certified = exactly;
   return STEIF_OK;
@@ -94,17 +98,54 @@ static int draw(residue *w, sunrealtype R, answer *out)
   return STEIF_OK;
 }
 
+static sunrealtype length(sunindextype n, const sunrealtype *x)
+{
+  sunrealtype square = 0;
+  for (sunindextype i = 0; i < n; i++) square += x[i] * x[i];
+  return sqrt(square);
+}
+
+static sunrealtype distance(sunindextype n, const sunrealtype *a, const sunrealtype *b)
+{
+  sunrealtype square = 0;
+  for (sunindextype i = 0; i < n; i++) square += (a[i] - b[i]) * (a[i] - b[i]);
+  return isfinite(square) ? sqrt(square) : INFINITY;
+}
+
+/* Of x(0+). */
 static sunrealtype difference(const residue *w, const answer *a, const answer *b)
 {
-  sunrealtype off = 0, size = 0;
-  for (sunindextype i = 0; i < w->impulse->n; i++) {
-    const sunrealtype d = a->x[i] - b->x[i];
-    off += d * d;
-    size += a->x[i] * a->x[i];
-  }
+  const sunindextype n = w->impulse->n;
+  const sunrealtype off = distance(n, a->x, b->x);
   if (off == 0) return 0;
-  const sunrealtype by = stf_sources_measure(&w->sources, sqrt(size), w->norm[0], w->norm[1]);
-  return isfinite(off) && by > 0 ? sqrt(off) / by : INFINITY;
+  const sunrealtype by =
+    stf_sources_measure(&w->sources, length(n, a->x), w->norm[0], w->norm[1]);
+  return by > 0 ? off / by : INFINITY;
+}
+
+/* Of the coefficients c_i, the largest, each relative to itself or, where that is larger, to a
+ * STF_IMPULSE_PART of what c_{i-1}, for c_0 the jump, could make of it: |E| / |F| times as much. */
+static sunrealtype impulses_apart(const residue *w, const answer *a, const answer *b)
+{
+  const sunindextype n = w->impulse->n;
+  const sunrealtype E = w->norm[0], F = w->norm[1];
+  sunrealtype most = 0, before = length(n, a->x);
+  if (E > 0) before += length(n, w->sources.Ex0) / E;
+  for (int k = 1; k <= w->impulse->count; k++) {
+    const sunrealtype size = length(n, a->x + k * n),
+                      off = distance(n, a->x + k * n, b->x + k * n);
+    const sunrealtype could = before * E / F;
+    if (off > 0) most = fmax(most, off / fmax(size, STF_IMPULSE_PART * could));
+    before = fmax(size, could);
+  }
+  return isfinite(most) ? most : INFINITY;
+}
+
+/* Two neighbours: x(0+), and the impulses where they are far apart. */
+static sunrealtype disagreement(const residue *w, const answer *a, const answer *b)
+{
+  const sunrealtype x = difference(w, a, b), c = impulses_apart(w, a, b);
+  return c > STF_IMPULSES_AGREE ? fmax(x, c) : x;
 }
 
 static void swap(answer *a, answer *b)
@@ -151,6 +192,8 @@ static int open_start(stf_descriptor *d, residue *w)
   w->norm[0] = frobenius(w->units.E);
   w->norm[1] = frobenius(w->units.F);
   w->R = stf_radius(w->units.E, w->units.F, &d->options, s);
+  if (!(d->options.radius > 0) && w->norm[0] > 0)
+    w->R = fmax(w->R, STF_LEAST_RADIUS * w->norm[1] / w->norm[0]);
   return open_circle(d, w);
 }
 
@@ -165,17 +208,17 @@ static int solve(stf_descriptor *d, int way)
 
 /* -- comparison ----------------------------------------------------------------------------- */
 
-/* at[0] and at[1] belong to R and 2 R and differ by `estimate`. Go on in factors of two, down or up,
- * while neighbours agree better. */
+/* at[0] and at[1] belong to R and 2 R and differ by `gap`. Go on in factors of two, down or up, while
+ * neighbours agree better. */
 static int walk(residue *w, bool up)
 {
   answer *at = w->at;
-  sunrealtype *estimate = &w->impulse->estimate;
   for (int step = 0; step < (up ? STF_RADIUS_UP : STF_RADIUS_DOWN); step++) {
     STEIF_TRY(draw(w, up ? 4 * w->R : w->R / 2, &at[2]));
-    const sunrealtype next = up ? difference(w, &at[1], &at[2]) : difference(w, &at[2], &at[0]);
-    if (!(next < *estimate)) break;
-    *estimate = next;
+    const sunrealtype next =
+      up ? disagreement(w, &at[1], &at[2]) : disagreement(w, &at[2], &at[0]);
+    if (!(next < w->gap)) break;
+    w->gap = next;
     w->R *= up ? 2 : 0.5;
     if (up) {
       swap(&at[0], &at[1]);
@@ -189,24 +232,43 @@ static int walk(residue *w, bool up)
   return STEIF_OK;
 }
 
-/* Where plain solves do not agree, refined ones may. */
-static int refine(residue *w)
+static int pair(residue *w, sunrealtype R)
 {
-  w->circle->careful = true;
-  STEIF_TRY(draw(w, w->R, &w->at[0]));
-  STEIF_TRY(draw(w, 2 * w->R, &w->at[1]));
-  w->impulse->estimate = difference(w, &w->at[0], &w->at[1]);
+  w->R = R;
+  STEIF_TRY(draw(w, R, &w->at[0]));
+  STEIF_TRY(draw(w, 2 * R, &w->at[1]));
+  w->gap = disagreement(w, &w->at[0], &w->at[1]);
   return STEIF_OK;
+}
+
+/* Rounding of c_i is that of x(0+) over R^{i+1}: circles that are small because eigenvalues are small
+ * or 0 lose the impulses. Any larger one serves: the best pair on the way up. */
+static int widen(residue *w)
+{
+  const sunrealtype from = w->R;
+  sunrealtype best = from, least = w->gap, R = from;
+  for (int k = 0; k < STF_RADII_MORE && least > STF_IMPULSES_AGREE; k++) {
+    R *= STF_RADIUS_STRIDE;
+    STEIF_TRY(pair(w, R));
+    if (!(w->gap < least)) continue;
+    best = R;
+    least = w->gap;
+  }
+  return w->R == best ? STEIF_OK : pair(w, best);
 }
 
 static int agree(residue *w, bool fixed)
 {
-  const sunrealtype *estimate = &w->impulse->estimate, first = w->R;
-  w->impulse->estimate = difference(w, &w->at[0], &w->at[1]);
-  if (*estimate > STF_CIRCLES_AGREE && !w->circle->careful) STEIF_TRY(refine(w));
-  if (fixed || *estimate <= STF_CIRCLES_AGREE) return STEIF_OK;
+  const sunrealtype first = w->R;
+  w->gap = disagreement(w, &w->at[0], &w->at[1]);
+  if (w->gap > STF_CIRCLES_AGREE && !w->circle->careful) { /* refined solves may agree */
+    w->circle->careful = true;
+    STEIF_TRY(pair(w, w->R));
+  }
+  if (fixed || w->gap <= STF_CIRCLES_AGREE) return STEIF_OK;
+  if (w->gap > STF_IMPULSES_AGREE) STEIF_TRY(widen(w));
   STEIF_TRY(walk(w, false));
-  return w->R < first || *estimate <= STF_CIRCLES_AGREE ? STEIF_OK : walk(w, true);
+  return w->R < first || w->gap <= STF_CIRCLES_AGREE ? STEIF_OK : walk(w, true);
 }
 
 static steif_pencil_stats spent(const steif_pencil_stats *before, const steif_pencil_stats *now)
@@ -225,6 +287,7 @@ static int compare(stf_descriptor *d)
   steif_impulse *out = w->impulse;
   if (!d->x0) return STEIF_OK;
   STEIF_TRY(agree(w, d->options.radius > 0));
+  out->estimate = difference(w, &w->at[0], &w->at[1]);
   const size_t n = (size_t)out->n, count = (size_t)out->count;
   memcpy(out->x_plus, w->at[0].x, n * sizeof *out->x_plus);
   if (count) memcpy(out->c, w->at[0].x + n, n * count * sizeof *out->c);
@@ -277,45 +340,15 @@ static int certify(stf_descriptor *d)
   steif_structure *s = d->structure;
   if (!d->structure_known) s->certified = w->found.complete && s->index >= 0;
   STEIF_TRY(find_rounded(d, &w->found));
-  if (d->x0)
-    d->impulse->certified = s->certified && d->impulse->estimate <= STF_CIRCLES_CERTIFY;
+  if (d->x0) d->impulse->certified = s->certified && w->gap <= STF_CIRCLES_CERTIFY;
   return STEIF_OK;
-}
-
-static void say_start(const steif_structure *s, steif_impulse *out)
-{
-  const sunrealtype R = out->radius;
-  const size_t room = sizeof out->message;
-  const long long relaxed = (s->exact >= 0 ? s->exact : s->degree) - s->finite;
-  if (out->certified)
-    snprintf(
-      out->message, room,
-      "%d impulse coefficients with R = %.3g: circles of R and 2R differ by %.1e, and the "
-      "count of finite eigenvalues equals the degree",
-      out->count, R, out->estimate);
-  else if (s->certified)
-    snprintf(
-      out->message, room,
-      "not certified: circles of R = %.3g and 2R differ by %.1e, above %.0e; fast and slow "
-      "parts lie too far apart for this radius: scale time, or use a dense algorithm",
-      R, out->estimate, STF_CIRCLES_CERTIFY);
-  else if (s->finite >= 0 && relaxed > 0)
-    snprintf(out->message, room,
-             "not certified: x(0+), c_i valid for time scales >= 1/R = %.3g; up to %lld faster "
-             "modes relaxed (circles of R = %.3g and 2R differ by %.1e)",
-             1 / R, relaxed, R, out->estimate);
-  else
-    snprintf(out->message, room,
-             "not certified, as the structure is not (index %d%s): circles of R = %.3g and 2R "
-             "differ by %.1e",
-             out->index, s->index < 0 ? " assumed" : "", R, out->estimate);
 }
 
 static int say(stf_descriptor *d)
 {
   const residue *w = d->state;
   if (d->x0)
-    say_start(d->structure, d->impulse);
+    stf_contour_say_start(d->structure, w->gap, d->impulse);
   else
     stf_contour_say(&w->found, d->structure);
   return STEIF_OK;

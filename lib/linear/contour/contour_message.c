@@ -111,3 +111,32 @@ void stf_contour_say(const stf_contour_circle *circle, steif_structure *s)
   else
     say_open(circle, s, s->message, sizeof s->message);
 }
+
+void stf_contour_say_start(const steif_structure *s, sunrealtype gap, steif_impulse *out)
+{
+  const sunrealtype R = out->radius;
+  const size_t room = sizeof out->message;
+  const long long relaxed = (s->exact >= 0 ? s->exact : s->degree) - s->finite;
+  if (out->certified)
+    snprintf(
+      out->message, room,
+      "%d impulse coefficients with R = %.3g: circles of R and 2R differ by %.1e, and the "
+      "count of finite eigenvalues equals the degree",
+      out->count, R, out->estimate);
+  else if (s->certified)
+    snprintf(
+      out->message, room,
+      "not certified: circles of R = %.3g and 2R differ by %.1e, above %.0e; fast and slow "
+      "parts lie too far apart for this radius: scale time, or use a dense algorithm",
+      R, gap, STF_CIRCLES_CERTIFY);
+  else if (s->finite >= 0 && relaxed > 0)
+    snprintf(out->message, room,
+             "not certified: x(0+), c_i valid for time scales >= 1/R = %.3g; up to %lld faster "
+             "modes relaxed (circles of R = %.3g and 2R differ by %.1e)",
+             1 / R, relaxed, R, out->estimate);
+  else
+    snprintf(out->message, room,
+             "not certified, as the structure is not (index %d%s): circles of R = %.3g and 2R "
+             "differ by %.1e",
+             out->index, s->index < 0 ? " assumed" : "", R, out->estimate);
+}

@@ -51,6 +51,17 @@
 #define STF_CIRCLES_AGREE 1e-12
 /* That is certified: the difference follows the error up to 1e-2. */
 #define STF_CIRCLES_CERTIFY 1e-3
+/* Impulses this far apart decide beside x(0+); below, x(0+) alone tells which radius is better. */
+#define STF_IMPULSES_AGREE 1e-6
+/* What is below this part of the impulse that could be is 0. */
+#define STF_IMPULSE_PART 1e-3
+/* Circles for starts have at least this part of |F| / |E| as radius, however small the eigenvalues are:
+ * s E must be seen beside F. Where eigenvalues were 0, circles of 1e-34 agreed on half an impulse: its
+ * imaginary part alone. */
+#define STF_LEAST_RADIUS 1e-4
+/* From radius to radius, and how many, where circles of small eigenvalues lose the impulses. */
+#define STF_RADIUS_STRIDE 16.0
+enum { STF_RADII_MORE = 6 };
 /* Factors of two that the radius may go down and up while neighbours agree better. */
 enum { STF_RADIUS_DOWN = 3, STF_RADIUS_UP = 3 };
 

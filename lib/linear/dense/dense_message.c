@@ -105,10 +105,13 @@ void stf_dense_message(steif_structure *s, const char *reason, const char *by)
   const size_t length = sizeof s->message;
   if (!s->regular)
     snprintf(text, length,
-             "singular%s: det(s E + F) = 0 for all s %s (reciprocal condition %.1e at best), "
-             "%lld equation%s and %lld unknown%s to blame",
-             s->certified ? "" : " to rounding",
-             s->certified ? "exactly" : "after relative changes of entries by rounding",
+             "%s: det(s E + F) = 0 for all s %s (reciprocal condition %.1e at best), %lld "
+             "equation%s and %lld "
+             "unknown%s to blame",
+             s->certified ? "singular" : "singular to rounding",
+             s->certified
+               ? "exactly"
+               : "after relative changes of entries by rounding, not exactly as given",
              s->rcond, (long long)s->equations_count, s->equations_count == 1 ? "" : "s",
              (long long)s->unknowns_count, s->unknowns_count == 1 ? "" : "s");
   else if (s->index < 0)
