@@ -181,11 +181,12 @@ static void cut_files_give_no_matrix(void)
   steif_context_free(&ctx);
 }
 
-/* 40000 x 40000 in a few bytes: as full (class 6), sparse (5) and cells (1), before memory is taken. */
+/* 40000 x 40000 in a few bytes: as full (class 6), sparse (5), cells (1), structures (2), functions (16),
+ * and of classes that should have no sizes (17) or do not exist, before memory is taken. */
 static void sizes_beyond_the_file_are_rejected(void)
 {
-  static const unsigned char classes[] = {6, 5, 1};
-  for (int k = 0; k < 3; k++) {
+  static const unsigned char classes[] = {6, 5, 1, 2, 16, 17, 251};
+  for (int k = 0; k < 7; k++) {
     unsigned char bytes[184] = {0}, *b = bytes + 128;
     const int32_t size = 40000;
     memcpy(bytes, "MATLAB 5.0", 10);

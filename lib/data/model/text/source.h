@@ -11,7 +11,7 @@
 #include "vector.h"
 #include <stdint.h>
 
-enum { STF_NOWHERE = UINT32_MAX };
+#define STF_NOWHERE UINT32_MAX
 enum { STF_LARGEST_TEXT = 64 << 20, STF_ERRORS = 20, STF_TOLD = 900, STF_NAME_BYTES = 100 };
 
 typedef struct stf_text {
