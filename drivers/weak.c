@@ -38,13 +38,17 @@ static const struct option options[] = {
    "the worst of all test functions instead: norms in H^-M, and orders in H^-m "
    "for all m (--g ball:m=M)",
    NULL},
+  {"--exact", FLAG, NULL, "runs in many-digit arithmetic: where rounding would decide", NULL},
   {"--t1", POSITIVE, "T", "they end at T (default: 1, or where they are 0)", NULL},
   {"--state-space", FLAG, NULL, "the second file is A of E x' = A x + f, so F = -A", NULL},
   START_OPTIONS,
   OPTIONS_END,
 };
-static const struct rule rules[] = {
-  {"--halvings", AT_MOST, "39"}, {"--ball", EXCLUDES, "--g"}, START_RULES, RULES_END};
+static const struct rule rules[] = {{"--halvings", AT_MOST, "39"},
+                                    {"--ball", EXCLUDES, "--g"},
+                                    {"--exact", EXCLUDES, "--ball"},
+                                    START_RULES,
+                                    RULES_END};
 
 const struct verb verb_weak = {
   .name = "weak",

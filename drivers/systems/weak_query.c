@@ -17,6 +17,7 @@ struct weak weak_asked(const struct call *call)
                    .query = {.method = call->word[0],
                              .start = word_of(call, "--start"),
                              .h = real_of(call, "--h"),
+                             .exact = given(call, "--exact"),
                              .component = (int)whole_or(call, "--component", 1) - 1}};
   w.query.rows = (size_t)whole_or(call, "--halvings", given(call, "--h") ? 0 : 4) + 1;
   return w;

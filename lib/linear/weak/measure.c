@@ -121,7 +121,7 @@ int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_meas
   s->weight = stf_weight_of(ctx, query->g);
   s->sides.count = query->break_count, s->sides.breaks = query->breaks;
   const size_t n = (size_t)s->n;
-  w->longer = s->linear.E && stf_longer_serves(ctx, query->method, s->n);
+  if (s->linear.E) STEIF_TRY(stf_longer_serves(ctx, query->method, s->n, &w->longer));
   w->exact = stf_allocate(ctx, 3 * n, sizeof *w->exact);
   w->sum = stf_allocate(ctx, 4 * n, sizeof *w->sum);
   if (!w->exact || !w->sum) return STEIF_NO_MEMORY;
@@ -275,11 +275,31 @@ static int leave(const stf_measure *w, const stf_apart *apart, const stf_events 
   return STEIF_OK;
 }
 
+/* Rounding is that of f, and of what else is known to double only. */
+static int in_many_digits(stf_measure *w, stf_apart *apart, sunrealtype h, size_t steps)
+{
+  const stf_subject *s = &w->subject;
+  const size_t n = (size_t)s->n;
+  long double defect;
+  STEIF_TRY(stf_exact_sums(w, apart, h, steps, &defect));
+  const sunrealtype of_g =
+    (sunrealtype)(defect * s->weight.t1) * stf_subject_rounding(s) / STF_EPS;
+  for (size_t m = 0; m < n; m++) {
+    const long double v = component(w, apart, (int)m, w->sum),
+                      shaken = component(w, apart, (int)m, w->sum + n);
+    w->value[m] = (sunrealtype)v;
+    w->level[m] = (sunrealtype)(2 * fabsl(shaken - v)) + of_g;
+    if (!isfinite(w->level[m])) w->level[m] = INFINITY;
+  }
+  return STEIF_OK;
+}
+
 int stf_measure_run(stf_measure *w, sunrealtype h, size_t steps)
 {
   stf_subject *s = &w->subject;
   if (stf_is_cobb(w->query->method)) return stf_cobb_run(w, h);
   stf_apart *apart = stf_subject_apart(s, w->query->method, w->query->start);
+  if (w->query->exact) return in_many_digits(w, apart, h, steps);
   STEIF_TRY(in_double(w, &s->problem, apart, h, steps, 0));
   for (int m = 0; m < s->n; m++) w->value[m] = (sunrealtype)component(w, apart, m, w->sum);
   STEIF_TRY(w->longer ? level_by_longer(w, apart, h, steps)

@@ -31,6 +31,10 @@ int stf_measure_longest(const stf_measure *measure, sunrealtype *longest, const 
 /* A run with so many steps h: value and level. */
 int stf_measure_run(stf_measure *measure, sunrealtype h, size_t steps);
 
+/* The same run in many digits, unshaken and shaken: sums 0 and 1; defect: of the test function, relative. */
+int stf_exact_sums(stf_measure *measure, stf_apart *apart, sunrealtype h, size_t steps,
+                   long double *defect);
+
 /* Takes back `converges` where impulses too small to be seen do not. */
 int stf_measure_orders(const stf_measure *measure, steif_weak_result *result);
 

@@ -91,9 +91,9 @@ static int too_few(const stf_judged *j, size_t from, size_t usable, steif_weak_r
                     j->rows == 1 ? "one row shows no order" : "three rows decide");
   return snprintf(
     text, room,
-    "undecided: rounding from h = %.3g on; larger steps decide (--h %.3g --halvings "
-    "4)",
-    j->row[from + usable].h, fmin(4 * j->row[from].h, j->longest));
+    "undecided: rounding from h = %.3g on; larger steps (--h %.3g --halvings 4)%s decide",
+    j->row[from + usable].h, fmin(4 * j->row[from].h, j->longest),
+    j->decidable ? " or --exact" : "");
 }
 
 void stf_weak_judge(const stf_judged *j, steif_weak_result *r)
@@ -122,6 +122,6 @@ void stf_weak_judge(const stf_judged *j, steif_weak_result *r)
   snprintf(
     text, room,
     "undecided: the test function does not see impulses of order %d, its derivative there "
-    "is 0; take another one",
-    j->blind);
+    "is 0; take another one, such as --g power:n=%d",
+    j->blind, r->index + 3);
 }

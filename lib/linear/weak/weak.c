@@ -90,7 +90,8 @@ static int conclude(const stf_measure *w, steif_weak_row *row, steif_weak_result
                   .rows = w->query->rows,
                   .size = fabs(result->exact),
                   .blind = -1,
-                  .inside = NAN};
+                  .inside = NAN,
+                  .decidable = w->longer && !w->query->exact};
   const steif_weak_query *q = w->query;
   const sunrealtype t1 = (sunrealtype)s->weight.t1;
   const size_t inside = stf_break_inside(q->break_count, q->breaks, t1, w->h);

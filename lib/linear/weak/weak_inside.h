@@ -73,6 +73,7 @@ typedef struct stf_judged {
   int blind;           /* order of impulses that g does not see; -1: it sees all */
   sunrealtype inside;  /* a break of f that lies inside a step; NaN: none does */
   sunrealtype fitting; /* a first step that puts the breaks on the meshes */
+  bool decidable;      /* a run in many digits would see what rounding hides */
 } stf_judged;
 /* Fills in verdict and converges. */
 void stf_weak_judge(const stf_judged *judged, steif_weak_result *result);

@@ -13,30 +13,42 @@ static bool bdf(const steif_spec *spec)
   return !strcmp(spec->name, "be") || !strcmp(spec->name, "bdf");
 }
 
-/* The table of the method, where its A is regular; s: stages. */
-static bool tabled(steif_context *ctx, const char *method, int *s)
+/* Has the table of the method a regular A? 0 stages: it has none, or there is no such table. */
+static void look_up(steif_context *ctx, const char *method, int *s)
 {
   const char *spec = !strncmp(method, "dirk:", 5) ? method + 5 : method;
-  if (strstr(method, "glm:")) return false;
+  *s = 0;
+  if (strstr(method, "glm:")) return;
   steif_table *table = steif_table_new(ctx, spec);
-  if (!table) return false;
+  if (!table) return;
   bool regular = table->kind == STEIF_COLLOCATION || table->kind == STEIF_DIRK;
   for (int i = 0; table->kind == STEIF_DIRK && i < table->s; i++)
     regular = regular && table->A[i * table->s + i] != 0;
-  *s = table->s;
+  if (regular) *s = table->s;
   steif_table_free(ctx, &table);
-  return regular;
 }
 
-bool stf_longer_serves(steif_context *ctx, const char *method, int n)
+int stf_recurrence_of(steif_context *ctx, const char *method, int *stages)
 {
   steif_spec spec;
-  int s = 1;
+  *stages = 0;
+  const long failures = stf_failures(ctx);
   const bool silent = stf_silence(ctx, true);
-  bool serves = LDBL_MANT_DIG > DBL_MANT_DIG && !steif_spec_parse(ctx, method, &spec);
-  serves = serves && (bdf(&spec) || tabled(ctx, method, &s)) && s * n <= LARGEST;
+  if (!steif_spec_parse(ctx, method, &spec)) {
+    *stages = 1;
+    if (!bdf(&spec)) look_up(ctx, method, stages);
+  }
   stf_silence(ctx, silent);
-  return serves;
+  const bool short_of = stf_failures(ctx) > failures && steif_status(ctx) == STEIF_NO_MEMORY;
+  return short_of ? STEIF_NO_MEMORY : STEIF_OK;
+}
+
+int stf_longer_serves(steif_context *ctx, const char *method, int n, bool *serves)
+{
+  int s;
+  STEIF_TRY(stf_recurrence_of(ctx, method, &s));
+  *serves = LDBL_MANT_DIG > DBL_MANT_DIG && s > 0 && s * n <= LARGEST;
+  return STEIF_OK;
 }
 
 long double stf_longer_shake(stf_longer *run)

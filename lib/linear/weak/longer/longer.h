@@ -49,7 +49,9 @@ typedef struct stf_longer {
 } stf_longer;
 
 /* Is there such a run of this method, and is it small enough? */
-bool stf_longer_serves(steif_context *ctx, const char *method, int n);
+int stf_longer_serves(steif_context *ctx, const char *method, int n, bool *serves);
+/* The stages of be, bdf or a table with regular A, whatever the arithmetic; 0 for other methods. */
+int stf_recurrence_of(steif_context *ctx, const char *method, int *stages);
 /* The run; the pairing has its sums. */
 int stf_longer_run(stf_longer *run);
 
