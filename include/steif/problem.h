@@ -64,6 +64,11 @@ typedef int (*steif_event_handler)(sunrealtype t, N_Vector y, const int *fired, 
 /* Called at the start of every run, before any other callback: callbacks that remember something, such as
  * a switch that an event has flipped, forget it here. Returns 0, or < 0: the run fails. */
 typedef int (*steif_begin)(sunrealtype t, void *user);
+/* What begin resets, as bytes for a checkpoint (checkpoint.h). save fills in `bytes`, or where that is NULL
+ * nothing, and returns how many there are, which stays the same during a run; < 0: it cannot be done. restore
+ * takes them back, after begin; returns 0, or < 0: these are not its bytes. */
+typedef long (*steif_save_state)(void *bytes, void *user);
+typedef int (*steif_restore_state)(const void *bytes, size_t count, void *user);
 enum steif_event_action {
   STEIF_CONTINUE, /* neither y nor f has changed */
   STEIF_RESTART,  /* go on from the y left here, without history */
@@ -154,7 +159,9 @@ struct steif_problem {
   const steif_event *event_list;    /* of each; NULL: both directions, none ends the run */
   steif_event_handler handle_event; /* NULL: events are noted only */
   steif_begin begin;                /* NULL: nothing is remembered */
-  const sunrealtype *event_times;   /* of the first events where they are known, ascending */
+  steif_save_state save;            /* both or none; NULL: with begin, runs cannot be saved */
+  steif_restore_state restore;
+  const sunrealtype *event_times; /* of the first events where they are known, ascending */
   int event_time_count;
   const sunrealtype *breaks; /* declared discontinuities of f inside (t0, t1), ascending */
   int break_count;

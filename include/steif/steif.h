@@ -15,6 +15,7 @@
 #include <steif/phi.h>
 #include <steif/record.h>
 #include <steif/solver.h>
+#include <steif/checkpoint.h>
 #include <steif/table.h>
 #include <steif/glm.h>
 

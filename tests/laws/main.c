@@ -4,7 +4,7 @@
 
 extern CU_TestInfo tests_of_law_propagator[], tests_of_law_retry[], tests_of_law_stumble[],
   tests_of_law_backends[], tests_of_law_memory[], tests_of_law_order[], tests_of_law_claims[],
-  tests_of_law_symplectic[], tests_of_law_chosen[];
+  tests_of_law_symplectic[], tests_of_law_chosen[], tests_of_law_checkpoint[];
 
 SUITE_MAIN({.pName = "propagator", .pTests = tests_of_law_propagator},
            {.pName = "retry", .pTests = tests_of_law_retry},
@@ -14,4 +14,5 @@ SUITE_MAIN({.pName = "propagator", .pTests = tests_of_law_propagator},
            {.pName = "memory", .pTests = tests_of_law_memory},
            {.pName = "order", .pTests = tests_of_law_order},
            {.pName = "claims", .pTests = tests_of_law_claims},
-           {.pName = "symplectic", .pTests = tests_of_law_symplectic})
+           {.pName = "symplectic", .pTests = tests_of_law_symplectic},
+           {.pName = "checkpoint", .pTests = tests_of_law_checkpoint})

@@ -23,8 +23,12 @@ int stf_constant_steps(steif_context *ctx, sunrealtype h, sunrealtype t0, sunrea
 struct steif_solver {
   steif_context *ctx;
   stf_pool *pool;
-  const steif_problem *problem;
-  steif_problem semilinear; /* the problem with its linear part as the matrix */
+  const steif_problem *problem, *given; /* given: before the start was repaired */
+  const char *spec;                     /* as the caller wrote it */
+  sunrealtype t1_opened;                /* t1 at first: it may have been extended */
+  unsigned long long fingerprint;       /* of y, y', E and A at the start; 0: not known */
+  bool inside;                          /* of a step whose events are being looked at */
+  steif_problem semilinear;             /* the problem with its linear part as the matrix */
   stf_repair repair;     /* of its start; the problem in use is its copy where one was made */
   steif_options options; /* complete */
   sunrealtype t1;
@@ -93,6 +97,7 @@ int stf_rounding_open(steif_solver *s);
 int stf_rounding_step(steif_solver *s);
 /* What this has cost. */
 void stf_rounding_count(const steif_solver *s, steif_stats *sum);
+void stf_rounding_keep(steif_solver *s, stf_image *m);
 
 /* The invariants at the start. */
 int stf_drift_open(steif_solver *s);
@@ -102,6 +107,9 @@ bool stf_beyond(const steif_solver *s);
 
 /* Show y at t to the observer; what it wishes is kept. */
 void stf_observe(steif_solver *s, sunrealtype t, N_Vector y);
+
+/* The solution at the end of what is known. */
+N_Vector stf_last(const steif_solver *s);
 
 /* Dense output of the last step as the method made it, unchecked. */
 int stf_dense(steif_solver *s, sunrealtype t, N_Vector y);
@@ -118,6 +126,8 @@ int stf_switching_open(steif_solver *s, const char *name);
 int stf_switching_look(steif_solver *s);
 /* After a step that failed: dense output of the one before is asked of who made it. */
 void stf_switching_stay(steif_solver *s);
+/* The method in use becomes that of the image; its own state is kept with the step. */
+void stf_switching_keep(steif_solver *s, stf_image *m);
 
 /* The methods that `auto` chooses among, numbers of Radau and Rosenbrock methods being their orders, and
  * the explicit one that it may switch to. */

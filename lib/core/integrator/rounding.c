@@ -117,3 +117,18 @@ int stf_rounding_step(steif_solver *s)
   s->rounded = stf_norm(&step->system.space, r->error, step->weights);
   return STEIF_OK;
 }
+
+void stf_rounding_keep(steif_solver *s, stf_image *m)
+{
+  bool followed = s->rounding;
+  STF_KEEP(m, followed);
+  if (m->code) return;
+  if (!followed) s->rounding = NULL;
+  stf_rounding *r = s->rounding;
+  if (!r) return;
+  stf_keep_vector(m, r->error);
+  STF_KEEP(m, r->t);
+  STF_KEEP(m, r->waiting);
+  STF_KEEP(m, r->state);
+  stf_system_keep(&r->system, m);
+}

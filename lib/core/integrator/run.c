@@ -32,8 +32,7 @@ void stf_observe(steif_solver *s, sunrealtype t, N_Vector y)
 
 bool stf_beyond(const steif_solver *s) { return s->final && s->step.t > s->t1; }
 
-/* The solution at the end of what is known. */
-static N_Vector last(const steif_solver *s)
+N_Vector stf_last(const steif_solver *s)
 {
   if (s->events && stf_event_holds(s)) return s->events->after;
   if (stf_beyond(s)) return s->final;
@@ -64,7 +63,9 @@ static int watched(steif_solver *s)
   int code = stf_event_begin(s);
   if (code) return failed(s, code);
   STEIF_TRY(advance(s));
+  s->inside = true;
   code = stf_event_step(s, from);
+  s->inside = false;
   return code ? failed(s, code) : STEIF_OK;
 }
 
@@ -96,7 +97,7 @@ static int step_once(steif_solver *s, sunrealtype begun)
   if (!s->observed) return advance(s);
   STEIF_TRY(within_limits(s, begun));
   STEIF_TRY(s->events ? watched(s) : advance(s));
-  if (!(s->finished && s->events->silent)) stf_observe(s, s->end, last(s));
+  if (!(s->finished && s->events->silent)) stf_observe(s, s->end, stf_last(s));
   const bool asked = s->observer_stopped, explained = s->observer_failed;
   s->observer_stopped = s->observer_failed = false;
   if (asked && explained) return steif_status(s->ctx);
@@ -151,7 +152,7 @@ int stf_step_untimed(steif_solver *s)
   STEIF_CHECK(s->end < s->t1, s->ctx, STEIF_BAD_INPUT,
               "the run is at its end t1 = %.12g: no step is left", s->t1);
   STEIF_TRY(step_once(s, begin(s)));
-  s->shown = last(s), s->t_shown = s->end;
+  s->shown = stf_last(s), s->t_shown = s->end;
   steif_forget(s->ctx);
   return STEIF_OK;
 }
@@ -190,7 +191,7 @@ int steif_solve_to(steif_solver *s, sunrealtype t)
   if (!code && s->end > t)
     code = show(s, t);
   else if (!code)
-    s->shown = last(s), s->t_shown = s->end;
+    s->shown = stf_last(s), s->t_shown = s->end;
   s->cpu_s += now(CLOCK_PROCESS_CPUTIME_ID) - before;
   if (!code && s->end < t) return ended(s);
   if (!code) steif_forget(s->ctx);

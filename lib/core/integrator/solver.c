@@ -227,6 +227,18 @@ static int check_ewt(steif_solver *s, N_Vector y)
   return STEIF_OK;
 }
 
+/* A number by which a checkpoint knows the problem again. */
+static void take_fingerprint(steif_solver *s)
+{
+  stf_image m = {.ctx = s->ctx};
+  if (s->engine) return;
+  stf_keep_vector(&m, s->step.y);
+  stf_keep_vector(&m, s->step.yp);
+  stf_matrices_keep(&s->step.system, &m);
+  s->fingerprint = m.code ? 0 : m.sum;
+  if (m.code) steif_forget(s->ctx);
+}
+
 /* The start of a DAE, for methods of ours with adaptive steps; linear systems have their jump. */
 static int look_at_start(steif_solver *s, int form)
 {
@@ -259,6 +271,13 @@ static int begin(const steif_solver *s)
   return STEIF_OK;
 }
 
+static const char *copied(stf_pool *pool, const char *text)
+{
+  const size_t bytes = strlen(text) + 1;
+  char *copy = stf_pool_array(pool, bytes, 1);
+  return copy ? memcpy(copy, text, bytes) : NULL;
+}
+
 static int open(steif_solver *s, const char *method)
 {
   steif_spec spec;
@@ -268,7 +287,9 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(begin(s));
   STEIF_TRY(stf_options_complete(s->ctx, s->problem, &s->options));
   STEIF_TRY(check_vector(s->ctx, s->problem, &s->options));
-  s->t1 = s->options.t1, s->t_shown = s->end = s->problem->t0;
+  s->t1 = s->t1_opened = s->options.t1;
+  s->t_shown = s->end = s->problem->t0;
+  if (!(s->spec = copied(s->pool, method))) return STEIF_NO_MEMORY;
   STEIF_TRY(open_vectors(s, &y, &yp));
   snprintf(s->method, sizeof s->method, "%s", method);
   const bool automatic = !strcmp(method, "auto");
@@ -285,6 +306,7 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(stf_constraint_open(s));
   STEIF_TRY(stf_drift_open(s));
   STEIF_TRY(stf_event_open(s));
+  take_fingerprint(s);
   s->observed = stf_observed(s);
   s->watched = s->events || s->options.observe;
   s->stretch = 16;
@@ -302,7 +324,7 @@ steif_solver *steif_solver_new(steif_context *ctx, const steif_problem *problem,
   steif_forget(ctx);
   steif_solver *s = stf_allocate(ctx, 1, sizeof *s);
   if (!s) return NULL;
-  s->ctx = ctx, s->problem = problem;
+  s->ctx = ctx, s->problem = s->given = problem;
   s->options = options ? *options : steif_defaults();
   s->pool = stf_pool_new(ctx);
   if (!s->pool || open(s, method)) steif_solver_free(&s);

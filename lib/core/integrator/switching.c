@@ -233,6 +233,31 @@ void stf_switching_stay(steif_solver *s)
   if (r->changes > 0 && r->now.count == s->step.count) exchange(&s->step, r);
 }
 
+void stf_switching_keep(steif_solver *s, stf_image *m)
+{
+  stf_switching *r = s->switching;
+  int at = r->at;
+  STF_KEEP(m, at);
+  if (m->code) return;
+  if (r->at != at) exchange(&s->step, r);
+  exchange(&s->step, r);
+  stf_method_keep(&s->step, m);
+  STF_KEEP(m, s->step.control);
+  exchange(&s->step, r);
+  for (int i = 0; i < 2; i++) {
+    STF_KEEP(m, r->side[i].rate);
+    STF_KEEP(m, r->side[i].half_life);
+  }
+  STF_KEEP(m, r->now);
+  STF_KEEP(m, r->seen_at);
+  STF_KEEP(m, r->look);
+  STF_KEEP(m, r->t);
+  STF_KEEP(m, r->h);
+  STF_KEEP(m, r->spent);
+  STF_KEEP(m, r->seen);
+  STF_KEEP(m, r->changes);
+}
+
 /* -- opening ------------------------------------------------------------------------------------------ */
 
 static void destroy_table(void *owner)

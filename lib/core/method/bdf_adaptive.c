@@ -212,6 +212,23 @@ static int dense(const stf_step *s, sunrealtype t, N_Vector y)
   return STEIF_OK;
 }
 
+static void keep(stf_step *s, stf_image *m)
+{
+  state *e = s->state;
+  stf_keep_vectors(m, POINTS, e->y + 1); /* e->y[0] is s->y */
+  STF_KEEP(m, e->t);
+  STF_KEEP(m, e->k);
+  STF_KEEP(m, e->last);
+  STF_KEEP(m, e->points);
+  STF_KEEP(m, e->wait);
+  STF_KEEP(m, e->refusals);
+  STF_KEEP(m, e->omega);
+  STF_KEEP(m, e->seen);
+  STF_KEEP(m, e->since);
+  STF_KEEP(m, e->omega_of);
+  STF_KEEP(m, e->alpha);
+}
+
 /* Order 1 serves beginnings, whose few errors do not add up. Highest orders 1 and 2 would need a million
  * steps for six digits: they keep a tenth of the tolerance in each step, and less at the end. */
 static sunrealtype share(const stf_step *s, int p, int k)
@@ -258,4 +275,5 @@ const steif_method steif_method_bdf_adaptive = {
   .attempt = attempt,
   .commit = commit,
   .dense = dense,
+  .keep = keep,
 };

@@ -231,6 +231,17 @@ int stf_exponential_step_dense(stf_step *s, sunrealtype t, N_Vector y)
   return stf_hermite(s, t, e->before, e->slope, e->end, y);
 }
 
+void stf_exponential_step_keep(stf_step *s, stf_image *m)
+{
+  stf_exponential_step *e = s->state;
+  stf_keep_vector(m, e->before);
+  stf_keep_vector(m, e->slope);
+  stf_keep_vector(m, e->end);
+  STF_KEEP(m, e->known);
+  STF_KEEP(m, e->fresh);
+  stf_phis_keep(&e->phis, m);
+}
+
 int stf_exponential_step_propagator(steif_context *ctx, const steif_spec *spec,
                                     const steif_table *table, const sunrealtype z[2], int *r,
                                     sunrealtype *M)

@@ -24,6 +24,7 @@ int stf_exponential_step_open(stf_step *s, const stf_exponential *x, bool renews
 int stf_exponential_step_attempt(stf_step *s, sunrealtype h);
 void stf_exponential_step_commit(stf_step *s);
 int stf_exponential_step_dense(stf_step *s, sunrealtype t, N_Vector y);
+void stf_exponential_step_keep(stf_step *s, stf_image *m);
 /* e^z: without N nothing is left to be approximated. */
 int stf_exponential_step_propagator(steif_context *ctx, const steif_spec *spec,
                                     const steif_table *table, const sunrealtype z[2], int *r,

@@ -78,6 +78,9 @@ typedef struct steif_method {
   int (*dense_by_f)(stf_step *s, sunrealtype t, N_Vector y);
   int (*stages)(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
                 N_Vector **X); /* NULL: none */
+  /* All of the private state that later steps, dense output and stages depend on, part by part (image.h),
+   * but what stf_step, system and newton hold. NULL: runs cannot be saved. */
+  void (*keep)(stf_step *s, stf_image *m);
   /* r and M(z), r x r pairs by rows; M NULL: r only. NULL: steps are no function of z. */
   int (*propagator)(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                     const sunrealtype z[2], int *r, sunrealtype *M);
@@ -226,6 +229,11 @@ int stf_oscillation(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealt
 /* The spectral radius of J, by the same power iteration. */
 int stf_spectral_radius(stf_step *s, N_Vector v, N_Vector w, N_Vector work,
                         sunrealtype *radius);
+
+/* step_image.c: what the method in use remembers, and the step with its system; stf_step_keep before. */
+void stf_method_keep(stf_step *s, stf_image *m);
+void stf_step_keep(stf_step *s, stf_image *m);
+void stf_carried_keep(stf_carried *c, stf_image *m);
 
 /* y <-> next. */
 void stf_swap(stf_step *s);

@@ -108,3 +108,19 @@ int stf_phis_apply(stf_phis *f, sunrealtype h, int node, N_Vector *b, N_Vector w
              &one, &unit, stf_array(w), &one, 1);
   return STEIF_OK;
 }
+
+void stf_phis_keep(stf_phis *f, stf_image *m)
+{
+  const size_t bytes = (size_t)f->n * (size_t)f->n * sizeof *f->L;
+  STF_KEEP(m, f->factors);
+  STF_KEEP(m, f->h);
+  if (f->action) {
+    STF_KEEP(m, f->action->facts);
+    STF_KEEP(m, f->action->gamma);
+    STF_KEEP(m, f->action->absolute);
+    STF_KEEP(m, f->action->o.tolerance);
+    return;
+  }
+  stf_keep(m, f->L, bytes);
+  for (int i = 0; i < f->nodes; i++) stf_keep(m, f->phi[i], (size_t)(f->p + 1) * bytes);
+}

@@ -32,4 +32,7 @@ void stf_phis_aim(stf_phis *f, sunrealtype relative, sunrealtype absolute);
 /* b_0 is not looked at; b_k NULL counts as zero. */
 int stf_phis_apply(stf_phis *f, sunrealtype h, int node, N_Vector *b, N_Vector w);
 
+/* L and the matrices, or for the action what is known of L. */
+void stf_phis_keep(stf_phis *f, stf_image *m);
+
 #endif

@@ -86,4 +86,7 @@ int stf_newton_polish(stf_newton *newton, const stf_stages *stages);
 /* Convergence was slow or refused: the next prepare should renew the Jacobian. */
 bool stf_newton_stale(const stf_newton *newton);
 
+/* Rates, ages and wishes; the system is kept by itself. */
+void stf_newton_keep(stf_newton *newton, stf_image *m);
+
 #endif

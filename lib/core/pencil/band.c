@@ -162,6 +162,16 @@ static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
   return STEIF_OK;
 }
 
+static void keep(steif_pencil *p, int slot, stf_image *m)
+{
+  const band *b = p->state;
+  const factors *f = &b->slot[slot];
+  const size_t n = (size_t)p->n, width = stf_is_complex(p->shift[slot]) ? 2 : 1;
+  if (!p->fresh[slot]) return;
+  stf_keep(m, f->ab, n * width * (size_t)b->ld * sizeof *f->ab);
+  stf_keep(m, f->pivot, n * sizeof *f->pivot);
+}
+
 static void finish(steif_pencil *p)
 {
   band *b = p->state;
@@ -183,5 +193,6 @@ const stf_backend stf_backend_band = {
   .solve = solve,
   .columns = columns,
   .product = product,
+  .keep = keep,
   .close = finish,
 };

@@ -176,6 +176,22 @@ static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
   return STEIF_OK;
 }
 
+/* Rows seen so far decide on later orders: they are kept whether the factors are in use or not. */
+static void keep(steif_pencil *p, int slot, stf_image *m)
+{
+  factors *f = &((dense *)p->state)->slot[slot];
+  const size_t n = (size_t)p->n, width = stf_is_complex(p->shift[slot]) ? 2 : 1;
+  bool sets = f->bitset;
+  STF_KEEP(m, sets);
+  if (m->reads && sets && !f->bitset && !(f->bitset = stf_bitset_new(p->ctx, (int)p->n)))
+    stf_image_stop(m, STEIF_NO_MEMORY);
+  if (sets && f->bitset) stf_keep(m, f->bitset, stf_bitset_size());
+  STF_KEEP(m, f->skips);
+  if (!p->fresh[slot]) return;
+  stf_keep(m, f->a, n * n * width * sizeof *f->a);
+  stf_keep(m, f->pivot, n * sizeof *f->pivot);
+}
+
 static void finish(steif_pencil *p)
 {
   dense *d = p->state;
@@ -198,5 +214,6 @@ const stf_backend stf_backend_dense = {
   .solve = solve,
   .columns = columns,
   .product = product,
+  .keep = keep,
   .close = finish,
 };

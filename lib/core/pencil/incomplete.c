@@ -171,6 +171,12 @@ static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im
   return stf_columns(p, slot, nrhs, re, im, columns);
 }
 
+static void keep(steif_pencil *p, int slot, stf_image *m)
+{
+  const incomplete *s = p->state;
+  if (p->fresh[slot]) stf_keep(m, s->slot[slot], (size_t)s->ptr[p->n] * sizeof **s->slot);
+}
+
 static void finish(steif_pencil *p) { forget(p); }
 
 const stf_backend stf_backend_incomplete = {
@@ -183,5 +189,6 @@ const stf_backend stf_backend_incomplete = {
   .factor = factor,
   .solve = solve,
   .product = stf_sparse_product,
+  .keep = keep,
   .close = finish,
 };

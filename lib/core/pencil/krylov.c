@@ -304,6 +304,21 @@ static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
     p->ctx, STEIF_CALLBACK, "%s of the operator returned %d in a product", k->culprit, answer);
 }
 
+/* The preconditioner is made again as it was, with the last slot; the caller has read its point. */
+static void keep(steif_pencil *p, int slot, stf_image *m)
+{
+  krylov *k = p->state;
+  STF_KEEP(m, k->near);
+  STF_KEEP(m, k->ready);
+  if (!m->reads || m->code || slot < p->slots - 1 || !k->ready || !p->op.prepare) return;
+  const long failures = stf_failures(p->ctx);
+  const int answer = p->op.prepare(k->near, p->op.user);
+  if (answer && stf_failures(p->ctx) == failures)
+    STEIF_FAIL(p->ctx, STEIF_CALLBACK,
+               "preparing the preconditioner of the run that was saved returned %d", answer);
+  if (answer) stf_image_stop(m, STEIF_CALLBACK);
+}
+
 static void finish(steif_pencil *p)
 {
   krylov *k = p->state;
@@ -319,5 +334,6 @@ const stf_backend stf_backend_krylov = {
   .factor = factor,
   .solve = solve,
   .product = product,
+  .keep = keep,
   .close = finish,
 };

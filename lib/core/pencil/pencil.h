@@ -3,7 +3,7 @@
 #ifndef STF_PENCIL_H
 #define STF_PENCIL_H
 
-#include "base.h"
+#include "image.h"
 #include <nvector/nvector_serial.h>
 #include <steif/pencil.h>
 
@@ -37,6 +37,8 @@ typedef struct stf_backend {
   int (*solve)(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im);
   stf_columns_solve *columns; /* from several threads for complex slots; NULL: not so */
   int (*product)(steif_pencil *p, char which, N_Vector x, N_Vector out);
+  /* What a slot remembers: factors in use, pivots that serve again. Read into a slot not prepared yet. */
+  void (*keep)(steif_pencil *p, int slot, stf_image *m);
   void (*close)(steif_pencil *p);
 } stf_backend;
 
@@ -77,6 +79,9 @@ static inline void stf_pencil_aim(steif_pencil *p, N_Vector weights, double aim)
 {
   p->weights = weights, p->aim = aim;
 }
+
+/* saved/pencil_image.c: factors and counts; the matrices are the owner's and have been read before. */
+void stf_pencil_keep(steif_pencil *p, stf_image *m);
 
 /* The host array of v, or NULL; without a call for a serial vector. */
 static inline sunrealtype *stf_array(N_Vector v)

@@ -339,6 +339,46 @@ int stf_sparse_product(steif_pencil *p, char which, N_Vector x, N_Vector out)
   return STEIF_OK;
 }
 
+/* What prepare has made in the run that was saved: blocks of a slot that has been real, too. */
+static void keep_shape(steif_pencil *p, factors *f, stf_image *m)
+{
+  sparse *s = p->state;
+  bool chosen = s->fronts_chosen, blocks = f->block;
+  STF_KEEP(m, chosen);
+  STF_KEEP(m, blocks);
+  if (!m->reads || m->code) return;
+  if (chosen && !s->fronts_chosen) stf_image_stop(m, open_fronts(p));
+  if (!m->code && blocks && !s->fronts)
+    stf_image_stop(m, STEIF_FAIL(p->ctx, STEIF_BAD_INPUT,
+                                 "the checkpoint has factors by fronts where there are none"));
+  if (!m->code && blocks && !f->block) stf_image_stop(m, prepare_fronts(p, f));
+}
+
+static void keep_values(steif_pencil *p, int slot, stf_image *m)
+{
+  const sparse *s = p->state;
+  const factors *f = s->slot[slot];
+  const size_t width = stf_is_complex(p->shift[slot]) ? 2 : 1;
+  stf_keep(m, f->value, (size_t)s->pattern.nnz * width * sizeof *f->value);
+  if (!f->by_fronts) return;
+  const stf_fronts_size size = stf_multifrontal_size(s->fronts);
+  stf_keep(m, f->block, size.factors * sizeof *f->block);
+  stf_keep(m, f->pivot, size.pivots * sizeof *f->pivot);
+}
+
+static void keep(steif_pencil *p, int slot, stf_image *m)
+{
+  sparse *s = p->state;
+  factors *f = s->slot[slot];
+  keep_shape(p, f, m);
+  STF_KEEP(m, f->growth);
+  STF_KEEP(m, f->complex);
+  STF_KEEP(m, f->by_fronts);
+  STF_KEEP(m, f->rejected);
+  stf_klu_keep(s->symbolic, f->complex, &f->numeric, &f->common, m);
+  if (p->fresh[slot] && !m->code) keep_values(p, slot, m);
+}
+
 static void finish(steif_pencil *p) { forget(p); }
 
 const stf_backend stf_backend_sparse = {
@@ -353,5 +393,6 @@ const stf_backend stf_backend_sparse = {
   .solve = solve,
   .columns = columns,
   .product = stf_sparse_product,
+  .keep = keep,
   .close = finish,
 };

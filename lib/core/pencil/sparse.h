@@ -18,6 +18,9 @@ klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot);
 /* The fronts whose factors a slot has in use, and these; NULL: KLU's are. */
 const stf_multifrontal *stf_sparse_fronts(const steif_pencil *p, int slot,
                                           const double **factors);
+/* saved/klu_image.c: KLU's factors, made where there are none to be read into. */
+void stf_klu_keep(const klu_l_symbolic *symbolic, bool wide, klu_l_numeric **numeric,
+                  klu_l_common *common, stf_image *m);
 /* The reciprocal pivot growth down to which pivots in use are kept. */
 double stf_sparse_growth(const steif_pencil *p, int slot);
 

@@ -10,7 +10,7 @@
 #ifndef STF_PROBLEM_H
 #define STF_PROBLEM_H
 
-#include "base.h"
+#include "image.h"
 #include "lu.h"
 #include "space.h"
 #include <steif/pencil.h>
@@ -73,6 +73,10 @@ void stf_system_add_entries(const stf_system *system, sunrealtype (*weight)(void
  * tells whether yp can be relied on. */
 int stf_system_start(steif_context *ctx, const steif_problem *problem, int form,
                      const stf_space *space, N_Vector y, N_Vector yp, bool *known);
+
+/* system_image.c: E and A; these, the point they were made at, factors and counts. */
+void stf_matrices_keep(stf_system *system, stf_image *m);
+void stf_system_keep(stf_system *system, stf_image *m);
 
 /* STEIF_BAD_INPUT where problem.index declares less than E and A at the start show. */
 int stf_index_check(stf_system *system);

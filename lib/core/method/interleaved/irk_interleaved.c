@@ -230,6 +230,30 @@ static int stages(const stf_step *s, int *count, const sunrealtype **c, const su
   return STEIF_OK;
 }
 
+static void keep(stf_step *s, stf_image *m)
+{
+  state *e = s->state;
+  const size_t n = (size_t)e->n;
+  stf_keep(m, e->a, n * (size_t)e->L->wide * sizeof *e->a);
+  stf_keep(m, e->before, n * sizeof *e->before);
+  stf_keep(m, e->f0, n * sizeof *e->f0);
+  stf_interleaved_image(e->L, m);
+  STF_KEEP(m, e->iterations);
+  STF_KEEP(m, e->fails);
+  STF_KEEP(m, e->h_factored);
+  STF_KEEP(m, e->theta);
+  STF_KEEP(m, e->eta);
+  STF_KEEP(m, e->kappa);
+  STF_KEEP(m, e->first_correction);
+  STF_KEEP(m, e->rounding_limited);
+  STF_KEEP(m, e->history);
+  STF_KEEP(m, e->f0_known);
+  STF_KEEP(m, e->renew_J);
+  STF_KEEP(m, e->J_new);
+  STF_KEEP(m, e->J_ahead);
+  STF_KEEP(m, e->J_from_stage);
+}
+
 const steif_method steif_method_irk_interleaved = {
   .about = "fully implicit Runge-Kutta, all shifts in vector lanes",
   .forms = STEIF_ODE | STEIF_MASS,
@@ -240,4 +264,5 @@ const steif_method steif_method_irk_interleaved = {
   .commit = commit,
   .dense = dense,
   .stages = stages,
+  .keep = keep,
 };

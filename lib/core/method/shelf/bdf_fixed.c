@@ -231,6 +231,21 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   return e->start == CQ ? open_cq(s) : STEIF_OK;
 }
 
+static void keep(stf_step *s, stf_image *m)
+{
+  state *e = s->state;
+  stf_keep_vectors(m, e->p + 1, e->y + 1); /* e->y[0] is s->y */
+  STF_KEEP(m, e->t);
+  STF_KEEP(m, e->k);
+  STF_KEEP(m, e->start);
+  STF_KEEP(m, e->points);
+  STF_KEEP(m, e->alpha);
+  STF_KEEP(m, e->guess);
+  STF_KEEP(m, e->cached);
+  STF_KEEP(m, e->guess_points);
+  STF_KEEP(m, e->last);
+}
+
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
@@ -309,6 +324,7 @@ const steif_method steif_method_bdf_fixed = {
   .attempt = attempt,
   .commit = commit,
   .dense = dense,
+  .keep = keep,
   .propagator = propagator,
   .describe = describe,
   .general = general,

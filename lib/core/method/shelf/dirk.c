@@ -129,6 +129,15 @@ static int stages(const stf_step *s, int *count, const sunrealtype **c, const su
   return STEIF_OK;
 }
 
+static void keep(stf_step *s, stf_image *m)
+{
+  state *e = s->state;
+  stf_keep_vectors(m, e->s, e->old);
+  stf_keep_vectors(m, e->s, e->chain.X);
+  stf_keep_vector(m, e->before);
+  STF_KEEP(m, e->stepped);
+}
+
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
@@ -164,6 +173,7 @@ const steif_method steif_method_dirk = {
   .commit = commit,
   .dense = dense,
   .stages = stages,
+  .keep = keep,
   .propagator = propagator,
   .describe = describe,
 };

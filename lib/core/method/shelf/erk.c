@@ -88,6 +88,14 @@ static int dense_by_f(stf_step *s, sunrealtype t, N_Vector y)
   return stf_hermite(s, t, e->before, e->slope, e->end_slope, y);
 }
 
+static void keep(stf_step *s, stf_image *m)
+{
+  const state *e = s->state;
+  stf_keep_vector(m, e->before);
+  stf_keep_vector(m, e->slope);
+  stf_keep_vector(m, e->end_slope);
+}
+
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
@@ -120,6 +128,7 @@ const steif_method steif_method_erk = {
   .attempt = attempt,
   .commit = commit,
   .dense_by_f = dense_by_f,
+  .keep = keep,
   .propagator = propagator,
   .describe = describe,
 };

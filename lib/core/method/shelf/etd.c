@@ -42,6 +42,7 @@ const steif_method steif_method_etd = {
   .attempt = stf_exponential_step_attempt,
   .commit = stf_exponential_step_commit,
   .dense_by_f = stf_exponential_step_dense,
+  .keep = stf_exponential_step_keep,
   .propagator = stf_exponential_step_propagator,
   .describe = describe,
 };

@@ -300,6 +300,18 @@ static int stages(const stf_step *s, int *count, const sunrealtype **c, const su
   return STEIF_OK;
 }
 
+static void keep(stf_step *s, stf_image *m)
+{
+  state *e = s->state;
+  stf_keep_vectors(m, e->k, e->at);
+  stf_keep_vectors(m, e->k, e->past);
+  stf_keep_vectors(m, e->r, e->slopes);
+  stf_keep_vectors(m, e->r, e->chain.X);
+  stf_keep_vector(m, e->before);
+  STF_KEEP(m, e->scale);
+  stf_carried_keep(&e->carried, m);
+}
+
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
@@ -367,6 +379,7 @@ const steif_method steif_method_glm = {
   .commit = commit,
   .dense = dense,
   .stages = stages,
+  .keep = keep,
   .propagator = propagator,
   .describe = describe,
 };

@@ -279,6 +279,18 @@ static int stages(const stf_step *s, int *count, const sunrealtype **c, const su
   return STEIF_OK;
 }
 
+static void keep(stf_step *s, stf_image *m)
+{
+  state *e = s->state;
+  stf_keep_vectors(m, e->s, e->Z);
+  stf_keep_vector(m, e->before);
+  if (e->lost) stf_keep_vector(m, e->lost);
+  STF_KEEP(m, e->omega);
+  STF_KEEP(m, e->omega_of);
+  STF_KEEP(m, e->fails);
+  STF_KEEP(m, e->history);
+}
+
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
@@ -329,6 +341,7 @@ const steif_method steif_method_irk = {
   .commit = commit,
   .dense = dense,
   .stages = stages,
+  .keep = keep,
   .propagator = propagator,
   .describe = describe,
 };

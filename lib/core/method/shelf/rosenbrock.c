@@ -201,6 +201,17 @@ static int dense(const stf_step *s, sunrealtype t, N_Vector y)
   return STEIF_OK;
 }
 
+static void keep(stf_step *s, stf_image *m)
+{
+  state *e = s->state;
+  stf_keep_vectors(m, e->r->s, e->old);
+  stf_keep_vector(m, e->before);
+  STF_KEEP(m, e->h_factored);
+  STF_KEEP(m, e->kernel.order);
+  STF_KEEP(m, e->kernel.lu);
+  STF_KEEP(m, e->kernel.pivot);
+}
+
 /* The step on y' = lambda y with exact Jacobian: u_i solved in complex arithmetic. */
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
@@ -260,6 +271,7 @@ const steif_method steif_method_rosenbrock = {
   .attempt = attempt,
   .commit = commit,
   .dense = dense,
+  .keep = keep,
   .propagator = propagator,
   .describe = describe,
 };

@@ -105,6 +105,14 @@ static int dense_by_f(stf_step *s, sunrealtype t, N_Vector y)
   return flow(s, t - s->t, (stf_point){y, e->next_error});
 }
 
+static void keep(stf_step *s, stf_image *m)
+{
+  state *e = s->state;
+  stf_keep_vector(m, e->force);
+  STF_KEEP(m, e->known);
+  if (e->error) stf_keep_vector(m, e->error);
+}
+
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
@@ -156,6 +164,7 @@ const steif_method steif_method_symplectic = {
   .attempt = attempt,
   .commit = commit,
   .dense_by_f = dense_by_f,
+  .keep = keep,
   .propagator = propagator,
   .describe = describe,
 };

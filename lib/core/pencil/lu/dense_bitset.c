@@ -22,6 +22,8 @@ stf_bitset *stf_bitset_new(steif_context *ctx, int n)
   return t;
 }
 
+size_t stf_bitset_size(void) { return sizeof(stf_bitset); }
+
 static int bits(uint64_t x) { return __builtin_popcountll(x); }
 
 static void close_pattern(int n, const uint64_t *pattern, uint64_t *rows)

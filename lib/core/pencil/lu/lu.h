@@ -20,7 +20,7 @@
 #ifndef STF_LU_H
 #define STF_LU_H
 
-#include "base.h"
+#include "image.h"
 #include "rosenbrock_data.h"
 #include "simd.h"
 #include <steif/pencil.h>
@@ -48,6 +48,7 @@ void stf_blocked_solve(int n, const double *lu, const int *perm, double *b);
 enum { STF_BITSET = 64 }; /* n */
 typedef struct stf_bitset stf_bitset;
 stf_bitset *stf_bitset_new(steif_context *ctx, int n); /* to be released as one block */
+size_t stf_bitset_size(void);                          /* of which, without pointers */
 /* Is it worth to skip the zeros of a? Orders anew when entries appear. */
 bool stf_bitset_look(stf_bitset *t, const double *a);
 int stf_bitset_factor(stf_bitset *t, double *a);
@@ -204,6 +205,8 @@ double stf_interleaved_sweep(stf_interleaved *L, const double *y, const double *
 void stf_interleaved_end(stf_interleaved *L);
 /* a_k = sum_j K[j][k] Z_j, by components. */
 void stf_interleaved_keep(stf_interleaved *L, double (*K)[STF_INTERLEAVED_STAGES], double *a);
+/* Factors, pattern and stages. */
+void stf_interleaved_image(stf_interleaved *L, stf_image *m);
 /* x = (lambda_0 / h M - J)^{-1} x, by the real shift 0; of a pair the quadratic filter or, if `whole`,
  * the real part. */
 void stf_interleaved_filter(stf_interleaved *L, double *x);

@@ -1,0 +1,116 @@
+/* checkpoint.c: save, load and look.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "checkpoint_file.h"
+#include <string.h>
+
+int steif_checkpoint_save(steif_solver *s, const char *path, const void *note,
+                          size_t note_bytes)
+{
+  unsigned char *bytes = NULL;
+  size_t count = 0;
+  if (!s) return STEIF_BAD_INPUT;
+  STEIF_CHECK(path, s->ctx, STEIF_BAD_INPUT, "a checkpoint needs the path of a file, got NULL");
+  STEIF_CHECK(note || !note_bytes, s->ctx, STEIF_BAD_INPUT, "a note of %zu bytes is NULL",
+              note_bytes);
+  STEIF_TRY(stf_checkpoint_bytes(s, note, note_bytes, &bytes, &count));
+  const int code = stf_disk_write(s->ctx, path, bytes, count);
+  stf_release(s->ctx, bytes);
+  return code;
+}
+
+static int open_file(steif_context *ctx, const char *path, stf_opened *file)
+{
+  unsigned char *bytes = NULL;
+  size_t count = 0;
+  STEIF_CHECK(path, ctx, STEIF_BAD_INPUT, "a checkpoint needs the path of a file, got NULL");
+  STEIF_TRY(stf_disk_read(ctx, path, &bytes, &count));
+  return stf_checkpoint_open(ctx, path, bytes, count, file);
+}
+
+/* -- load ------------------------------------------------------------------------------------ */
+
+static int check_problem(steif_context *ctx, const steif_problem *p, const stf_identity *id)
+{
+  const char *name = p && p->name ? p->name : "";
+  STEIF_CHECK(p, ctx, STEIF_BAD_INPUT, "a problem is needed, got NULL");
+  STEIF_CHECK(!strncmp(name, id->problem, STF_NAME - 1) && p->n == id->n, ctx, STEIF_BAD_INPUT,
+              "the checkpoint is of problem '%s' with %lld unknowns, not of '%s' with %lld",
+              id->problem, id->n, name, (long long)p->n);
+  return STEIF_OK;
+}
+
+static int fill(steif_solver *s, stf_opened *file)
+{
+  stf_image *m = &file->state;
+  STEIF_TRY(stf_identity_check(s, &file->identity));
+  stf_solver_keep(s, m);
+  STEIF_CHECK(
+    m->code || m->used == m->size, s->ctx, STEIF_BAD_INPUT,
+    "the checkpoint holds more than the state of '%s': it was made by another build of "
+    "steif; repeat the run",
+    s->spec);
+  return m->code;
+}
+
+static steif_solver *load(steif_context *ctx, const steif_problem *problem,
+                          const steif_options *options, stf_opened *file)
+{
+  steif_options o = options ? *options : steif_defaults();
+  if (check_problem(ctx, problem, &file->identity)) return NULL;
+  o.t1 = file->identity.t1_opened;
+  steif_solver *s = steif_solver_new(ctx, problem, file->identity.spec, &o);
+  if (s && fill(s, file)) steif_solver_free(&s);
+  return s;
+}
+
+steif_solver *steif_checkpoint_load(steif_context *ctx, const char *path,
+                                    const steif_problem *problem, const steif_options *options)
+{
+  stf_opened file;
+  if (!ctx) return NULL;
+  steif_forget(ctx);
+  if (open_file(ctx, path, &file)) return NULL;
+  steif_solver *s = load(ctx, problem, options, &file);
+  stf_checkpoint_close(ctx, &file);
+  return s;
+}
+
+/* -- look ------------------------------------------------------------------------------------ */
+
+typedef struct reading {
+  steif_checkpoint face; /* what others see */
+  stf_opened file;
+} reading;
+
+steif_checkpoint *steif_checkpoint_read(steif_context *ctx, const char *path)
+{
+  if (!ctx) return NULL;
+  steif_forget(ctx);
+  reading *r = stf_allocate(ctx, 1, sizeof *r);
+  if (!r) return NULL;
+  if (open_file(ctx, path, &r->file)) {
+    stf_release(ctx, r);
+    return NULL;
+  }
+  const stf_identity *id = &r->file.identity;
+  r->face = (steif_checkpoint){.version = id->version,
+                               .problem = id->problem,
+                               .method = id->spec,
+                               .n = (sunindextype)id->n,
+                               .t = id->t,
+                               .t1 = id->t1,
+                               .steps = id->steps,
+                               .finished = id->finished,
+                               .note = r->file.note,
+                               .note_bytes = r->file.note_bytes};
+  return &r->face;
+}
+
+void steif_checkpoint_free(steif_context *ctx, steif_checkpoint **checkpoint)
+{
+  if (!ctx || !checkpoint || !*checkpoint) return;
+  reading *r = (reading *)*checkpoint;
+  stf_checkpoint_close(ctx, &r->file);
+  stf_release(ctx, r);
+  *checkpoint = NULL;
+}
