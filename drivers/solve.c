@@ -1,6 +1,7 @@
 /* solve.c: one integration.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "problem.h"
+#include "saved_run.h"
 #include "solution.h"
 
 static int integrate_on(struct call *call, const steif_problem *p)
@@ -10,8 +11,10 @@ static int integrate_on(struct call *call, const steif_problem *p)
   steif_solver *s = NULL;
   int code = trajectory_open(call, p, &options, &tr);
   if (!code && !(tr.report = steif_report_new(call->ctx))) code = fail(call);
+  if (!code && call->continues) code = saved_run_load(call, p, &options, &tr, &s);
   if (!code) {
     const outcome o = integrate(call->ctx, p, call->word[1], &options, &s);
+    saved_run_end(&tr, s, &o);
     code = solution_present(call, &o, s, &tr);
   }
   steif_solver_free(&s);
@@ -32,11 +35,13 @@ static const struct option options[] = {
   {"--points", COUNT, "N", "the same at N equal distances from the start to the end", NULL},
   {"--events", FLAG, NULL, "a table of the events of the problem", NULL},
   {"--npz", OUTPUT, "FILE", "t, y and events as arrays for numpy.load", NULL},
+  CHECKPOINT_OPTIONS,
   OPTIONS_END,
 };
 static const struct rule rules[] = {{"--h", EXCLUDES, "--rtol"},
                                     {"--h", EXCLUDES, "--atol"},
                                     {"--at", EXCLUDES, "--points"},
+                                    CHECKPOINT_RULE,
                                     RULES_END};
 
 const struct verb verb_solve = {

@@ -69,6 +69,10 @@ endif()
 file(CONFIGURE OUTPUT readme.c CONTENT "${program}" @ONLY)
 add_executable(readme_program ${PROJECT_BINARY_DIR}/readme.c)
 target_link_libraries(readme_program PRIVATE steif)
+# Killed 50 times and still the same bits.
+add_test(NAME kills COMMAND sh ${PROJECT_SOURCE_DIR}/tests/kills.sh $<TARGET_FILE:steif_program>
+         ${PROJECT_BINARY_DIR}/kills ${PROJECT_SOURCE_DIR}/examples/models)
+
 add_test(NAME readme COMMAND readme_program)
 # y_1 of Robertson's problem: 0.98517 at 0.4 and 5.2083e-8 at 4e10 (Hairer and Wanner, 1996, IV.10;
 # cvRoberts of SUNDIALS), both reached, and "ok" at the end.

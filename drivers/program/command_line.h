@@ -73,6 +73,7 @@ struct call {
   } given[GIVEN];
   bool json, quiet, help;
   const char *csv, *plot, *npz;
+  const char *continues; /* the checkpoint that a run goes on from; NULL: it begins */
 };
 
 /* Of every verb: --json to --help. */

@@ -58,9 +58,12 @@ outcome integrate_from(steif_context *ctx, const steif_problem *problem, const c
 {
   outcome o = {.t = problem->t0};
   const double t1 = options->t1 > 0 ? options->t1 : problem->t1;
+  const bool begins = !*solver;
   steif_forget(ctx);
-  steif_solver *s = *solver = steif_solver_new(ctx, problem, method, options);
-  if (s && options->observe) options->observe(s, o.t, steif_solution(s), options->observer);
+  if (begins) *solver = steif_solver_new(ctx, problem, method, options);
+  steif_solver *s = *solver;
+  if (s && begins && options->observe)
+    options->observe(s, o.t, steif_solution(s), options->observer);
   if (s && begun) begun(s, user);
   o.code = s ? steif_solve_to(s, t1) : steif_status(ctx);
   if (s) {
@@ -79,7 +82,7 @@ outcome integrate_from(steif_context *ctx, const steif_problem *problem, const c
 outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
                   const steif_options *options, steif_solver **solver)
 {
-  steif_solver *s = NULL;
+  steif_solver *s = solver ? *solver : NULL;
   outcome o = integrate_from(ctx, problem, method, options, &s, NULL, NULL);
   if (s && o.code < 0) explain(ctx, problem, method, options, &o);
   if (solver)

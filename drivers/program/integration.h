@@ -37,7 +37,8 @@ typedef struct outcome {
 steif_options options_of(const struct call *call);
 
 /* Integrate to options->t1 (the problem's when 0), the start shown to options->observe first. The
- * solver is kept in *solver unless that is NULL; it may be NULL afterwards when it could not be made.
+ * solver is kept in *solver unless `solver` is NULL; one that is there goes on, else a new one is made, NULL
+ * afterwards when that could not be.
  * The context's message is forgotten. */
 outcome integrate(steif_context *ctx, const steif_problem *problem, const char *method,
                   const steif_options *options, steif_solver **solver);

@@ -1,6 +1,7 @@
 /* trajectory.c: the accepted steps of a run, or its solution at times asked for, and its events.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "trajectory.h"
+#include "saved_run.h"
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,10 +68,8 @@ static void tell(trajectory *tr, double t)
            100 * (t - tr->t0) / (tr->t1 - tr->t0));
 }
 
-static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
+static int keep(trajectory *tr, steif_solver *s, sunrealtype t, N_Vector y)
 {
-  trajectory *tr = user;
-  if (tr->live) tell(tr, t);
   if (tr->asked == 0)
     return tr->call->csv || tr->call->plot || tr->call->npz ? trajectory_keep(tr, t, y) : 0;
   for (; tr->next < tr->asked && tr->at[tr->next] <= t; tr->next++) {
@@ -79,6 +78,14 @@ static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
     if (trajectory_keep(tr, tr->at[tr->next], here ? y : tr->between)) return -1;
   }
   return 0;
+}
+
+static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
+{
+  trajectory *tr = user;
+  if (tr->live) tell(tr, t);
+  const int code = keep(tr, s, t, y);
+  return code ? code : saved_run_tick(tr, s);
 }
 
 static bool more_events(trajectory *tr)
@@ -125,6 +132,17 @@ static int keep_jump(sunrealtype t, const sunrealtype *before, const steif_impul
   return 0;
 }
 
+int trajectory_room(trajectory *tr, size_t rows, size_t events)
+{
+  const size_t most = (size_t)1 << 40;
+  if (rows > most || events > most) return -1;
+  while (tr->room < rows)
+    if (!grow(tr)) return -1;
+  while (tr->event_room < events)
+    if (!more_events(tr)) return -1;
+  return 0;
+}
+
 int trajectory_open(struct call *call, const steif_problem *problem, steif_options *options,
                     trajectory *tr)
 {
@@ -135,6 +153,10 @@ int trajectory_open(struct call *call, const steif_problem *problem, steif_optio
                      .t0 = problem->t0,
                      .t1 = options->t1 > 0 ? options->t1 : problem->t1,
                      .live = !call->quiet && isatty(STDERR_FILENO)};
+  if (given(call, "--checkpoint")) {
+    tr->checkpoint = word_of(call, "--checkpoint");
+    tr->every = real_of(call, "--every");
+  }
   options->observe = observe;
   options->on_event = keep_event;
   options->jump = keep_jump;

@@ -21,8 +21,11 @@ typedef struct trajectory {
   size_t *event_number; /* from 0: functions that change it together have one number */
   size_t happened;
   bool short_of_memory, live;
-  double shown;         /* when the progress line was written */
-  steif_report *report; /* takes jumps as they come; NULL: they are not kept */
+  double shown;           /* when the progress line was written */
+  steif_report *report;   /* takes jumps as they come; NULL: they are not kept */
+  const char *checkpoint; /* NULL: none */
+  double every, saved_at; /* seconds between two, time of the last */
+  bool saved;             /* there is one */
 } trajectory;
 
 /* EXIT_OK, or an exit code after a sentence about --at. Observers are set in *options. */
@@ -30,6 +33,8 @@ int trajectory_open(struct call *call, const steif_problem *problem, steif_optio
                     trajectory *tr);
 /* One more row; nonzero when memory is short. */
 int trajectory_keep(trajectory *tr, double t, N_Vector y);
+/* Room for so many rows and events; nonzero when memory is short. */
+int trajectory_room(trajectory *tr, size_t rows, size_t events);
 void trajectory_free(trajectory *tr);
 /* Sheets "output" (times asked for) and "events" (--events); jumps are there already. */
 void trajectory_fill(steif_report *r, const trajectory *tr);

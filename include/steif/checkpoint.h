@@ -10,8 +10,8 @@
  * caller gives again; what the callbacks remember comes by the members begin, save and restore of the
  * problem.
  *
- * A file is written beside `path` and takes its name when it is complete: whatever happens, `path` is
- * a whole checkpoint, the new or the last. Refused, with the reason, and nothing is changed:
+ * A file is written beside `path`, as path.part, and takes its name when it is complete and on the disk: whatever
+ * happens, `path` is a whole checkpoint, the new or the last. Two runs need two paths. Refused, with the reason, and nothing is changed:
  *   STEIF_IO            cannot be read or written, no checkpoint, cut short, damaged (a checksum tells)
  *   STEIF_UNSUPPORTED   of another version or kind of machine; CVODE, IDA and ARKODE, whose history cannot be
  *                       had: repeat such a run from its start; methods of auto that are engines

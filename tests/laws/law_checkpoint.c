@@ -55,7 +55,7 @@ static void say(steif_context *ctx, const char *method, long step, const char *w
 static int go_on_alike(steif_context *ctx, const char *method, steif_solver *a, steif_solver *b,
                        long from)
 {
-  for (int k = 0; k < 400; k++) {
+  for (int k = 0; k < 150; k++) {
     const int x = steif_solve_step(a), y = steif_solve_step(b);
     if (x != y || !same_state(a, b)) return say(ctx, method, from + k, "other bits"), 0;
     if (x) break;

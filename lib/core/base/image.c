@@ -37,7 +37,7 @@ static void take(stf_image *m, void *to, size_t bytes)
                                  "by another build of steif; repeat the run"));
     return;
   }
-  memcpy(to, m->at + m->used, bytes);
+  memcpy(to, m->from + m->used, bytes);
   m->used += bytes;
 }
 

@@ -8,7 +8,8 @@
 
 typedef struct stf_image {
   steif_context *ctx;
-  unsigned char *at; /* NULL: the walk measures */
+  unsigned char *at;         /* written; NULL: the walk measures, or reads ... */
+  const unsigned char *from; /* ... this */
   size_t used, size;
   bool reads;
   int code;               /* the first failure; nothing is read after it */

@@ -150,7 +150,7 @@ static int look(steif_context *ctx, const char *name, size_t count, stf_opened *
   stf_image *m = &file->state;
   STEIF_TRY(check_whole(ctx, name, file->bytes, count));
   *m = (stf_image){.ctx = ctx,
-                   .at = file->bytes + sizeof(head),
+                   .from = file->bytes + sizeof(head),
                    .size = count - sizeof(head) - sizeof(uint64_t),
                    .reads = true};
   STF_KEEP(m, file->identity);
@@ -160,7 +160,7 @@ static int look(steif_context *ctx, const char *name, size_t count, stf_opened *
   if (!file->note_bytes) return STEIF_OK;
   STEIF_CHECK(file->note_bytes + sizeof(uint64_t) <= m->size - m->used, ctx, STEIF_IO,
               "checkpoint '%s' is damaged: its note is longer than the file", name);
-  file->note = m->at + m->used + sizeof(uint64_t);
+  file->note = m->from + m->used + sizeof(uint64_t);
   m->used += file->note_bytes + sizeof(uint64_t);
   return STEIF_OK;
 }

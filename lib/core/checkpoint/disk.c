@@ -11,9 +11,10 @@ static int unreadable(steif_context *ctx, const char *path)
   return STEIF_FAIL(ctx, STEIF_IO, "checkpoint '%s' cannot be read: %s", path, strerror(errno));
 }
 
-/* How many bytes; a stream without an end, or none at all, has none. */
+/* How many bytes; folders and streams without an end have none. */
 static int measure(steif_context *ctx, const char *path, FILE *stream, size_t *count)
 {
+  if (fgetc(stream) == EOF && ferror(stream)) return unreadable(ctx, path);
   const long end = fseek(stream, 0, SEEK_END) ? -1 : ftell(stream);
   if (end < 0 || fseek(stream, 0, SEEK_SET)) return unreadable(ctx, path);
   *count = (size_t)end;
@@ -51,10 +52,10 @@ static bool put(FILE *stream, const void *bytes, size_t count)
 /* By a file beside it, whose data are on the disk before it takes the name. */
 int stf_disk_write(steif_context *ctx, const char *path, const void *bytes, size_t count)
 {
-  const size_t room = strlen(path) + 32;
+  const size_t room = strlen(path) + sizeof ".part";
   char *beside = stf_allocate(ctx, room, 1);
   if (!beside) return STEIF_NO_MEMORY;
-  snprintf(beside, room, "%s.%ld.part", path, (long)getpid());
+  snprintf(beside, room, "%s.part", path);
   FILE *stream = fopen(beside, "wb");
   const bool whole = stream && put(stream, bytes, count) && !rename(beside, path);
   const int error = errno;

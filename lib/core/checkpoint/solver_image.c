@@ -15,7 +15,9 @@ static void keep_progress(steif_solver *s, stf_image *m)
   STF_KEEP(m, s->next_break);
   STF_KEEP(m, s->constraint_moves);
   STF_KEEP(m, s->rounded);
-  STF_KEEP(m, s->cpu_s);
+  sunrealtype cpu_s = stf_cpu_seconds(s);
+  STF_KEEP(m, cpu_s);
+  if (m->reads) s->cpu_s = cpu_s;
   STF_KEEP(m, s->method);
 }
 

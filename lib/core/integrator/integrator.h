@@ -59,9 +59,10 @@ struct steif_solver {
   stf_rounding *rounding; /* of runs near it; NULL: not followed */
   sunrealtype rounded;    /* in tolerances */
   int failure;
-  char why[400];           /* the sentence of the failure */
-  sunrealtype *invariants; /* at the start, then room for as many */
-  sunrealtype cpu_s;
+  char why[400];               /* the sentence of the failure */
+  sunrealtype *invariants;     /* at the start, then room for as many */
+  sunrealtype cpu_s, cpu_from; /* of calls before, and when the present one began ... */
+  bool running;                /* ... if there is one */
   steif_stats stats;
   char method[240]; /* spec in use; for auto with the reason */
 };
@@ -107,6 +108,9 @@ bool stf_beyond(const steif_solver *s);
 
 /* Show y at t to the observer; what it wishes is kept. */
 void stf_observe(steif_solver *s, sunrealtype t, N_Vector y);
+
+/* Processor seconds so far, those of the present call among them. */
+sunrealtype stf_cpu_seconds(const steif_solver *s);
 
 /* The solution at the end of what is known. */
 N_Vector stf_last(const steif_solver *s);

@@ -157,11 +157,29 @@ int stf_step_untimed(steif_solver *s)
   return STEIF_OK;
 }
 
+/* Time is counted from here until the next call. */
+static void start_clock(steif_solver *s)
+{
+  s->running = true;
+  s->cpu_from = now(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+static void stop_clock(steif_solver *s)
+{
+  s->cpu_s = stf_cpu_seconds(s);
+  s->running = false;
+}
+
+sunrealtype stf_cpu_seconds(const steif_solver *s)
+{
+  return s->cpu_s + (s->running ? now(CLOCK_PROCESS_CPUTIME_ID) - s->cpu_from : 0);
+}
+
 int steif_solve_step(steif_solver *s)
 {
-  const sunrealtype before = now(CLOCK_PROCESS_CPUTIME_ID);
+  if (s) start_clock(s);
   const int code = stf_step_untimed(s);
-  if (s) s->cpu_s += now(CLOCK_PROCESS_CPUTIME_ID) - before;
+  if (s) stop_clock(s);
   return code;
 }
 
@@ -183,7 +201,8 @@ int steif_solve_to(steif_solver *s, sunrealtype t)
               "run: set options.t1",
               t, s->problem->t0, s->t1);
   if (t > s->t1) t = s->t1;
-  const sunrealtype before = now(CLOCK_PROCESS_CPUTIME_ID), begun = begin(s);
+  const sunrealtype begun = begin(s);
+  start_clock(s);
   int code = STEIF_OK;
   const bool alone = s->engine && s->engine->advance && !s->watched;
   while (!code && s->end < t && !s->finished)
@@ -192,7 +211,7 @@ int steif_solve_to(steif_solver *s, sunrealtype t)
     code = show(s, t);
   else if (!code)
     s->shown = stf_last(s), s->t_shown = s->end;
-  s->cpu_s += now(CLOCK_PROCESS_CPUTIME_ID) - before;
+  stop_clock(s);
   if (!code && s->end < t) return ended(s);
   if (!code) steif_forget(s->ctx);
   return code;

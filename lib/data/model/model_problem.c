@@ -223,6 +223,8 @@ static void events(stf_model *m, steif_problem *p)
   p->event_list = m->event_list;
   p->handle_event = stf_reactions_handle;
   p->begin = stf_reactions_begin;
+  p->save = stf_reactions_save;
+  p->restore = stf_reactions_restore;
 }
 
 /* A start at which an equation has no value is no start. */

@@ -44,6 +44,9 @@ void stf_event_move(const stf_model *m, const int *fired);
 /* reactions.c: at the start of a run, and at an event. */
 int stf_reactions_begin(sunrealtype t, void *user);
 int stf_reactions_handle(sunrealtype t, N_Vector y, const int *fired, void *user);
+/* event_state.c: what begin resets, for checkpoints. */
+long stf_reactions_save(void *bytes, void *user);
+int stf_reactions_restore(const void *bytes, size_t count, void *user);
 /* Truths of all relations at a point, into memory. */
 void stf_literal_switches(const stf_model *m, double t, const double *y, double *memory);
 

@@ -1,0 +1,160 @@
+/* saved_note.c: a call and its rows as bytes.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "saved_note.h"
+#include "saved_run.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* Bytes that are counted, then written; or read. */
+typedef struct tape {
+  char *at;
+  const char *from;
+  size_t used, size;
+  bool short_of_bytes;
+} tape;
+
+static void put(tape *t, const void *part, size_t bytes)
+{
+  if (t->at && bytes) memcpy(t->at + t->used, part, bytes);
+  t->used += bytes;
+}
+
+static void take(tape *t, void *part, size_t bytes)
+{
+  t->short_of_bytes = t->short_of_bytes || bytes > t->size - t->used;
+  if (t->short_of_bytes || !bytes) return;
+  memcpy(part, t->from + t->used, bytes);
+  t->used += bytes;
+}
+
+/* -- the call: how many arguments, each with its zero -------------------------------------------- */
+
+static void put_text(tape *t, const char *text) { put(t, text, strlen(text) + 1); }
+
+static void put_option(tape *t, const struct option *o, const char *text)
+{
+  put(t, o->name, strlen(o->name));
+  if (o->kind != FLAG) put(t, "=", 1);
+  put_text(t, o->kind == FLAG ? "" : text);
+}
+
+static void put_call(tape *t, const struct call *call)
+{
+  const int count = call->words + call->options;
+  put(t, &count, sizeof count);
+  for (int i = 0; i < call->words; i++) put_text(t, call->word[i]);
+  for (int i = 0; i < call->options; i++)
+    put_option(t, call->given[i].option, call->given[i].text);
+}
+
+/* Its next argument, or NULL. */
+static const char *next_text(tape *t)
+{
+  const char *text = t->from + t->used;
+  const size_t left = t->size - t->used, length = strnlen(text, left);
+  if (length == left) return NULL;
+  t->used += length + 1;
+  return text;
+}
+
+/* Is it an option that is given anew, or the name of the file? */
+static bool replaced(const struct call *call, const char *text)
+{
+  const size_t length = strcspn(text, "=");
+  const char *const file = "--checkpoint";
+  if (length == strlen(file) && !strncmp(text, file, length)) return true;
+  for (int i = 0; i < call->options; i++) {
+    const char *name = call->given[i].option->name;
+    if (strlen(name) == length && !strncmp(name, text, length)) return true;
+  }
+  return false;
+}
+
+/* The options of this call, and the file that it goes on from and saves to. */
+static void put_own(tape *t, const struct call *call)
+{
+  put(t, "--checkpoint=", strlen("--checkpoint="));
+  put_text(t, call->word[0]);
+  for (int i = 0; i < call->options; i++)
+    put_option(t, call->given[i].option, call->given[i].text);
+}
+
+/* Pointers to `count` texts that stand one after another. */
+static void point(char **argv, char *text, int count)
+{
+  for (int i = 0; i < count; i++, text += strlen(text) + 1) argv[i] = text;
+}
+
+char **saved_run_arguments(const struct call *call, const void *note, size_t bytes, int *argc)
+{
+  tape from = {.from = note, .size = bytes}, own = {.at = NULL};
+  int count = 0;
+  take(&from, &count, sizeof count);
+  if (from.short_of_bytes || count < 0 || count > WORDS + GIVEN) return NULL;
+  put_own(&own, call);
+  const size_t pointers = (size_t)(count + call->options + 2) * sizeof(char *);
+  char **argv = malloc(pointers + own.used + bytes);
+  if (!argv) return NULL;
+  tape to = {.at = (char *)argv + pointers};
+  put_own(&to, call);
+  *argc = call->options + 1;
+  for (int i = 0; i < count; i++) {
+    const char *text = next_text(&from);
+    if (!text) return free(argv), NULL;
+    if (replaced(call, text)) continue;
+    put_text(&to, text);
+    ++*argc;
+  }
+  point(argv, (char *)argv + pointers, *argc);
+  return argv;
+}
+
+/* -- rows ------------------------------------------------------------------------------------- */
+
+static void put_rows(tape *t, const trajectory *tr)
+{
+  const size_t count[] = {tr->count, tr->next, tr->events, tr->happened};
+  put(t, count, sizeof count);
+  put(t, tr->t, tr->count * sizeof *tr->t);
+  put(t, tr->y, tr->count * tr->n * sizeof *tr->y);
+  put(t, tr->event_t, tr->events * sizeof *tr->event_t);
+  put(t, tr->event_which, tr->events * sizeof *tr->event_which);
+  put(t, tr->event_direction, tr->events * sizeof *tr->event_direction);
+  put(t, tr->event_number, tr->events * sizeof *tr->event_number);
+}
+
+static void put_note(tape *t, const trajectory *tr)
+{
+  put_call(t, tr->call);
+  put_rows(t, tr);
+}
+
+char *note_write(const trajectory *tr, size_t *bytes)
+{
+  tape t = {.at = NULL};
+  put_note(&t, tr);
+  *bytes = t.used;
+  t = (tape){.at = malloc(t.used)};
+  if (t.at) put_note(&t, tr);
+  return t.at;
+}
+
+int note_read(trajectory *tr, const void *note, size_t bytes)
+{
+  tape t = {.from = note, .size = bytes};
+  int words = 0;
+  size_t count[4] = {0};
+  take(&t, &words, sizeof words);
+  for (int i = 0; i < words; i++)
+    if (!next_text(&t)) return -1;
+  take(&t, count, sizeof count);
+  if (t.short_of_bytes || trajectory_room(tr, count[0], count[2])) return -1;
+  tr->count = count[0], tr->next = count[1], tr->events = count[2], tr->happened = count[3];
+  take(&t, tr->t, tr->count * sizeof *tr->t);
+  take(&t, tr->y, tr->count * tr->n * sizeof *tr->y);
+  take(&t, tr->event_t, tr->events * sizeof *tr->event_t);
+  take(&t, tr->event_which, tr->events * sizeof *tr->event_which);
+  take(&t, tr->event_direction, tr->events * sizeof *tr->event_direction);
+  take(&t, tr->event_number, tr->events * sizeof *tr->event_number);
+  return t.short_of_bytes ? -1 : 0;
+}

@@ -1,0 +1,60 @@
+/* saved_run.c: when the program saves a run, and how it goes on.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "saved_run.h"
+#include "saved_note.h"
+#include <stdlib.h>
+#include <time.h>
+
+static double now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* A code of steif; STEIF_BAD_INPUT: not here. */
+static int save(trajectory *tr, steif_solver *s)
+{
+  size_t bytes;
+  char *note = note_write(tr, &bytes);
+  const int code =
+    note ? steif_checkpoint_save(s, tr->checkpoint, note, bytes) : STEIF_NO_MEMORY;
+  free(note);
+  if (code == STEIF_OK) tr->saved = true;
+  tr->saved_at = now();
+  return code;
+}
+
+int saved_run_tick(trajectory *tr, steif_solver *s)
+{
+  if (!tr->checkpoint) return 0;
+  if (tr->saved && now() - tr->saved_at < tr->every) return 0;
+  const int code = save(tr, s);
+  if (code && code != STEIF_BAD_INPUT && !tr->saved) return -1;
+  if (code && code != STEIF_BAD_INPUT) say(tr->call, "%s", steif_message(tr->call->ctx));
+  steif_forget(tr->call->ctx);
+  return 0;
+}
+
+void saved_run_end(trajectory *tr, steif_solver *s, const outcome *o)
+{
+  const bool kept = o->code == STEIF_OK || o->code == STEIF_EVENT || o->code == STEIF_STOPPED ||
+                    o->code == STEIF_TIME_LIMIT;
+  if (!tr->checkpoint || !s || !kept) return;
+  if (save(tr, s) != STEIF_OK) say(tr->call, "%s", steif_message(tr->call->ctx));
+  steif_forget(tr->call->ctx);
+}
+
+int saved_run_load(struct call *call, const steif_problem *p, const steif_options *options,
+                   trajectory *tr, steif_solver **s)
+{
+  steif_checkpoint *c = steif_checkpoint_read(call->ctx, call->continues);
+  if (!c) return fail_file(call);
+  const int code = note_read(tr, c->note, c->note_bytes);
+  steif_checkpoint_free(call->ctx, &c);
+  if (code) return no_memory(call, "the rows of the run", "give the process more");
+  *s = steif_checkpoint_load(call->ctx, call->continues, p, options);
+  tr->saved = true;
+  tr->saved_at = now();
+  return *s ? EXIT_OK : fail_file(call);
+}

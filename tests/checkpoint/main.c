@@ -1,0 +1,8 @@
+/* Runs that go on. That every method does so bit for bit is a law: tests/laws/law_checkpoint.c.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_files[], tests_of_members[];
+
+SUITE_MAIN({.pName = "files", .pTests = tests_of_files},
+           {.pName = "members", .pTests = tests_of_members})
