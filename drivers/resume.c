@@ -34,6 +34,7 @@ static int run(struct call *call)
 }
 
 static const struct option options[] = {
+  {"--t1", POSITIVE, "T", "another end of the integration", NULL},
   {"--every", POSITIVE, "S", "seconds of wall-clock time between two checkpoints", NULL},
   {"--max-steps", COUNT, "N", "give up after N steps, those before among them", NULL},
   {"--max-seconds", POSITIVE, "S", "give up after S seconds of wall-clock time", NULL},

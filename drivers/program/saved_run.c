@@ -45,16 +45,26 @@ void saved_run_end(trajectory *tr, steif_solver *s, const outcome *o)
   steif_forget(tr->call->ctx);
 }
 
+/* The end of the call is another than that of the file. */
+static int extend(struct call *call, steif_solver *s, double t1, double before)
+{
+  if (!given(call, "--t1") || t1 == before) return EXIT_OK;
+  if (given(call, "--points"))
+    return bad_usage(call, "--points are those of the interval that was saved: leave --t1 out");
+  return steif_solver_extend(s, t1) ? fail(call) : EXIT_OK;
+}
+
 int saved_run_load(struct call *call, const steif_problem *p, const steif_options *options,
                    trajectory *tr, steif_solver **s)
 {
   steif_checkpoint *c = steif_checkpoint_read(call->ctx, call->continues);
   if (!c) return fail_file(call);
+  const double before = c->t1;
   const int code = note_read(tr, c->note, c->note_bytes);
   steif_checkpoint_free(call->ctx, &c);
   if (code) return no_memory(call, "the rows of the run", "give the process more");
   *s = steif_checkpoint_load(call->ctx, call->continues, p, options);
   tr->saved = true;
   tr->saved_at = now();
-  return *s ? EXIT_OK : fail_file(call);
+  return *s ? extend(call, *s, real_of(call, "--t1"), before) : fail_file(call);
 }

@@ -55,6 +55,28 @@ STEIF_EXPORT steif_solver *steif_checkpoint_load(steif_context *ctx, const char 
 STEIF_EXPORT steif_checkpoint *steif_checkpoint_read(steif_context *ctx, const char *path);
 STEIF_EXPORT void steif_checkpoint_free(steif_context *ctx, steif_checkpoint **checkpoint);
 
+/* -- further, twice, from another state ------------------------------------------------------- */
+
+/* Another end of the run, t1 > the time reached: later than before, or earlier. The run goes on with all its history;
+ * its last step had ended at the old t1, else it is the run that had this t1 from the start. Constant steps are
+ * counted from here. STEIF_BAD_INPUT: meshes, runs that an event has ended; nothing is changed. */
+STEIF_EXPORT int steif_solver_extend(steif_solver *s, sunrealtype t1);
+
+/* A second solver that goes on as the first would, to the same bits. NULL with the message set.
+ * problem NULL: the same; callbacks that remember something (begin) need a problem with memory of its own. */
+STEIF_EXPORT steif_solver *steif_solver_copy(steif_solver *s, const steif_problem *problem);
+
+/* Begin again at (t, y), with slopes yp where they are known (else NULL), counts from zero. Memory, matrices and the
+ * analysis of their pattern stay. problem NULL: the same, whose parameters may have changed; else another one of
+ * the same name, size, form and storage, with a pattern and callbacks in the same members. options NULL: the same
+ * with their t1, else all anew; steps stay chosen by the tolerance or constant; atols and ewt may come, not go.
+ * begin of the problem is called. A start is taken as it is given: make that of a DAE consistent before
+ * (consistent.h). STEIF_BAD_INPUT, STEIF_UNSUPPORTED (engines): nothing is changed. After other
+ * failures the solver can be restarted or freed. */
+STEIF_EXPORT int steif_solver_restart(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp,
+                                      const steif_problem *problem,
+                                      const steif_options *options);
+
 #ifdef __cplusplus
 }
 #endif

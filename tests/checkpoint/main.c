@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_files[], tests_of_members[];
+extern CU_TestInfo tests_of_files[], tests_of_members[], tests_of_further[];
 
 SUITE_MAIN({.pName = "files", .pTests = tests_of_files},
-           {.pName = "members", .pTests = tests_of_members})
+           {.pName = "members", .pTests = tests_of_members},
+           {.pName = "further", .pTests = tests_of_further})

@@ -55,6 +55,14 @@ N_Vector stf_pool_view(stf_pool *pool, N_Vector like, sunrealtype *data);
 N_Vector *stf_pool_vectors(stf_pool *pool, int count, N_Vector like);
 /* Call destroy(object) when the pool goes; on failure destroys at once and returns NO_MEMORY. */
 int stf_pool_adopt(stf_pool *pool, void *object, void (*destroy)(void *object));
+/* What was claimed and adopted after a mark goes, and its memory serves again. */
+typedef struct stf_pool_mark {
+  void *blocks, *objects;
+  char *at;
+  size_t left;
+} stf_pool_mark;
+stf_pool_mark stf_pool_here(const stf_pool *pool);
+void stf_pool_release(stf_pool *pool, stf_pool_mark mark);
 void stf_pool_free(stf_pool **pool);
 
 /* Parameters of a spec, with range check; `fallback` when absent. */

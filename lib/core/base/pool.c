@@ -3,6 +3,7 @@
 #include "base.h"
 #include <nvector/nvector_serial.h>
 #include <stdint.h>
+#include <string.h>
 
 typedef struct entry {
   struct entry *next;
@@ -120,15 +121,30 @@ N_Vector *stf_pool_vectors(stf_pool *pool, int count, N_Vector like)
   return v;
 }
 
+stf_pool_mark stf_pool_here(const stf_pool *pool)
+{
+  return (stf_pool_mark){pool->blocks, pool->objects, pool->at, pool->left};
+}
+
+/* Newest first, down to the marked ones. The rest of the chunk of the mark is as new: zeroed. */
+void stf_pool_release(stf_pool *pool, stf_pool_mark mark)
+{
+  for (entry *e = pool->objects; e != mark.objects; e = e->next) e->destroy(e->object);
+  for (entry *e = pool->blocks, *next; e != mark.blocks; e = next) {
+    next = e->next;
+    stf_release(pool->ctx, e);
+  }
+  pool->objects = mark.objects, pool->blocks = mark.blocks;
+  pool->at = mark.at, pool->left = mark.left;
+  if (mark.left) memset(mark.at, 0, mark.left);
+  pool->from = pool->ops = NULL; /* operations of vectors may have gone, too */
+}
+
 void stf_pool_free(stf_pool **pool)
 {
   if (!pool || !*pool) return;
   steif_context *ctx = (*pool)->ctx;
-  for (entry *e = (*pool)->objects; e; e = e->next) e->destroy(e->object);
-  for (entry *e = (*pool)->blocks, *next; e; e = next) {
-    next = e->next;
-    stf_release(ctx, e);
-  }
+  stf_pool_release(*pool, (stf_pool_mark){NULL, NULL, NULL, 0});
   stf_release(ctx, *pool);
   *pool = NULL;
 }

@@ -39,10 +39,21 @@ static int check_problem(steif_context *ctx, const steif_problem *p, const stf_i
   return STEIF_OK;
 }
 
+/* A run that was restarted began elsewhere. */
+static void move_start(steif_solver *s, sunrealtype t0)
+{
+  if (s->problem->t0 == t0) return;
+  s->again = *s->problem;
+  s->again.t0 = s->step.t0 = t0;
+  s->problem = s->step.problem = &s->again;
+  if (s->step.system.problem != &s->semilinear) s->step.system.problem = &s->again;
+}
+
 static int fill(steif_solver *s, stf_opened *file)
 {
   stf_image *m = &file->state;
   STEIF_TRY(stf_identity_check(s, &file->identity));
+  move_start(s, file->identity.t0);
   stf_solver_keep(s, m);
   STEIF_CHECK(
     m->code || m->used == m->size, s->ctx, STEIF_BAD_INPUT,
@@ -57,7 +68,9 @@ static steif_solver *load(steif_context *ctx, const steif_problem *problem,
 {
   steif_options o = options ? *options : steif_defaults();
   if (check_problem(ctx, problem, &file->identity)) return NULL;
-  o.t1 = file->identity.t1_opened;
+  const stf_identity *id = &file->identity;
+  o.t1 = problem->t0 + (id->t1_opened - id->t0);
+  if (id->t0 == problem->t0) o.t1 = id->t1_opened;
   steif_solver *s = steif_solver_new(ctx, problem, file->identity.spec, &o);
   if (s && fill(s, file)) steif_solver_free(&s);
   return s;
@@ -73,6 +86,34 @@ steif_solver *steif_checkpoint_load(steif_context *ctx, const char *path,
   steif_solver *s = load(ctx, problem, options, &file);
   stf_checkpoint_close(ctx, &file);
   return s;
+}
+
+/* -- copy ------------------------------------------------------------------------------------ */
+
+static int check_copied(steif_solver *s, const steif_problem *problem)
+{
+  STEIF_CHECK(
+    problem != s->given || !problem->begin, s->ctx, STEIF_UNSUPPORTED,
+    "callbacks of problem '%s' remember something, as its member begin says: give the "
+    "copy a problem with memory of its own",
+    problem->name);
+  return STEIF_OK;
+}
+
+steif_solver *steif_solver_copy(steif_solver *s, const steif_problem *problem)
+{
+  unsigned char *bytes = NULL;
+  size_t count = 0;
+  stf_opened file;
+  if (!s) return NULL;
+  steif_forget(s->ctx);
+  if (!problem) problem = s->given;
+  if (check_copied(s, problem) || stf_checkpoint_bytes(s, NULL, 0, &bytes, &count) ||
+      stf_checkpoint_open(s->ctx, "copy", bytes, count, &file))
+    return NULL;
+  steif_solver *copy = load(s->ctx, problem, &s->options, &file);
+  stf_checkpoint_close(s->ctx, &file);
+  return copy;
 }
 
 /* -- look ------------------------------------------------------------------------------------ */

@@ -73,13 +73,15 @@ int stf_identity_check(steif_solver *s, const stf_identity *file)
 {
   stf_identity here;
   stf_identity_of(s, &here);
-  STEIF_CHECK(here.form == file->form && here.t0 == file->t0, s->ctx, STEIF_BAD_INPUT,
+  STEIF_CHECK(here.form == file->form && (here.t0 == file->t0 || !file->fingerprint), s->ctx,
+              STEIF_BAD_INPUT,
               "problem '%s' has form %s and t0 = %.12g, that of the checkpoint form %s and "
               "t0 = %.12g: give the problem of that run",
               here.problem, steif_form_name(here.form), here.t0, steif_form_name(file->form),
               file->t0);
   STEIF_TRY(check_options(s->ctx, &here, file));
-  STEIF_CHECK(here.fingerprint == file->fingerprint, s->ctx, STEIF_BAD_INPUT,
+  STEIF_CHECK(here.fingerprint == file->fingerprint || !file->fingerprint, s->ctx,
+              STEIF_BAD_INPUT,
               "problem '%s' has other start values, slopes or derivatives at its start than in "
               "the run that was saved: give the problem with the parameters of that run",
               here.problem);

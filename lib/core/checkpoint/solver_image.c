@@ -6,6 +6,7 @@ static void keep_progress(steif_solver *s, stf_image *m)
 {
   STF_KEEP(m, s->t1);
   STF_KEEP(m, s->options.t1);
+  STF_KEEP(m, s->t1_opened);
   STF_KEEP(m, s->t_shown);
   STF_KEEP(m, s->end);
   STF_KEEP(m, s->finished);
@@ -85,6 +86,18 @@ static void keep_shown(steif_solver *s, stf_image *m)
   if (m->reads) s->shown = between ? s->dense : stf_last(s);
 }
 
+/* Another end may have brought or taken the place for a last step beyond it. */
+static void keep_final(steif_solver *s, stf_image *m)
+{
+  bool there = s->final;
+  STF_KEEP(m, there);
+  if (m->code) return;
+  if (!there) s->final = NULL;
+  if (there && !s->final && !(s->final = stf_pool_vector(s->pool, s->step.y)))
+    stf_image_stop(m, STEIF_NO_MEMORY);
+  if (s->final) stf_keep_vector(m, s->final);
+}
+
 void stf_solver_keep(steif_solver *s, stf_image *m)
 {
   const int count = s->invariants ? s->problem->invariants : 0;
@@ -95,8 +108,7 @@ void stf_solver_keep(steif_solver *s, stf_image *m)
   stf_step_keep(&s->step, m);
   stf_method_keep(&s->step, m);
   stf_rounding_keep(s, m);
-  stf_keep_presence(m, s->final, "a last step beyond t1");
-  if (s->final && !m->code) stf_keep_vector(m, s->final);
+  keep_final(s, m);
   stf_keep(m, s->invariants, (size_t)count * sizeof *s->invariants);
   stf_keep_presence(m, s->events, "event detection");
   if (s->events && !m->code) keep_events(s, m);

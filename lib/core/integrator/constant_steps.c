@@ -26,6 +26,7 @@ int stf_constant_steps(steif_context *ctx, sunrealtype h, sunrealtype t0, sunrea
     "h or an earlier end",
     h, count, span, STEPS_MOST);
   c->whole = (long)count;
+  c->t0 = t0;
   c->h = h;
   c->rest = span - count * h;
   if (!(c->rest > clock)) c->rest = 0;

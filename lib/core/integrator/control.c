@@ -66,7 +66,7 @@ static sunrealtype grid(const steif_solver *s, long k)
 {
   const stf_constant *c = &s->constant;
   if (!(c->rest > 0)) return s->t1 - (sunrealtype)(c->whole - k) * c->h;
-  return k <= c->whole || s->final ? s->problem->t0 + (sunrealtype)k * c->h : s->t1;
+  return k <= c->whole || s->final ? c->t0 + (sunrealtype)k * c->h : s->t1;
 }
 
 int stf_fixed_step(steif_solver *s)

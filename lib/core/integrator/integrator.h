@@ -15,7 +15,7 @@ typedef struct stf_rounding stf_rounding;
 /* Constant steps h from t0: `whole` of them end at `end`, `rest` > 0 before t1, or at t1 with rest 0. */
 typedef struct stf_constant {
   long whole;
-  sunrealtype h, rest, end;
+  sunrealtype t0, h, rest, end;
 } stf_constant;
 int stf_constant_steps(steif_context *ctx, sunrealtype h, sunrealtype t0, sunrealtype t1,
                        stf_constant *constant);
@@ -26,9 +26,16 @@ struct steif_solver {
   const steif_problem *problem, *given; /* given: before the start was repaired */
   const char *spec;                     /* as the caller wrote it */
   sunrealtype t1_opened;                /* t1 at first: it may have been extended */
-  unsigned long long fingerprint;       /* of y, y', E and A at the start; 0: not known */
-  bool inside;                          /* of a step whose events are being looked at */
-  steif_problem semilinear;             /* the problem with its linear part as the matrix */
+  steif_spec parsed;          /* that of the method in use; of auto its first choice ... */
+  const char *chosen;         /* ... which is this; NULL: not auto */
+  const steif_method *family; /* before a variant of it took over, and its state */
+  void *family_state;
+  N_Vector own[2];      /* y and next of the step, which methods exchange with others */
+  stf_pool_mark opened; /* what was claimed later belongs to one start */
+  steif_problem again;  /* the problem from the last restart on */
+  unsigned long long fingerprint; /* of y, y', E and A at the start; 0: not known */
+  bool inside;                    /* of a step whose events are being looked at */
+  steif_problem semilinear;       /* the problem with its linear part as the matrix */
   stf_repair repair;     /* of its start; the problem in use is its copy where one was made */
   steif_options options; /* complete */
   sunrealtype t1;
@@ -75,6 +82,13 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
 int stf_advance(steif_solver *s, sunrealtype t_stop);
 int stf_adaptive_step(steif_solver *s, sunrealtype t_stop);
 int stf_fixed_step(steif_solver *s);
+
+/* All that depends on the start, which is in s->step.y: opened after the system of equations, and again by
+ * a restart. */
+int stf_run_begin(steif_solver *s);
+/* What becomes of the rest of the interval, t1: a shorter step, a whole one across t1, whose place s->final then
+ * is; or STEIF_BAD_INPUT. */
+int stf_rest_open(steif_solver *s, const stf_constant *constant, sunrealtype t1);
 
 /* steif_solve_step without its processor time, which the system takes longer to tell than a small step
  * lasts. */
@@ -130,6 +144,8 @@ int stf_switching_open(steif_solver *s, const char *name);
 int stf_switching_look(steif_solver *s);
 /* After a step that failed: dense output of the one before is asked of who made it. */
 void stf_switching_stay(steif_solver *s);
+/* Back to the implicit method, before the other one goes. */
+void stf_switching_leave(steif_solver *s);
 /* The method in use becomes that of the image; its own state is kept with the step. */
 void stf_switching_keep(steif_solver *s, stf_image *m);
 

@@ -75,17 +75,15 @@ static int constant_steps(steif_solver *s)
 }
 
 /* Where h does not divide the interval the last step is shorter, or goes beyond it. */
-static int open_rest(steif_solver *s)
+int stf_rest_open(steif_solver *s, const stf_constant *c, sunrealtype t1)
 {
-  const stf_constant *c = &s->constant;
   if (!(c->rest > 0) || s->step.rest == STF_REST_SHORTER) return STEIF_OK;
   STEIF_CHECK(s->step.rest == STF_REST_ACROSS, s->ctx, STEIF_BAD_INPUT,
               "t1 = %.12g is not a whole number of steps of h = %.12g, and '%s' has neither a "
               "step of another length nor dense output of its order: end at %.12g, or take "
               "h = %.12g",
-              s->t1, c->h, s->method, c->end,
-              (s->t1 - s->problem->t0) / (double)(c->whole + 1));
-  s->final = stf_pool_vector(s->pool, s->step.y);
+              t1, c->h, s->method, c->end, (t1 - c->t0) / (double)(c->whole + 1));
+  if (!s->final) s->final = stf_pool_vector(s->pool, s->step.y);
   return s->final ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
@@ -204,12 +202,22 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   STEIF_TRY(stf_system_start(s->ctx, p, form, space, y, yp, &step->yp_known));
   STEIF_TRY(claim_step(s));
   STEIF_TRY(open_system(s, form, y, yp));
+  s->family = step->method, s->family_state = step->state;
+  s->own[0] = step->y, s->own[1] = step->next;
+  s->opened = stf_pool_here(s->pool);
+  return STEIF_OK;
+}
+
+/* What belongs to one start and goes with it. */
+static int begin_step(steif_solver *s)
+{
+  stf_step *step = &s->step;
   open_newton(s);
   step->control = stf_control_usual;
   STEIF_TRY(specialise(s));
-  STEIF_TRY(step->method->open(step, spec, step->table));
+  STEIF_TRY(step->method->open(step, &s->parsed, step->table));
   s->shown = step->y;
-  if (step->h_equal > 0) STEIF_TRY(open_rest(s));
+  if (step->h_equal > 0) STEIF_TRY(stf_rest_open(s, &s->constant, s->t1));
   if (!step->adaptive) return STEIF_OK;
   s->h_next = stf_first_step(s);
   return stf_rounding_open(s);
@@ -280,7 +288,7 @@ static const char *copied(stf_pool *pool, const char *text)
 
 static int open(steif_solver *s, const char *method)
 {
-  steif_spec spec;
+  steif_spec *spec = &s->parsed;
   N_Vector y = NULL, yp = NULL;
   const int form = steif_problem_form(s->ctx, s->problem);
   if (!form) return steif_status(s->ctx);
@@ -293,20 +301,27 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(open_vectors(s, &y, &yp));
   snprintf(s->method, sizeof s->method, "%s", method);
   const bool automatic = !strcmp(method, "auto");
-  STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
-  if (automatic || !stf_engine_find(spec.name)) STEIF_TRY(look_at_start(s, form));
+  STEIF_TRY(steif_spec_parse(s->ctx, method, spec));
+  if (automatic || !stf_engine_find(spec->name)) STEIF_TRY(look_at_start(s, form));
   if (automatic)
-    method = stf_choose(s->problem, &s->options, form, s->method, sizeof s->method);
-  STEIF_TRY(steif_spec_parse(s->ctx, method, &spec));
-  s->engine = stf_engine_find(spec.name);
-  STEIF_TRY(s->engine ? open_engine(s, form, &spec, y, yp) : open_step(s, form, &spec, y, yp));
+    s->chosen = method = stf_choose(s->problem, &s->options, form, s->method, sizeof s->method);
+  STEIF_TRY(steif_spec_parse(s->ctx, method, spec));
+  s->engine = stf_engine_find(spec->name);
+  STEIF_TRY(s->engine ? open_engine(s, form, spec, y, yp) : open_step(s, form, spec, y, yp));
   if (s->engine) STEIF_TRY(check_ewt(s, y));
   if (s->engine && s->options.h > 0 && !s->options.mesh) STEIF_TRY(constant_steps(s));
-  if (automatic) STEIF_TRY(stf_switching_open(s, method));
+  STEIF_TRY(stf_run_begin(s));
+  take_fingerprint(s);
+  return STEIF_OK;
+}
+
+int stf_run_begin(steif_solver *s)
+{
+  if (!s->engine) STEIF_TRY(begin_step(s));
+  if (s->chosen) STEIF_TRY(stf_switching_open(s, s->chosen));
   STEIF_TRY(stf_constraint_open(s));
   STEIF_TRY(stf_drift_open(s));
   STEIF_TRY(stf_event_open(s));
-  take_fingerprint(s);
   s->observed = stf_observed(s);
   s->watched = s->events || s->options.observe;
   s->stretch = 16;

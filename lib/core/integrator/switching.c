@@ -258,6 +258,11 @@ void stf_switching_keep(steif_solver *s, stf_image *m)
   STF_KEEP(m, r->changes);
 }
 
+void stf_switching_leave(steif_solver *s)
+{
+  if (s->switching->at == 1) exchange(&s->step, s->switching);
+}
+
 /* -- opening ------------------------------------------------------------------------------------------ */
 
 static void destroy_table(void *owner)
