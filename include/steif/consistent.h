@@ -1,6 +1,8 @@
 /* steif/consistent.h: start values of a DAE that fulfil all its equations, the hidden ones too.
  *
- * Dense, n <= STEIF_DIAGNOSE_LARGEST.
+ * Stage by stage, for any n, where the structure determines the order of the equations (index.h): dense up to
+ * STEIF_DIAGNOSE_LARGEST unknowns, above by sparse factors, where memory and time grow as those of a factor of
+ * s E - A do. Else, for n <= STEIF_DIAGNOSE_LARGEST, from the whole derivative array.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_CONSISTENT_H

@@ -21,8 +21,8 @@ enum steif_attribute { STEIF_GUESS, STEIF_FIXED, STEIF_FREE };
  * steif; linear systems have their jump (impulse.h), prescribed steps and baselines take the start as it
  * is.
  *   STEIF_REPAIR    index 1, any n: algebraic components move to fulfil the equations, by a damped Newton
- *                   iteration on the sparse matrix of y_a and y_d'; differential ones stay. Index 2 and 3,
- *                   n <= STEIF_DIAGNOSE_LARGEST: stage by stage as above, positions by at most 1 % of the
+ *                   iteration on the sparse matrix of y_a and y_d'; differential ones stay. Index 2 and 3:
+ *                   stage by stage as above (consistent.h), positions by at most 1 % of the
  *                   largest. The index of components is found where .index is NULL, at any n.
  *   STEIF_CHECK     the same is computed, and a start that would move is STEIF_BAD_INPUT
  *   STEIF_AS_GIVEN  nothing is looked at

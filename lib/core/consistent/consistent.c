@@ -7,44 +7,51 @@
 
 /* -- report ------------------------------------------------------------------------------ */
 
+/* The order of the list: by size, then as they stand; `last` = n: before all. */
+static bool moved_less(const steif_start *start, size_t n, size_t j, size_t last)
+{
+  const sunrealtype a = fabs(start->moved[j]);
+  const sunrealtype b = last < n ? fabs(start->moved[last]) : INFINITY;
+  return a < b || (a == b && j > last);
+}
+
 static void list_moved(const stf_start_task *task, char *text)
 {
   const stf_point *s = task->point;
   const steif_start *start = task->start;
   enum { SHOWN = 6 };
   char room[STEIF_SPEC_WORD];
-  bool done[STEIF_DIAGNOSE_LARGEST] = {false};
+  size_t last = s->n;
   for (int shown = 0; shown < SHOWN; shown++) {
     size_t at = s->n;
     for (size_t j = 0; j < s->n; j++)
-      if (!done[j] && fabs(start->moved[j]) > 1e-9 * (fabs(s->y0[j]) + 1e-3 * s->floor[j]) &&
-          (at == s->n || fabs(start->moved[j]) > fabs(start->moved[at])))
+      if (fabs(start->moved[j]) > 1e-9 * (fabs(s->y0[j]) + 1e-3 * s->floor[j]) &&
+          moved_less(start, s->n, j, last) && (at == s->n || moved_less(start, s->n, at, j)))
         at = j;
     if (at == s->n) {
       if (shown == 0) stf_point_say(text, "no component moved");
       return;
     }
-    done[at] = true;
+    last = at;
     stf_point_say(text, "%s%s by %.3g", shown ? ", " : "moved ", stf_point_unknown(s, at, room),
                   start->moved[at]);
   }
   stf_point_say(text, " ...");
 }
 
-/* Largest violation of an equation without derivatives by the guess. */
-static void find_violation(const stf_start_task *task, const sunrealtype *residual)
+/* Largest violation of an equation without derivatives by the guess; the others become 0. */
+static void find_violation(const stf_start_task *task, sunrealtype *residual)
 {
   const stf_view *v = task->view;
-  bool differential[STEIF_DIAGNOSE_LARGEST] = {false};
   for (sunindextype k = 0; k < v->column[v->n]; k++)
-    if (v->has[k] & 1) differential[v->row[k]] = true;
+    if (v->has[k] & 1) residual[v->row[k]] = 0;
   task->start->worst = -1;
   for (size_t i = 0; i < v->n; i++)
-    if (!differential[i] && fabs(residual[i]) > task->start->violation)
+    if (fabs(residual[i]) > task->start->violation)
       task->start->violation = fabs(residual[i]), task->start->worst = (sunindextype)i;
 }
 
-static void report(const stf_start_task *task, const sunrealtype *residual)
+static void report(const stf_start_task *task, sunrealtype *residual)
 {
   const stf_point *s = task->point;
   steif_start *start = task->start;
@@ -70,6 +77,10 @@ static void report(const stf_start_task *task, const sunrealtype *residual)
 static int by_array(stf_start_task *task, const stf_evidence *e, const steif_diagnosis *d)
 {
   const stf_derivative_array *best = NULL;
+  STEIF_CHECK(task->point->n <= STEIF_DIAGNOSE_LARGEST, task->point->ctx, STEIF_UNSUPPORTED,
+              "'%s' has %zu unknowns, and its structure does not determine the order of its "
+              "equations, without which a consistent start is computed for at most %d: %s",
+              task->point->problem.name, task->point->n, STEIF_DIAGNOSE_LARGEST, d->message);
   for (int k = e->arrays - 1; k >= 0; k--)
     if (e->at[k].array.closed && (!best || e->at[k].array.index >= best->index))
       best = &e->at[k].array;
@@ -140,12 +151,7 @@ int steif_consistent(steif_context *ctx, const steif_problem *problem,
   STEIF_CHECK(start, ctx, STEIF_BAD_INPUT, "a place for the start is needed, got NULL");
   *start = (steif_start){0};
   STEIF_TRY(stf_point_open(ctx, problem, inquiry, &point));
-  int code = STEIF_OK;
-  if (point.n > STEIF_DIAGNOSE_LARGEST)
-    code = STEIF_FAIL(ctx, STEIF_UNSUPPORTED,
-                      "'%s' has %zu unknowns: a consistent start is computed for at most %d",
-                      problem->name, point.n, STEIF_DIAGNOSE_LARGEST);
-  if (!code) code = check_request(ctx, problem, request);
+  int code = check_request(ctx, problem, request);
   if (!code) code = find(&point, request, start);
   stf_point_close(&point);
   if (!code) steif_forget(ctx);

@@ -51,29 +51,46 @@ static bool any_fixed(const stf_repair *r)
 
 /* -- what was done ----------------------------------------------------------------------- */
 
-/* Count what moved, and name the components that moved most. */
-static void list_moved(stf_repair *r, const sunrealtype *y)
+/* In tolerances. */
+static sunrealtype movement(const stf_repair *r, const sunrealtype *y, size_t j)
 {
-  enum { SHOWN = 5 };
+  return fabs(y[j] - r->point.y0[j]) / r->weight[j];
+}
+
+/* Those of `count` moved components without, or with, a derivative that moved most. */
+static void list_moved(stf_repair *r, const sunrealtype *y, bool algebraic, int count)
+{
+  enum { SHOWN = 4 };
   char room[STEIF_SPEC_WORD], *text = r->report.message;
   sunrealtype below = INFINITY;
-  for (size_t j = 0; j < r->point.n; j++) {
-    const sunrealtype part = fabs(y[j] - r->point.y0[j]) / r->weight[j];
-    r->report.moved += part > 1;
-    r->report.largest = fmax(r->report.largest, part);
-  }
-  for (int shown = 0; shown < SHOWN && shown < r->report.moved; shown++) {
+  for (int shown = 0; shown < SHOWN && shown < count; shown++) {
     size_t at = 0;
     sunrealtype most = -1;
     for (size_t j = 0; j < r->point.n; j++) {
-      const sunrealtype part = fabs(y[j] - r->point.y0[j]) / r->weight[j];
-      if (part < below && part > most) most = part, at = j;
+      const sunrealtype part = movement(r, y, j);
+      if (r->algebraic[j] == algebraic && part < below && part > most) most = part, at = j;
     }
     below = most;
-    stf_point_say(text, "%s%s by %.3g", shown ? ", " : "start: moved ",
+    stf_point_say(text, "%s%s by %.3g",
+                  shown     ? ", "
+                  : text[0] ? ", and without a derivative "
+                            : "start: moved ",
                   stf_point_unknown(&r->point, at, room), y[at] - r->point.y0[at]);
   }
-  if (r->report.moved > SHOWN) stf_point_say(text, " and %d more", r->report.moved - SHOWN);
+  if (count > SHOWN) stf_point_say(text, " and %d more", count - SHOWN);
+}
+
+/* Count what moved, and name it: jumps of velocities and charges before the forces that follow from them. */
+static void report_moved(stf_repair *r, const sunrealtype *y)
+{
+  int count[2] = {0, 0};
+  for (size_t j = 0; j < r->point.n; j++) {
+    const sunrealtype part = movement(r, y, j);
+    count[r->algebraic[j]] += part > 1;
+    r->report.largest = fmax(r->report.largest, part);
+  }
+  r->report.moved = count[0] + count[1];
+  for (int k = 0; k < 2; k++) list_moved(r, y, k, count[k]);
 }
 
 /* F_i = 0 where equation i has derivatives, or where tolerances of its unknowns, allowed_i in all, make as
@@ -155,11 +172,8 @@ static int list_invariants(stf_repair *r, const sunrealtype *y)
  * each equation, its derivatives kept by stages; NULL: none. */
 static int use(stf_repair *r, const sunrealtype *y, const sunrealtype *yp, const int *enforced)
 {
-  list_moved(r, y);
-  if (!r->report.moved) {
-    r->report.message[0] = 0;
-    return STEIF_OK;
-  }
+  report_moved(r, y);
+  if (!r->report.moved) return STEIF_OK;
   STEIF_TRY(list_violated(r));
   if (enforced) list_enforced(r, enforced);
   STEIF_TRY(list_invariants(r, y));
@@ -269,11 +283,13 @@ static int diagnosed(stf_repair *r, bool wanted)
   int code = stf_diagnose(&r->point, &evidence, &d);
   if (!code && wanted) code = use_index(r, &d);
   if (!code) code = stf_first_jump(r, &jump);
-  const bool small = r->point.n <= STEIF_DIAGNOSE_LARGEST;
-  if (!code && (jump > 1 || any_fixed(r)) && small && d.index >= 0)
+  const bool ordered =
+    r->point.n <= STEIF_DIAGNOSE_LARGEST || stf_evidence_certified(&evidence);
+  if (!code && (jump > 1 || any_fixed(r)) && ordered && d.index >= 0)
     code = by_stages(r, &evidence, &d);
   else if (!code && jump > 1)
-    code = leave(r, small ? "its index is not decided" : "they have too many unknowns");
+    code = leave(r, d.index < 0 ? "its index is not decided"
+                                : "its structure does not determine their order");
   stf_evidence_free(&evidence);
   steif_diagnosis_clear(&d);
   return code;

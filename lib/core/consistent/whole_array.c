@@ -34,17 +34,17 @@ static int residual(void *data, const sunrealtype *z, sunrealtype *r)
   return STEIF_OK;
 }
 
-static int jacobian(void *data, const sunrealtype *z, sunrealtype *J)
+static int jacobian(void *data, stf_nearest_point *m)
 {
   whole *w = data;
   sunrealtype delta;
-  put(w, z);
+  put(w, m->z);
   STEIF_TRY(stf_total_derivatives_choose(&w->derivatives, &w->curve, w->task->scale, NULL));
   STEIF_TRY(
     stf_curve_matrices(w->task->point, &w->curve, &w->rule, w->nodes, w->E, w->B, &delta));
   stf_derivative_array_fill(w->n, w->K, w->curve.tau, w->E, w->B, w->D);
   for (size_t k = 0; k < w->columns; k++)
-    memcpy(J + k * w->rows, w->D + w->place[k] * w->rows, w->rows * sizeof *J);
+    memcpy(m->J + k * w->rows, w->D + w->place[k] * w->rows, w->rows * sizeof *m->J);
   return STEIF_OK;
 }
 

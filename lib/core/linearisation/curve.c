@@ -41,6 +41,16 @@ void stf_curve_at(const stf_curve *c, size_t n, sunrealtype sigma, sunrealtype *
   }
 }
 
+/* out = factor * (weight_0 row_0 + weight_1 row_1 + ...) */
+static void combine(size_t n, size_t m, const sunrealtype *weight, const sunrealtype *rows,
+                    sunrealtype factor, sunrealtype *out)
+{
+  memset(out, 0, n * sizeof *out);
+  for (size_t i = 0; i < m; i++)
+    for (size_t j = 0; j < n; j++) out[j] += weight[i] * rows[i * n + j];
+  for (size_t j = 0; j < n; j++) out[j] *= factor;
+}
+
 int stf_curve_residual(stf_point *s, const stf_curve *c, const stf_chebyshev *rule,
                        sunrealtype delta, sunrealtype *values, sunrealtype *out,
                        sunrealtype *tail)
@@ -53,11 +63,7 @@ int stf_curve_residual(stf_point *s, const stf_curve *c, const stf_chebyshev *ru
     STEIF_TRY(stf_point_residual(s, c->t + sigma * c->tau, y, yp, values + i * n));
   }
   for (size_t q = 0; q <= (size_t)rule->order; q++, factor /= delta)
-    for (size_t j = 0; j < n; j++) {
-      sunrealtype sum = 0;
-      for (size_t i = 0; i < m; i++) sum += rule->weight[q * m + i] * values[i * n + j];
-      out[q * n + j] = sum * factor;
-    }
+    combine(n, m, rule->weight + q * m, values, factor, out + q * n);
   for (size_t j = 0; tail && j < n; j++) {
     sunrealtype last[2] = {0, 0};
     for (size_t i = 0; i < 2 * m; i++) last[i / m] += rule->tail[i] * values[i % m * n + j];

@@ -2,8 +2,8 @@
  *
  *   minimise ||W (z - target)||  subject to  J dz = -r,
  *
- * each step by the singular value decomposition of the row-scaled J W^{-1}, damped while r
- * does not fall. P. Deuflhard, Newton Methods for Nonlinear Problems, Springer (2004),
+ * each step by the singular value decomposition of the row-scaled J W^{-1} (sparse: by
+ * nearest_sparse.c), damped while r does not fall. P. Deuflhard, Newton Methods for Nonlinear Problems, Springer (2004),
  * 4.4.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -15,20 +15,27 @@
 static const sunrealtype dependent = 1e-10; /* singular values below are zero */
 /* Steps that no longer shrink below this are rounding of r and J. */
 static const sunrealtype rounding = 1e-6, noise = 1e-3;
-enum { HALVINGS = 12 };
+/* Large systems stop early where neither steps nor residuals fall. */
+enum { HALVINGS = 12, IDLE = 8 };
 
 static int claim(stf_pool *pool, stf_nearest_point *m)
 {
   const size_t rows = m->rows, columns = m->columns;
   m->z = stf_pool_array(pool, 4 * columns, sizeof *m->z);
   m->r = stf_pool_array(pool, 4 * rows + 4 * columns + 1, sizeof *m->r);
+  if (!m->z || !m->r) return STEIF_NO_MEMORY;
+  m->target = m->z + columns, m->weight = m->z + 2 * columns, m->unit = m->z + 3 * columns;
+  m->left = m->r + rows, m->s = m->r + 2 * rows, m->work = m->s + columns + 1;
+  return m->solver->open(pool, m);
+}
+
+static int open_dense(stf_pool *pool, stf_nearest_point *m)
+{
+  const size_t rows = m->rows, columns = m->columns;
   m->J = stf_pool_array(pool, 2 * rows * columns + 1, sizeof *m->J);
   m->U = stf_pool_array(pool, rows * rows + 1, sizeof *m->U);
   m->VT = stf_pool_array(pool, columns * columns + 1, sizeof *m->VT);
-  if (!m->z || !m->r || !m->J || !m->U || !m->VT) return STEIF_NO_MEMORY;
-  m->target = m->z + columns, m->weight = m->z + 2 * columns, m->unit = m->z + 3 * columns;
-  m->left = m->r + rows, m->s = m->r + 2 * rows, m->work = m->s + columns + 1;
-  return STEIF_OK;
+  return m->J && m->U && m->VT ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 /* Rows of J W^{-1} scaled to largest entry 1; its decomposition and rank. */
@@ -58,7 +65,7 @@ static sunrealtype pull(const stf_nearest_point *m, size_t j)
 }
 
 /* dz = W^{-1} (V S^{-1} U^T (-r) + V0 V0^T W (target - z)), V0 the null space of J W^{-1}. */
-static void direction(const stf_nearest_point *m, sunrealtype *dz)
+static int direction(stf_nearest_point *m, sunrealtype *dz)
 {
   const size_t rows = m->rows, columns = m->columns;
   for (size_t j = 0; j < columns; j++) dz[j] = 0;
@@ -70,6 +77,7 @@ static void direction(const stf_nearest_point *m, sunrealtype *dz)
       along += m->VT[j * columns + k] * m->weight[j] * pull(m, j);
     for (size_t j = 0; j < columns; j++) dz[j] += along * m->VT[j * columns + k] / m->weight[j];
   }
+  return STEIF_OK;
 }
 
 /* The part of r that J can reach. */
@@ -83,6 +91,8 @@ static sunrealtype merit(const stf_nearest_point *m, const sunrealtype *r)
   }
   return sqrt(sum);
 }
+
+const stf_nearest_solver stf_nearest_dense = {open_dense, decompose, direction, merit};
 
 static sunrealtype length(const stf_nearest_point *m, const sunrealtype *dz, bool weighted)
 {
@@ -99,14 +109,14 @@ static int damp(stf_nearest_point *m, const sunrealtype *dz, sunrealtype *factor
 {
   const size_t rows = m->rows, columns = m->columns;
   sunrealtype *trial = m->work, *r = m->work + columns;
-  const sunrealtype before = merit(m, m->r), step = length(m, dz, true);
+  const sunrealtype before = m->solver->merit(m, m->r), step = length(m, dz, true);
   int code = STEIF_OK;
   *factor = 1;
   for (int k = 0; k < HALVINGS; k++, *factor /= 2) {
     for (size_t j = 0; j < columns; j++) trial[j] = m->z[j] + *factor * dz[j];
     code = m->residual(m->data, trial, r);
     if (code < 0) return code;
-    const sunrealtype after = code ? INFINITY : merit(m, r);
+    const sunrealtype after = code ? INFINITY : m->solver->merit(m, r);
     if (after <= fmax((1 - *factor / 4) * before, 0.2 * *factor * step)) break;
   }
   if (code) return code;
@@ -118,16 +128,20 @@ static int damp(stf_nearest_point *m, const sunrealtype *dz, sunrealtype *factor
 static int solve(stf_nearest_point *m)
 {
   const size_t columns = m->columns;
-  sunrealtype *dz = m->work + columns + m->rows, before = INFINITY, factor;
-  int stagnant = 0;
+  sunrealtype *dz = m->work + columns + m->rows, before = INFINITY, factor, least = INFINITY;
+  int stagnant = 0, idle = 0; /* iterations whose steps, whose residuals do not fall */
   m->converged = false, m->iterations = 0;
-  while (m->iterations < m->most && !m->converged) {
-    STEIF_TRY(m->jacobian(m->data, m->z, m->J));
+  while (m->iterations < m->most && !m->converged &&
+         (!m->sparse || stagnant < IDLE || idle < IDLE)) {
+    STEIF_TRY(m->jacobian(m->data, m));
     STEIF_TRY(m->residual(m->data, m->z, m->r)); /* the jacobian chooses nodes */
-    STEIF_TRY(decompose(m));
-    direction(m, dz);
+    STEIF_TRY(m->solver->factor(m));
+    STEIF_TRY(m->solver->direction(m, dz));
     STEIF_TRY(damp(m, dz, &factor));
     m->iterations++;
+    const sunrealtype left = m->solver->merit(m, m->r);
+    idle = left > 0.5 * least ? idle + 1 : 0;
+    least = fmin(least, left);
     const sunrealtype now = length(m, dz, false);
     stagnant = factor < 0.1 || now >= 0.5 * before ? stagnant + 1 : 0;
     m->converged =
@@ -142,6 +156,7 @@ int stf_nearest_point_find(stf_point *point, stf_nearest_point *m)
   stf_pool *pool = stf_pool_new(point->ctx);
   if (!pool) return STEIF_NO_MEMORY;
   m->ctx = point->ctx;
+  if (!m->solver) m->solver = &stf_nearest_dense;
   int code = claim(pool, m);
   if (!code) m->prepare(m->data, m);
   if (!code) code = solve(m);

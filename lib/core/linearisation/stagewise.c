@@ -2,42 +2,24 @@
  * F_i^(c_i + k) determine y_j^(d_j + k) (orders >= 0), with the matching part of the system
  * Jacobian; what is left open moves least. J. D. Pryce, Numer. Algorithms 19 (1998) 195-211.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "consistent_start.h"
-#include "nearest.h"
-#include "total_derivatives.h"
+#include "stagewise.h"
 #include <math.h>
 #include <string.h>
-
-typedef struct stage_work {
-  stf_start_task *task;
-  const stf_offsets *offsets;
-  size_t n;
-  int deepest; /* orders kept */
-  int stage;
-  sunrealtype *u; /* y^(k)/k!, (deepest + 1) x n */
-  sunrealtype *guess, *values, *E, *B;
-  size_t rows, columns;
-  size_t *equation, *unknown;
-  int *order; /* n: of equation i in this stage, -1 */
-  stf_total_derivatives derivatives;
-  stf_curve curve;
-} stage_work;
+#include <sunmatrix/sunmatrix_sparse.h>
 
 static sunrealtype factorial(int k) { return k > 1 ? k * factorial(k - 1) : 1; }
 
-static int unknown_order(const stage_work *w, size_t j) { return w->offsets->d[j] + w->stage; }
-
-static void put(stage_work *w, const sunrealtype *z)
+static void put(stf_stage *w, const sunrealtype *z)
 {
   for (size_t k = 0; k < w->columns; k++) {
-    const int order = unknown_order(w, w->unknown[k]);
+    const int order = stf_stage_order(w, w->unknown[k]);
     w->u[(size_t)order * w->n + w->unknown[k]] = z[k] / factorial(order);
   }
 }
 
 static int residual(void *data, const sunrealtype *z, sunrealtype *r)
 {
-  stage_work *w = data;
+  stf_stage *w = data;
   put(w, z);
   STEIF_TRY(stf_total_derivatives_evaluate(&w->derivatives, &w->curve, w->values));
   for (size_t k = 0; k < w->rows; k++) {
@@ -48,48 +30,87 @@ static int residual(void *data, const sunrealtype *z, sunrealtype *r)
 }
 
 /* Sizes of the terms of the equations at the current point. */
-static void rescale(stage_work *w)
+static void rescale(stf_stage *w)
 {
   const sunrealtype *floor = w->task->point->floor;
   sunrealtype *scale = w->task->scale;
   memset(scale, 0, w->n * sizeof *scale);
-  for (size_t k = 0; k < w->n * w->n; k++) {
-    const size_t i = k % w->n, j = k / w->n;
-    scale[i] += fabs(w->E[k] * w->u[w->n + j]) + fabs(w->B[k]) * fmax(fabs(w->u[j]), floor[j]);
-  }
+  for (size_t j = 0; j < w->n; j++)
+    for (sunindextype k = w->view.column[j]; k < w->view.column[j + 1]; k++)
+      scale[w->view.row[k]] += fabs(w->view.e[k] * w->u[w->n + j]) +
+                               fabs(w->view.b[k]) * fmax(fabs(w->u[j]), floor[j]);
   for (size_t i = 0; i < w->n; i++)
     if (!(scale[i] > 0)) scale[i] = 1;
 }
 
-static int jacobian(void *data, const sunrealtype *z, sunrealtype *J)
+bool stf_stage_entry(const stf_stage *w, size_t j, sunindextype k, sunrealtype *value)
 {
-  stage_work *w = data;
-  const stf_offsets *s = w->offsets;
-  put(w, z);
-  STEIF_TRY(stf_point_matrices(w->task->point, w->curve.t, w->u, w->u + w->n, w->E, w->B));
-  rescale(w);
-  STEIF_TRY(stf_total_derivatives_choose(&w->derivatives, &w->curve, w->task->scale, w->order));
-  for (size_t l = 0; l < w->columns; l++)
-    for (size_t k = 0; k < w->rows; k++) {
-      const size_t i = w->equation[k], j = w->unknown[l];
-      const int order = s->d[j] - s->c[i];
-      J[l * w->rows + k] = order == 1   ? w->E[j * w->n + i]
-                           : order == 0 ? w->B[j * w->n + i]
-                                        : 0;
+  const stf_view *v = &w->view;
+  const int order = w->offsets->d[j] - w->offsets->c[v->row[k]];
+  *value = order == 1 ? v->e[k] : v->b[k];
+  return w->order[v->row[k]] >= 0 && (order == 0 || order == 1);
+}
+
+static void fill_dense(const stf_stage *w, sunrealtype *J)
+{
+  sunrealtype value;
+  memset(J, 0, w->rows * w->columns * sizeof *J);
+  for (size_t l = 0; l < w->columns; l++) {
+    const size_t j = w->unknown[l];
+    for (sunindextype k = w->view.column[j]; k < w->view.column[j + 1]; k++)
+      if (stf_stage_entry(w, j, k, &value)) J[l * w->rows + w->row[w->view.row[k]]] = value;
+  }
+}
+
+static void fill_sparse(const stf_stage *w, SUNMatrix J)
+{
+  sunindextype used = 0;
+  sunrealtype value;
+  for (size_t l = 0; l < w->columns; l++) {
+    const size_t j = w->unknown[l];
+    SM_INDEXPTRS_S(J)[l] = used;
+    for (sunindextype k = w->view.column[j]; k < w->view.column[j + 1]; k++) {
+      if (!stf_stage_entry(w, j, k, &value) || value == 0) continue;
+      SM_INDEXVALS_S(J)[used] = (sunindextype)w->row[w->view.row[k]];
+      SM_DATA_S(J)[used++] = value;
     }
+  }
+  SM_INDEXPTRS_S(J)[w->columns] = used;
+}
+
+/* Nodes serve the curves near to that they were chosen for: large systems spare the search for others. */
+static int jacobian(void *data, stf_nearest_point *m)
+{
+  enum { SEARCHES = 3 };
+  stf_stage *w = data;
+  stf_point *point = w->task->point;
+  put(w, m->z);
+  STEIF_TRY(stf_view_take(point, w->curve.t, w->u, w->u + w->n, &w->view));
+  rescale(w);
+  if (!m->sparse || w->chosen < SEARCHES)
+    STEIF_TRY(
+      stf_total_derivatives_choose(&w->derivatives, &w->curve, w->task->scale, w->order));
+  w->chosen++;
+  if (!m->sparse)
+    fill_dense(w, m->J);
+  else if (m->entries >= (size_t)w->view.column[w->n])
+    fill_sparse(w, m->sparse);
+  else
+    return STEIF_RETRY;
   return STEIF_OK;
 }
 
-static void select(stage_work *w)
+static void select(stf_stage *w)
 {
   const stf_offsets *s = w->offsets;
   w->rows = w->columns = 0;
   for (size_t i = 0; i < w->n; i++) {
     w->order[i] = s->c[i] + w->stage >= 0 ? s->c[i] + w->stage : -1;
+    w->row[i] = w->rows;
     if (w->order[i] >= 0) w->equation[w->rows++] = i;
   }
   for (size_t j = 0; j < w->n; j++) {
-    const int order = unknown_order(w, j);
+    const int order = stf_stage_order(w, j);
     const bool fixed = order == 0 && stf_start_attribute(w->task, j) == STEIF_FIXED;
     if (order >= 0 && !fixed) w->unknown[w->columns++] = j;
   }
@@ -97,12 +118,12 @@ static void select(stage_work *w)
 
 static void prepare(void *data, stf_nearest_point *m)
 {
-  stage_work *w = data;
+  stf_stage *w = data;
   const stf_start_task *task = w->task;
   const sunrealtype rate = sqrt(w->derivatives.slowest * w->derivatives.fastest);
   for (size_t k = 0; k < w->columns; k++) {
     const size_t j = w->unknown[k];
-    const int order = unknown_order(w, j);
+    const int order = stf_stage_order(w, j);
     const bool guessed = order == 0 && stf_start_attribute(task, j) == STEIF_GUESS;
     m->z[k] = factorial(order) * w->u[(size_t)order * w->n + j];
     m->target[k] = guessed ? w->guess[j] : NAN;
@@ -111,116 +132,7 @@ static void prepare(void *data, stf_nearest_point *m)
   }
 }
 
-/* -- what went wrong --------------------------------------------------------------------- */
-
-static bool occurs(const stage_work *w, size_t i, size_t j)
-{
-  return w->E[j * w->n + i] != 0 || w->B[j * w->n + i] != 0;
-}
-
-/* Equations that the fixed values contradict: those with a part in a combination of rows
- * that no unknown of the stage can change and that is not zero. */
-static int conflict(stage_work *w, const stf_nearest_point *m, sunrealtype size)
-{
-  stf_point *point = w->task->point;
-  char text[STEIF_SENTENCE] = "", room[STEIF_SPEC_WORD];
-  size_t fixed = 0, last = 0;
-  stf_point_say(text, "fixed values contradict each other: equations {");
-  int *in = w->order; /* done with */
-  for (size_t i = 0; i < w->n; i++) in[i] = 0;
-  for (size_t k = m->rank; k < m->rows; k++) {
-    sunrealtype along = 0;
-    for (size_t i = 0; i < m->rows; i++) along += m->U[k * m->rows + i] * m->left[i] * m->r[i];
-    for (size_t i = 0; i < m->rows && fabs(along) > 1e-9; i++)
-      if (fabs(m->U[k * m->rows + i]) > 1e-6) in[w->equation[i]] = 1;
-  }
-  stf_point_list(point, text, true, in, 1, false);
-  stf_point_say(text, "} contain only fixed unknowns {");
-  for (size_t j = 0; j < w->n; j++) {
-    if (unknown_order(w, j) != 0 || stf_start_attribute(w->task, j) != STEIF_FIXED) continue;
-    bool there = false;
-    for (size_t i = 0; i < w->n; i++) there = there || (in[i] && occurs(w, i, j));
-    if (!there) continue;
-    stf_point_say(text, "%s%s", fixed++ ? ", " : "", stf_point_unknown(point, j, room));
-    last = j;
-  }
-  stf_point_say(text, "}; residual %.4g.", size);
-  if (fixed == 1)
-    stf_point_say(text, " The equations determine %s: it can never be prescribed.",
-                  stf_point_unknown(point, last, room));
-  else
-    stf_point_say(text, " Leave at least one of them free.");
-  return STEIF_FAIL(point->ctx, STEIF_BAD_INPUT, "%s", text);
-}
-
-static int stalled(stage_work *w, const stf_nearest_point *m, size_t worst, sunrealtype size)
-{
-  stf_point *point = w->task->point;
-  char text[STEIF_SENTENCE] = "", e[STEIF_SPEC_WORD], y[STEIF_SPEC_WORD];
-  for (size_t k = 0; k < w->columns && k < 3; k++)
-    stf_point_say(text, "%s%s", k ? ", " : "",
-                  stf_point_unknown(point, w->unknown[w->columns - 1 - k], y));
-  return STEIF_FAIL(
-    point->ctx, STEIF_NO_CONVERGENCE,
-    "no consistent point found within %d iterations; residual %.3g in %s; stage "
-    "%d stalled; last unknowns %s: give better values for them",
-    m->iterations, size, stf_point_equation(point, w->equation[worst], e), w->stage, text);
-}
-
-static int singular(stage_work *w, const stf_nearest_point *m, size_t worst)
-{
-  stf_point *point = w->task->point;
-  char text[STEIF_SENTENCE] = "", y[STEIF_SPEC_WORD], e[STEIF_SPEC_WORD];
-  const size_t least = m->rows < m->columns ? m->rows : m->columns;
-  int shown = 0;
-  for (size_t k = 0; k < m->columns && shown < 5; k++) {
-    sunrealtype part = 0;
-    for (size_t q = m->rank; q < least; q++) part = fmax(part, fabs(m->VT[k * m->columns + q]));
-    if (part > 0.3)
-      stf_point_say(text, "%s%s", shown++ ? ", " : "",
-                    stf_point_unknown(point, w->unknown[k], y));
-  }
-  return STEIF_FAIL(
-    point->ctx, STEIF_SINGULAR,
-    "%s %s more than one consistent value near the guess, or none (Jacobian of "
-    "stage %d nearly singular, rcond %.1e; equation %s is off by %.3g): give %s, or "
-    "move the guess",
-    shown ? text : "the start", shown > 1 ? "have" : "has", w->stage, m->rcond,
-    stf_point_equation(point, w->equation[worst], e), fabs(m->r[worst]),
-    shown ? text : "more values");
-}
-
 /* -- one stage --------------------------------------------------------------------------- */
-
-/* Largest residual against the terms of its equation; *worst names the row. */
-static sunrealtype leftover(const stage_work *w, const stf_nearest_point *m, size_t *worst)
-{
-  sunrealtype most = 0;
-  *worst = 0;
-  for (size_t k = 0; k < m->rows; k++) {
-    sunrealtype size = w->task->scale[w->equation[k]];
-    for (size_t l = 0; l < m->columns; l++)
-      size = fmax(size, fabs(m->J[l * m->rows + k]) * fmax(fabs(m->z[l]), m->unit[l]));
-    const sunrealtype part = fabs(m->r[k]) / (size > 0 ? size : 1);
-    if (!(part <= most)) most = part, *worst = k;
-  }
-  return most;
-}
-
-static int judge(stage_work *w, stf_nearest_point *m)
-{
-  size_t fixed = 0, worst;
-  for (size_t j = 0; j < w->n; j++)
-    fixed += unknown_order(w, j) == 0 && stf_start_attribute(w->task, j) == STEIF_FIXED;
-  const sunrealtype part = leftover(w, m, &worst);
-  w->task->start->residual = fmax(w->task->start->residual, part);
-  if (part > STF_VIOLATED && m->rank < m->rows && fixed)
-    return conflict(w, m, fabs(m->r[worst]));
-  if (m->rank < m->rows && !fixed) return singular(w, m, worst);
-  if (part > (m->converged ? STF_VIOLATED : STF_FULFILLED))
-    return stalled(w, m, worst, fabs(m->r[worst]));
-  return STEIF_OK;
-}
 
 /* What moved by rounding only did not move. */
 static void snap(stf_nearest_point *m)
@@ -232,17 +144,22 @@ static void snap(stf_nearest_point *m)
 
 static int accept(void *data, stf_nearest_point *m)
 {
-  stage_work *w = data;
+  stf_stage *w = data;
   snap(m);
   put(w, m->z);
-  return judge(w, m);
+  return stf_stage_judge(w, m);
 }
 
-static int run(stage_work *w)
+static int run(stf_stage *w)
 {
   select(w);
+  w->chosen = 0;
   if (w->rows == 0) return STEIF_OK;
-  stf_nearest_point m = {.rows = w->rows,
+  const bool sparse = w->n > STEIF_DIAGNOSE_LARGEST;
+  const size_t entries = (size_t)w->task->view->column[w->n];
+  stf_nearest_point m = {.solver = sparse ? &stf_nearest_sparse : &stf_nearest_dense,
+                         .entries = 2 * entries,
+                         .rows = w->rows,
                          .columns = w->columns,
                          .residual = residual,
                          .jacobian = jacobian,
@@ -255,21 +172,22 @@ static int run(stage_work *w)
   return code;
 }
 
-static int claim(stf_pool *pool, stage_work *w)
+static int claim(stf_pool *pool, stf_stage *w)
 {
   const size_t n = w->n, orders = (size_t)w->deepest + 1;
   w->u = stf_pool_array(pool, 2 * orders * n, sizeof *w->u);
   w->guess = stf_pool_array(pool, n, sizeof *w->guess);
-  w->E = stf_pool_array(pool, 2 * n * n, sizeof *w->E);
-  w->equation = stf_pool_array(pool, 2 * n, sizeof *w->equation);
+  w->equation = stf_pool_array(pool, 3 * n, sizeof *w->equation);
   w->order = stf_pool_array(pool, n, sizeof *w->order);
-  if (!w->u || !w->guess || !w->E || !w->equation || !w->order) return STEIF_NO_MEMORY;
-  w->values = w->u + orders * n, w->B = w->E + n * n, w->unknown = w->equation + n;
+  if (!w->u || !w->guess || !w->equation || !w->order) return STEIF_NO_MEMORY;
+  w->values = w->u + orders * n;
+  w->unknown = w->equation + n;
+  w->row = w->equation + 2 * n;
   w->curve = (stf_curve){.t = w->task->point->t, .tau = 1, .count = w->deepest + 1, .z = w->u};
   return STEIF_OK;
 }
 
-static int all(stage_work *w, stf_pool *pool, int c, int d)
+static int all(stf_stage *w, stf_pool *pool, int c, int d)
 {
   stf_point *point = w->task->point;
   sunrealtype slow, fast;
@@ -293,7 +211,7 @@ static int all(stage_work *w, stf_pool *pool, int c, int d)
 int stf_start_stages(stf_start_task *task, const stf_offsets *s)
 {
   stf_point *point = task->point;
-  stage_work w = {.task = task, .offsets = s, .n = point->n};
+  stf_stage w = {.task = task, .offsets = s, .n = point->n};
   int c = 0, d = 0;
   for (size_t i = 0; i < w.n; i++) c = s->c[i] > c ? s->c[i] : c, d = s->d[i] > d ? s->d[i] : d;
   STEIF_CHECK(c < STF_DEEPEST, point->ctx, STEIF_UNSUPPORTED,
@@ -310,6 +228,7 @@ int stf_start_stages(stf_start_task *task, const stf_offsets *s)
     memcpy(task->start->yp, w.u + w.n, w.n * sizeof *w.u);
     memcpy(task->start->enforced, s->c, w.n * sizeof *s->c);
   }
+  stf_view_free(point, &w.view);
   stf_pool_free(&pool);
   return code;
 }
