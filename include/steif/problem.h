@@ -139,7 +139,10 @@ struct steif_problem {
   sunindextype lower, upper; /* bandwidths for STEIF_BAND */
   sunindextype nnz;          /* room in a sparse A (and E: nnz_E) that a callback fills */
   sunindextype nnz_E;
-  const steif_pattern *pattern; /* of dF/dy (+ dF/dy'): differences by groups of columns */
+  /* Of dF/dy (+ dF/dy'): differences by groups of columns. The 1st, 2nd, 4th ... Jacobian of a run, of
+   * baselines too, and those after failures of Newton's iteration are probed: entries that the pattern misses
+   * join a copy of it. */
+  const steif_pattern *pattern;
 
   const int *index;      /* n entries 1, 2, 3: index of each component as in RADAU5; norms
                                 scale component i by h^(index-1); NULL: all 1 */
@@ -186,8 +189,9 @@ STEIF_EXPORT int steif_problem_form(steif_context *ctx, const steif_problem *pro
 STEIF_EXPORT const char *steif_form_name(int form);
 
 /* The pattern of df/dy, or of dF/dy and dF/dy', with the diagonal: rows that change when one unknown
- * moves, near the start at t0. n evaluations (2 n of F). What is 0 there is missed; a run with the pattern
- * goes on checking it. STEIF_NOT_FINITE: no values near the start. Free it after its last use. */
+ * moves, at three points by up to 1 %, 10 % and 50 % from the start at t0 (nearer where f has no value). 3 n
+ * evaluations (6 n of F). What is 0 at all of them is missed; a run with the pattern goes on looking.
+ * STEIF_NOT_FINITE: no values near the start. Free it after its last use. */
 STEIF_EXPORT int steif_pattern_find(steif_context *ctx, const steif_problem *problem,
                                     steif_pattern **pattern);
 STEIF_EXPORT void steif_pattern_free(steif_context *ctx, steif_pattern **pattern);

@@ -1,7 +1,9 @@
 /* Jacobians by differences against analytic ones, the number of evaluations they take, and the
  * probe for entries missing from a pattern.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/failing.h"
 #include "fixture.h"
+#include <steif/solver.h>
 
 /* f_i = a u_{i-1} - b u_i^2 + c u_{i+1} + d u_i sin t: tridiagonal. */
 enum { N = 23 };
@@ -152,11 +154,14 @@ static void groups_are_as_few_as_the_pattern_allows(void)
   p.pattern = &diagonal;
   for (int j = 0; j <= N; j++) arrow_column[j] = j;
   for (int j = 0; j < N; j++) arrow_row[j] = j;
-  fixture s; /* the probe finds what the diagonal leaves out */
-  CHECK(fixture_open(&s, &p, STEIF_SPARSE) == STEIF_BAD_INPUT);
+  fixture s; /* the probe finds what the diagonal leaves out: three groups serve the chain */
+  CHECK(fixture_open(&s, &p, STEIF_SPARSE) == STEIF_OK);
   calls = 0;
   CHECK(!stf_differ(&s.system, 'A', 0.4, s.y, s.yp, s.system.A));
-  CHECK(calls == 2);
+  CHECK(calls == 4);
+  for (int i = 0; i < N; i++)
+    for (int j = 0; j < N; j++)
+      CLOSE_FLOOR(fixture_element(s.system.A, i, j), exact(i, j, 0.4), 3e-7, 1);
   fixture_close(&s);
   sunindextype k = 0;
   for (int j = 0; j < N; j++) {
@@ -166,7 +171,7 @@ static void groups_are_as_few_as_the_pattern_allows(void)
     for (int i = 1; j == 0 && i < N; i++) arrow_row[k++] = i;
   }
   arrow_column[N] = k;
-  CHECK(fixture_open(&s, &p, STEIF_SPARSE) == STEIF_BAD_INPUT);
+  CHECK(fixture_open(&s, &p, STEIF_SPARSE) == STEIF_OK);
   calls = 0;
   CHECK(!stf_differ(&s.system, 'A', 0.4, s.y, s.yp, s.system.A));
   CHECK(calls == N + 1);
@@ -186,23 +191,47 @@ static void bands_may_be_full(void)
   fixture_close(&s);
 }
 
-static void the_probe_names_what_is_missing(void)
+/* One entry far from the others: it joins the pattern of f, or those of F, and a band cannot have it. */
+static void the_probe_adds_what_is_missing(void)
+{
+  double far = 0.37;
+  fixture s;
+  steif_problem p = chain();
+  p.user = &far;
+  fixture_refused(&p, STEIF_BAND, STEIF_BAD_INPUT,
+                  "band of problem 'chain' misses the derivative of e18 with respect to y5");
+  fixture_refused(&p, STEIF_BAND, STEIF_BAD_INPUT, "found about 0.37 there; widen it");
+  for (int implicit = 0; implicit < 2; implicit++) {
+    if (implicit) p.f = NULL, p.F = F;
+    CU_ASSERT_FATAL(!fixture_open(&s, &p, STEIF_SPARSE));
+    CHECK(SM_INDEXPTRS_S(s.system.A)[N] == column[N] + 1);
+    CLOSE(fixture_element(s.system.A, 17, 4), 0.37, 1e-6);
+    CHECK(p.pattern == &pattern && column[N] == pattern.column[N]); /* the user's stays */
+    fixture_close(&s);
+  }
+  far = 0;
+  CHECK(!fixture_open(&s, &p, STEIF_SPARSE));
+  CHECK(SM_INDEXPTRS_S(s.system.A)[N] == column[N]);
+  fixture_close(&s);
+}
+
+static void memory_may_end_while_the_pattern_grows(void)
 {
   double far = 0.37;
   steif_problem p = chain();
-  p.user = &far;
-  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT,
-                  "pattern of problem 'chain' misses the derivative of e18 with respect to y5");
-  fixture_refused(&p, STEIF_BAND, STEIF_BAD_INPUT,
-                  "band of problem 'chain' misses the derivative of e18 with respect to y5");
-  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT, "found about 0.37 there");
-  p.f = NULL, p.F = F;
-  fixture_refused(&p, STEIF_SPARSE, STEIF_BAD_INPUT,
-                  "misses the derivative of e18 with respect to y5");
-  far = 0;
-  fixture s;
-  CHECK(!fixture_open(&s, &p, STEIF_SPARSE));
-  fixture_close(&s);
+  p.user = &far, p.f = NULL, p.F = F, p.storage = STEIF_SPARSE;
+  for (long k = 1, more = 1; more; k++) {
+    failing x = {.refuse_at = k};
+    const steif_setup setup = failing_setup(&x);
+    steif_context *short_of = steif_context_new(&setup);
+    steif_solver *s = short_of ? steif_solver_new(short_of, &p, "radau:s=3", NULL) : NULL;
+    more = x.served >= k;
+    CHECK((s != NULL) == !more);
+    if (short_of && !s) CHECK(steif_status(short_of) == STEIF_NO_MEMORY);
+    steif_solver_free(&s);
+    steif_context_free(&short_of);
+    CHECK(x.alive == 0);
+  }
 }
 
 static int analytic(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector x,
@@ -269,7 +298,8 @@ CU_TestInfo tests_of_differ[] = {
   {"differences of an implicit form", differences_of_an_implicit_form},
   {"groups are as few as the pattern allows", groups_are_as_few_as_the_pattern_allows},
   {"bands may be full", bands_may_be_full},
-  {"the probe names what is missing", the_probe_names_what_is_missing},
+  {"the probe adds what is missing", the_probe_adds_what_is_missing},
+  {"memory may end while the pattern grows", memory_may_end_while_the_pattern_grows},
   {"patterns are checked", patterns_are_checked},
   {"increments follow the scale", increments_follow_the_scale},
   CU_TEST_INFO_NULL};

@@ -89,7 +89,8 @@ int stf_baseline_linear(stf_baseline *base, bool exact);
 int stf_baseline_native(stf_baseline *base);
 SUNLinearSolver stf_baseline_solver(stf_baseline *base, SUNMatrix M);
 
-/* coloured.c. Where the problem is sparse and tells its pattern only: base->coloured; it fills E or A. */
+/* coloured.c. Where the problem is sparse and tells its pattern only: base->coloured; it fills E or A, and
+ * entries that a probe finds join them. */
 int stf_coloured_open(stf_baseline *base);
 int stf_coloured_fill(stf_baseline *base, char which, sunrealtype t, N_Vector y, N_Vector yp,
                       SUNMatrix M);

@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "baseline.h"
 #include "problem.h"
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_sparse.h>
 
 int stf_coloured_open(stf_baseline *base)
 {
@@ -20,17 +22,35 @@ int stf_coloured_open(stf_baseline *base)
   s->storage = STEIF_SPARSE;
   s->scale = run->options->atol / run->options->rtol;
   stf_space_open(&s->space, run->y);
-  for (int i = 3; i < 6; i++)
+  for (int i = 0; i < 6; i++)
     if (!(s->work[i] = stf_pool_vector(run->pool, run->y))) return STEIF_NO_MEMORY;
   STEIF_TRY(stf_groups_open(run->pool, s));
   base->coloured = s;
   return STEIF_OK;
 }
 
+/* Patterns grow as those of steif's own methods do: the 1st, 2nd, 4th ... matrix is probed. KLU then analyses
+ * anew. */
+static int fill(stf_baseline *base, char which, sunrealtype t, N_Vector y, N_Vector yp,
+                SUNMatrix M)
+{
+  stf_system *s = base->coloured;
+  STEIF_TRY(stf_differ(s, which, t, y, yp, M));
+  if (which == 'A') s->nje++;
+  for (bool grown = (s->nje & (s->nje - 1)) == 0; grown;) {
+    const int code = stf_probe(s, which, t, y, yp, M, &grown);
+    if (code || !grown) return code > 0 ? STEIF_OK : code;
+    if (base->solver)
+      SUNLinSol_KLUReInit(base->solver, base->J, SM_NNZ_S(base->J), SUNKLU_REINIT_PARTIAL);
+    STEIF_TRY(stf_differ(s, which, t, y, yp, M));
+  }
+  return STEIF_OK;
+}
+
 int stf_coloured_fill(stf_baseline *base, char which, sunrealtype t, N_Vector y, N_Vector yp,
                       SUNMatrix M)
 {
-  const int code = stf_differ(base->coloured, which, t, y, yp, M);
+  const int code = fill(base, which, t, y, yp, M);
   return stf_baseline_watch_matrix(base, "f or F, moved for differences,", code < 0 ? -1 : code,
                                    t, M);
 }

@@ -3,6 +3,7 @@
 #include "baseline.h"
 #include <math.h>
 #include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
 
 /* --- E and A filled by callbacks --- */
 
@@ -207,10 +208,21 @@ static void add_diagonal(SUNMatrix J, sunrealtype c, sunindextype n)
   }
 }
 
+/* The patterns of differences have grown. */
+static bool merge_anew(stf_baseline *base, SUNMatrix J)
+{
+  if (stf_merge_open(base->run, base->E, base->A, &base->merge)) return false;
+  const sunindextype entries = base->merge.column[base->run->problem->n];
+  return SM_NNZ_S(J) >= entries || !SUNSparseMatrix_Reallocate(J, entries);
+}
+
 static int assemble(stf_baseline *base, sunrealtype t, sunrealtype c, SUNMatrix J)
 {
   if (base->storage == STEIF_SPARSE) {
     if (stf_merge_fill(&base->merge, J, c, base->E, base->A)) return 0;
+    if (base->coloured && merge_anew(base, J) &&
+        stf_merge_fill(&base->merge, J, c, base->E, base->A))
+      return 0;
     base->fault.who = "a sparse matrix (its pattern changed)", base->fault.at = -1;
     base->fault.t = t, base->fault.now = true;
     return base->fault.verdict = -1;

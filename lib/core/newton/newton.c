@@ -243,6 +243,7 @@ static int refuse(stf_newton *newton, const stf_stages *g, int iterations, sunre
 {
   steif_context *ctx = newton->system->ctx;
   newton->fails++, newton->jacobian_wanted = true, newton->eta = 1;
+  newton->system->doubted = true;
   if (!isfinite(norm)) return refuse_values(newton, g);
   return STEIF_RECOVER(
     ctx, STEIF_NO_CONVERGENCE,

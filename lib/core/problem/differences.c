@@ -1,18 +1,12 @@
 /* differences.c: Jacobians by differences, columns that share no row moved together (Curtis, Powell and
- * Reid 1974), and a probe that finds entries missing from a pattern.
+ * Reid 1974).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "problem.h"
+#include "groups.h"
 #include <math.h>
+#include <string.h>
 #include <sunmatrix/sunmatrix_band.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
-
-struct stf_groups {
-  int count;
-  sunindextype *column, *start; /* columns of group g: column[start[g]] .. */
-  sunrealtype *step;            /* increment of each column */
-  bool differences;             /* E or A is made by differences */
-};
 
 static bool needs(const steif_problem *p, int form)
 {
@@ -80,6 +74,8 @@ static int check_pattern(const stf_system *s)
 /* Columns sorted by group. */
 static void sort(stf_groups *g, sunindextype n, const sunindextype *group)
 {
+  memset(g->start, 0, ((size_t)n + 2) * sizeof *g->start);
+  g->count = 0;
   for (sunindextype j = 0; j < n; j++) g->start[group[j] + 1]++;
   for (sunindextype k = 0; k < n; k++) g->start[k + 1] += g->start[k];
   for (sunindextype j = n; j-- > 0;) g->column[--g->start[group[j] + 1]] = j;
@@ -94,40 +90,59 @@ int stf_groups_open(stf_pool *pool, stf_system *s)
   stf_groups *g = stf_pool_array(pool, 1, sizeof *g);
   if (!g) return STEIF_NO_MEMORY;
   s->groups = g;
+  g->ctx = s->ctx;
+  g->pattern = s->problem->pattern;
   g->differences = needs(s->problem, s->form);
   if (s->storage == STEIF_SPARSE && (g->differences || s->problem->pattern))
     STEIF_TRY(check_pattern(s));
   if (!g->differences) return STEIF_OK;
-  sunindextype *group = stf_pool_array(pool, (size_t)n, sizeof *group);
+  g->of = stf_pool_array(pool, (size_t)n, sizeof *g->of);
   g->column = stf_pool_array(pool, (size_t)n, sizeof *g->column);
   g->start = stf_pool_array(pool, (size_t)n + 2, sizeof *g->start);
   g->step = stf_pool_array(pool, (size_t)n, sizeof *g->step);
-  if (!group || !g->column || !g->start || !g->step) return STEIF_NO_MEMORY;
+  if (!g->of || !g->column || !g->start || !g->step) return STEIF_NO_MEMORY;
+  STEIF_TRY(stf_pool_adopt(pool, g, stf_groups_forget));
+  return stf_groups_colour(s);
+}
+
+bool stf_groups_differ(const stf_system *s) { return s->groups && s->groups->differences; }
+
+int stf_groups_colour(stf_system *s)
+{
+  const sunindextype n = s->space.n;
+  stf_groups *g = s->groups;
   const sunindextype width = s->problem->lower + s->problem->upper + 1;
-  if (s->storage == STEIF_SPARSE)
-    STEIF_TRY(colour_pattern(pool, s->problem->pattern, n, group));
-  else
-    for (sunindextype j = 0; j < n; j++) group[j] = s->storage == STEIF_BAND ? j % width : j;
-  sort(g, n, group);
-  return STEIF_OK;
+  int code = STEIF_OK;
+  if (s->storage == STEIF_SPARSE) {
+    stf_pool *work = stf_pool_new(s->ctx);
+    code = work ? colour_pattern(work, s->groups->pattern, n, g->of) : STEIF_NO_MEMORY;
+    stf_pool_free(&work);
+  } else
+    for (sunindextype j = 0; j < n; j++) g->of[j] = s->storage == STEIF_BAND ? j % width : j;
+  if (!code) sort(g, n, g->of);
+  return code;
 }
 
 /* -- evaluation ------------------------------------------------------------------------------ */
 
-/* f for 'A' of the ode and mass forms, else F: into out. */
-static int evaluate(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp, N_Vector out)
+int stf_groups_evaluate(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp, N_Vector out)
 {
   return s->form == STEIF_IMPLICIT ? stf_system_residual(s, t, y, yp, out)
                                    : stf_system_rhs(s, t, y, out);
 }
 
-static void fill_pointers(stf_system *s, SUNMatrix M)
+static int fill_pointers(stf_system *s, SUNMatrix M)
 {
-  const steif_pattern *p = s->problem->pattern;
+  const steif_pattern *p = s->groups->pattern;
+  const sunindextype entries = p->column[s->space.n];
+  if (SM_NNZ_S(M) < entries)
+    STEIF_CHECK(!SUNSparseMatrix_Reallocate(M, entries), s->ctx, STEIF_NO_MEMORY,
+                "no memory for a sparse matrix of %lld entries", (long long)entries);
   sunindextype *column = SUNSparseMatrix_IndexPointers(M),
                *row = SUNSparseMatrix_IndexValues(M);
   for (sunindextype j = 0; j <= s->space.n; j++) column[j] = p->column[j];
-  for (sunindextype k = 0; k < p->column[s->space.n]; k++) row[k] = p->row[k];
+  for (sunindextype k = 0; k < entries; k++) row[k] = p->row[k];
+  return STEIF_OK;
 }
 
 /* Column j of M from the difference d of a move that touched no other column of its rows. */
@@ -144,7 +159,7 @@ static void put(stf_system *s, SUNMatrix M, sunindextype j, const sunrealtype *d
     for (sunindextype i = first < 0 ? 0 : first; i <= (last < n ? last : n - 1); i++)
       column[i - j] = d[i] * by;
   } else {
-    const steif_pattern *p = s->problem->pattern;
+    const steif_pattern *p = s->groups->pattern;
     sunrealtype *data = SUNSparseMatrix_Data(M);
     for (sunindextype k = p->column[j]; k < p->column[j + 1]; k++) data[k] = d[p->row[k]] * by;
   }
@@ -166,9 +181,9 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
   const stf_groups *g = s->groups;
   N_Vector base = s->work[3], moved = s->work[4], changed = s->work[5];
   const sunrealtype sign = which == 'A' && s->form == STEIF_IMPLICIT ? -1 : 1;
-  if (s->storage == STEIF_SPARSE) fill_pointers(s, M);
+  if (s->storage == STEIF_SPARSE) STEIF_TRY(fill_pointers(s, M));
   if (s->linear) stf_zero(&s->space, y = yp = s->work[2]);
-  STEIF_TRY(evaluate(s, t, y, yp, base));
+  STEIF_TRY(stf_groups_evaluate(s, t, y, yp, base));
   stf_copy(&s->space, which == 'A' ? y : yp, moved);
   sunrealtype *m = N_VGetArrayPointer(moved), *d = N_VGetArrayPointer(changed);
   const sunrealtype *b = N_VGetArrayPointer(base),
@@ -180,8 +195,8 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
       g->step[j] = increment(s, m[j]);
       m[j] += g->step[j];
     }
-    STEIF_TRY(which == 'A' ? evaluate(s, t, moved, yp, changed)
-                           : evaluate(s, t, y, moved, changed));
+    STEIF_TRY(which == 'A' ? stf_groups_evaluate(s, t, moved, yp, changed)
+                           : stf_groups_evaluate(s, t, y, moved, changed));
     for (sunindextype i = 0; i < s->space.n; i++) d[i] -= b[i];
     for (sunindextype k = from; k < to; k++) {
       const sunindextype j = g->column[k];
@@ -190,113 +205,4 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
     }
   }
   return STEIF_OK;
-}
-
-/* -- probe ------------------------------------------------------------------------------------- */
-
-static const sunrealtype move = 1e-6; /* relative size of the probing move */
-enum { ASKED = 32 };                  /* rows looked at more closely */
-
-static bool in_pattern(const stf_system *s, sunindextype i, sunindextype j)
-{
-  if (s->storage == STEIF_BAND) return i - j <= s->problem->lower && j - i <= s->problem->upper;
-  const steif_pattern *p = s->problem->pattern;
-  for (sunindextype k = p->column[j]; k < p->column[j + 1]; k++)
-    if (p->row[k] == i) return true;
-  return false;
-}
-
-/* d = evaluate(moved in columns [from, to), for row >= 0 in those that its pattern leaves out) - base;
- * also leaves the direction in work[2]. */
-static int shove(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp,
-                 sunindextype from, sunindextype to, sunindextype row)
-{
-  N_Vector moved = s->work[4], d = s->work[5];
-  const sunrealtype *at = N_VGetArrayPointer(which == 'A' ? y : yp);
-  sunrealtype *m = N_VGetArrayPointer(moved), *v = N_VGetArrayPointer(s->work[2]);
-  unsigned state = 12345;
-  for (sunindextype j = 0; j < s->space.n; j++) {
-    state = state * 1103515245u + 12345u;
-    const sunrealtype factor = 0.5 + (sunrealtype)(state >> 16 & 1023) / 2048;
-    const bool asked = j >= from && j < to && (row < 0 || !in_pattern(s, row, j));
-    v[j] = asked ? move * factor * fmax(fabs(at[j]), s->scale) : 0;
-    m[j] = at[j] + v[j];
-  }
-  STEIF_TRY(which == 'A' ? evaluate(s, t, moved, yp, d) : evaluate(s, t, y, moved, d));
-  stf_axpy(&s->space, -1, s->work[3], d);
-  return STEIF_OK;
-}
-
-/* Do the columns that the pattern of row i leaves out make the deviation `wrong` of that row? Then halve
- * them down to one of those that do. */
-static int name(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp,
-                sunindextype i, sunrealtype wrong)
-{
-  const sunrealtype *d = N_VGetArrayPointer(s->work[5]), *v = N_VGetArrayPointer(s->work[2]);
-  char row[STEIF_SPEC_WORD], column[STEIF_SPEC_WORD];
-  sunindextype from = 0, to = s->space.n;
-  STEIF_TRY(shove(s, which, t, y, yp, from, to, i));
-  if (!(fabs(d[i]) > wrong / 2)) return STEIF_OK;
-  while (to - from > 1) {
-    const sunindextype middle = from + (to - from) / 2;
-    const sunrealtype whole = d[i];
-    STEIF_TRY(shove(s, which, t, y, yp, from, middle, i));
-    if (fabs(d[i]) >= fabs(whole - d[i]))
-      to = middle;
-    else
-      from = middle;
-    STEIF_TRY(shove(s, which, t, y, yp, from, to, i));
-  }
-  return STEIF_FAIL(
-    s->ctx, STEIF_BAD_INPUT,
-    "the %s of problem '%s' misses the derivative of %s with respect to %s, row %lld, column "
-    "%lld: a probe at t = %g found about %.3g there; add it",
-    s->storage == STEIF_BAND ? "band" : "pattern", s->problem->name,
-    stf_equation(s->problem, i, row), stf_unknown(s->problem, from, column), (long long)i + 1,
-    (long long)from + 1, t, d[i] / v[from]);
-}
-
-/* out = |M| |v|, what the terms of a row may come to. */
-static void sizes(const stf_system *s, SUNMatrix M, const sunrealtype *v, sunrealtype *out)
-{
-  const sunindextype n = s->space.n;
-  for (sunindextype i = 0; i < n; i++) out[i] = 0;
-  for (sunindextype j = 0; j < n && s->storage == STEIF_SPARSE; j++) {
-    const sunindextype *column = SUNSparseMatrix_IndexPointers(M);
-    for (sunindextype k = column[j]; k < column[j + 1]; k++)
-      out[SUNSparseMatrix_IndexValues(M)[k]] += fabs(SUNSparseMatrix_Data(M)[k] * v[j]);
-  }
-  for (sunindextype j = 0; j < n && s->storage == STEIF_BAND; j++) {
-    const sunindextype first = j - s->problem->upper, last = j + s->problem->lower;
-    for (sunindextype i = first < 0 ? 0 : first; i <= (last < n ? last : n - 1); i++)
-      out[i] += fabs(SUNBandMatrix_Column(M, j)[i - j] * v[j]);
-  }
-}
-
-static int probe(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp)
-{
-  STEIF_TRY(evaluate(s, t, y, yp, s->work[3]));
-  STEIF_TRY(shove(s, which, t, y, yp, 0, s->space.n, -1));
-  STEIF_TRY(steif_pencil_product(s->pencil, which, s->work[2], s->work[1]));
-  const sunrealtype *d = N_VGetArrayPointer(s->work[5]), *base = N_VGetArrayPointer(s->work[3]);
-  sunrealtype *wrong = N_VGetArrayPointer(s->work[1]), *size = N_VGetArrayPointer(s->work[0]);
-  const sunrealtype sign = which == 'A' && s->form == STEIF_IMPLICIT ? -1 : 1;
-  sizes(s, which == 'A' ? s->A : s->E, N_VGetArrayPointer(s->work[2]), size);
-  for (sunindextype i = 0; i < s->space.n; i++) {
-    wrong[i] = fabs(d[i] - sign * wrong[i]);
-    if (!(wrong[i] > 1e-3 * fmax(size[i], fabs(d[i])) + 1e3 * STF_EPS * fabs(base[i])))
-      wrong[i] = 0;
-  }
-  int code = STEIF_OK, asked = 0;
-  for (sunindextype i = 0; i < s->space.n && asked < ASKED && !code; i++)
-    if (wrong[i] > 0) asked++, code = name(s, which, t, y, yp, i, wrong[i]);
-  return code;
-}
-
-int stf_probe(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
-{
-  if (!s->groups || !s->groups->differences || s->storage == STEIF_DENSE) return STEIF_OK;
-  int code = probe(s, 'A', t, y, yp);
-  if (!code && s->form == STEIF_IMPLICIT) code = probe(s, 'E', t, y, yp);
-  return code > 0 ? STEIF_OK : code;
 }

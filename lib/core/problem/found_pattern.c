@@ -1,4 +1,5 @@
-/* found_pattern.c: the pattern of a Jacobian, from which values of f or F each unknown moves.
+/* found_pattern.c: the pattern of a Jacobian, from which values of f or F each unknown moves, at several points:
+ * one of them may be a zero of an entry, or lie on one side of a switch.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "problem.h"
 #include <math.h>
@@ -18,7 +19,16 @@ typedef struct search {
   sunindextype *row; /* entries so far, by columns */
   size_t count;
   N_Vector y, yp, base, moved, out;
+  N_Vector y0, yp0; /* the start */
 } search;
+
+/* Points: how far from the start, in parts of each component, and which way at random. */
+static const struct {
+  sunrealtype part;
+  unsigned seed;
+  bool outwards; /* away from 0 */
+} points[] = {{1e-2, 271828, true}, {1e-1, 314159, false}, {0.5, 141421, false}};
+enum { POINTS = sizeof points / sizeof *points };
 
 static int evaluate(const search *s, N_Vector y, N_Vector yp, N_Vector out)
 {
@@ -67,42 +77,65 @@ static int column(search *s, size_t j, size_t from, bool slope)
   return STEIF_OK;
 }
 
-/* Away from zeros and symmetries of the start, or nearer where f has no value. */
-static int leave_start(search *s)
+/* Away from zeros and symmetries of the start, or nearer where f has no value. > 0: it has none. */
+static int leave_start(search *s, int k)
 {
   const sunrealtype scale = s->problem->rtol_scale > 0 ? s->problem->rtol_scale : 1;
+  const sunrealtype *y0 = NV_DATA_S(s->y0), *yp0 = NV_DATA_S(s->yp0);
   sunrealtype *y = NV_DATA_S(s->y), *yp = NV_DATA_S(s->yp);
   int code = STEIF_RETRY;
-  memcpy(NV_DATA_S(s->moved), y, s->n * sizeof *y);
-  for (sunrealtype part = 1e-2; code > 0 && part > 1e-9; part /= 100) {
-    unsigned state = 271828;
+  for (sunrealtype part = points[k].part; code > 0 && part > 1e-9; part /= 100) {
+    unsigned state = points[k].seed;
     for (size_t j = 0; j < s->n; j++) {
       state = state * 1103515245u + 12345u;
-      const sunrealtype at = NV_Ith_S(s->moved, j);
       const sunrealtype by = part * (0.5 + (sunrealtype)(state >> 16 & 1023) / 2048);
-      y[j] = at + (at < 0 ? -by : by) * fmax(fabs(at), scale);
-      yp[j] += s->form == STEIF_IMPLICIT ? by * (fabs(yp[j]) + scale) : 0;
+      const bool down = points[k].outwards ? y0[j] < 0 : (state >> 27 & 1) != 0;
+      y[j] = y0[j] + (down ? -by : by) * fmax(fabs(y0[j]), scale);
+      yp[j] = yp0[j] + (s->form == STEIF_IMPLICIT ? by * (fabs(yp0[j]) + scale) : 0);
     }
     code = evaluate(s, s->y, s->yp, s->base);
     if (!code && stf_not_finite(s->base) >= 0) code = STEIF_RETRY;
   }
-  STEIF_CHECK(code <= 0, s->ctx, STEIF_NOT_FINITE,
-              "'%s' has no finite values near its start, t = %g: give the pattern by hand",
-              s->problem->name, s->problem->t0);
   return code;
+}
+
+/* The columns of all points so far: *start, s->row. Those of one more join them. */
+static int look(search *s, sunindextype *start, const sunindextype *old)
+{
+  s->count = 0;
+  s->room = 8 * s->n + 8 + (old ? (size_t)start[s->n] : 0);
+  s->row = stf_allocate(s->ctx, s->room, sizeof *s->row);
+  if (!s->row) return STEIF_NO_MEMORY;
+  sunindextype first = 0;
+  for (size_t j = 0; j < s->n; j++) {
+    const size_t from = s->count;
+    const sunindextype last = start[j + 1];
+    STEIF_TRY(mark(s, from, (sunindextype)j));
+    for (sunindextype k = first; old && k < last; k++) STEIF_TRY(mark(s, from, old[k]));
+    STEIF_TRY(column(s, j, from, false));
+    if (s->form == STEIF_IMPLICIT) STEIF_TRY(column(s, j, from, true));
+    first = last;
+    start[j] = (sunindextype)from;
+  }
+  start[s->n] = (sunindextype)s->count;
+  return STEIF_OK;
 }
 
 static int fill(search *s, sunindextype *start)
 {
-  STEIF_TRY(leave_start(s));
-  for (size_t j = 0; j < s->n; j++) {
-    const size_t from = s->count;
-    start[j] = (sunindextype)from;
-    STEIF_TRY(mark(s, from, (sunindextype)j));
-    STEIF_TRY(column(s, j, from, false));
-    if (s->form == STEIF_IMPLICIT) STEIF_TRY(column(s, j, from, true));
+  int seen = 0;
+  for (int k = 0; k < POINTS; k++) {
+    int code = leave_start(s, k);
+    if (code < 0) return code;
+    if (code) continue;
+    sunindextype *old = seen++ ? s->row : NULL;
+    code = look(s, start, old);
+    stf_release(s->ctx, old);
+    STEIF_TRY(code);
   }
-  start[s->n] = (sunindextype)s->count;
+  STEIF_CHECK(seen > 0, s->ctx, STEIF_NOT_FINITE,
+              "'%s' has no finite values near its start, t = %g: give the pattern by hand",
+              s->problem->name, s->problem->t0);
   return STEIF_OK;
 }
 
@@ -112,13 +145,13 @@ static int open(search *s, stf_pool *pool)
   bool known;
   N_Vector like = N_VNew_Serial(s->problem->n, steif_sundials(s->ctx));
   STEIF_CHECK(like, s->ctx, STEIF_NO_MEMORY, "no memory for a vector of %zu components", s->n);
-  N_Vector *const claimed[] = {&s->y, &s->yp, &s->base, &s->moved, &s->out};
-  for (int i = 0; i < 5; i++) *claimed[i] = stf_pool_vector(pool, like);
+  N_Vector *const claimed[] = {&s->y, &s->yp, &s->base, &s->moved, &s->out, &s->y0, &s->yp0};
+  for (int i = 0; i < 7; i++) *claimed[i] = stf_pool_vector(pool, like);
   N_VDestroy(like);
-  s->row = stf_allocate(s->ctx, s->room, sizeof *s->row);
-  if (!s->out || !s->y || !s->yp || !s->base || !s->moved || !s->row) return STEIF_NO_MEMORY;
-  stf_space_open(&space, s->y);
-  return stf_system_start(s->ctx, s->problem, s->form, &space, s->y, s->yp, &known);
+  for (int i = 0; i < 7; i++)
+    if (!*claimed[i]) return STEIF_NO_MEMORY;
+  stf_space_open(&space, s->y0);
+  return stf_system_start(s->ctx, s->problem, s->form, &space, s->y0, s->yp0, &known);
 }
 
 int steif_pattern_find(steif_context *ctx, const steif_problem *problem,
@@ -136,7 +169,6 @@ int steif_pattern_find(steif_context *ctx, const steif_problem *problem,
               "problem '%s' of form descriptor has the pattern of its own matrices",
               problem->name);
   search s = {.ctx = ctx, .problem = &bare, .form = form, .n = (size_t)problem->n};
-  s.room = 8 * s.n + 8;
   stf_pool *pool = stf_pool_new(ctx);
   found *f = stf_allocate(ctx, 1, sizeof *f);
   sunindextype *start = stf_allocate(ctx, s.n + 1, sizeof *start);

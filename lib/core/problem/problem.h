@@ -35,6 +35,7 @@ typedef struct stf_system {
   N_Vector at_y, at_yp, at_f; /* point of the last linearisation (operators only) */
   sunrealtype at_t;
   bool filled;
+  bool doubted;       /* Newton's iteration has failed: the next Jacobian is probed */
   sunrealtype weight; /* of g in the residual of the descriptor form, 1 */
   long nfe, nje;
 } stf_system;
@@ -105,8 +106,12 @@ void stf_system_destroy_pencil(void *pencil);
 int stf_groups_open(stf_pool *pool, stf_system *system);
 int stf_differ(stf_system *system, char which, sunrealtype t, N_Vector y, N_Vector yp,
                SUNMatrix M);
-/* One random direction through the filled pencil against differences: a missing entry is
- * named. Two evaluations, and a few for each row that deviates. */
-int stf_probe(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
+/* Are E or A made by differences? */
+bool stf_groups_differ(const stf_system *system);
 
+/* missing_entries.c: one random direction through M, filled by differences, against a difference along it:
+ * entries that a pattern misses join it, *grown tells so, and M is to be filled again; a band that misses one
+ * is STEIF_BAD_INPUT. Two evaluations, and a few for each row that deviates. */
+int stf_probe(stf_system *system, char which, sunrealtype t, N_Vector y, N_Vector yp,
+              SUNMatrix M, bool *grown);
 #endif

@@ -178,15 +178,39 @@ int stf_system_matrices(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
   return STEIF_OK;
 }
 
-/* Derivatives that are 0 at the start are not there later: the 2nd, 4th, 8th ... Jacobian is probed too. */
+static int update(stf_system *s)
+{
+  if (s->near) STEIF_TRY(steif_pencil_update(s->near));
+  return s->pencil ? steif_pencil_update(s->pencil) : STEIF_OK;
+}
+
+/* Entries that the pattern misses are found one or many at a time, until there are no more. */
+static int probe(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  const bool sparse = s->storage == STEIF_SPARSE || s->storage == STEIF_BAND;
+  for (bool grown = sparse && stf_groups_differ(s); grown;) {
+    STEIF_TRY(stf_probe(s, 'A', t, y, yp, s->A, &grown));
+    if (!grown && s->form == STEIF_IMPLICIT)
+      STEIF_TRY(stf_probe(s, 'E', t, y, yp, s->E, &grown));
+    if (!grown) break;
+    STEIF_TRY(stf_system_matrices(s, t, y, yp));
+    STEIF_TRY(update(s));
+  }
+  return STEIF_OK;
+}
+
+/* Derivatives that are 0 at the start are not there later: the 2nd, 4th, 8th ... Jacobian is probed too, and
+ * those that follow a failure of Newton's iteration. */
 int stf_system_linearise(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
 {
   if (s->linear && s->filled) return STEIF_OK;
   STEIF_TRY(stf_system_matrices(s, t, y, yp));
-  if (s->near) STEIF_TRY(steif_pencil_update(s->near));
-  if (!s->pencil) return STEIF_OK;
-  STEIF_TRY(steif_pencil_update(s->pencil));
-  return (s->nje & (s->nje - 1)) == 0 ? stf_probe(s, t, y, yp) : STEIF_OK;
+  STEIF_TRY(update(s));
+  const bool asked = s->doubted || (s->nje & (s->nje - 1)) == 0;
+  s->doubted = false;
+  if (!s->pencil || !asked) return STEIF_OK;
+  const int code = probe(s, t, y, yp);
+  return code > 0 ? STEIF_OK : code;
 }
 
 /* -- opening ------------------------------------------------------------------------------- */
@@ -268,6 +292,7 @@ int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *pro
   if (code) return code > 0 ? STEIF_CALLBACK : code;
   if (!matrices) return STEIF_OK;
   STEIF_TRY(near ? stf_operator_open_near(pool, s) : open_pencil(pool, s));
-  STEIF_TRY(stf_probe(s, problem->t0, y, yp));
+  const int missing = probe(s, problem->t0, y, yp);
+  if (missing < 0) return missing;
   return stf_index_check(s);
 }
