@@ -196,6 +196,20 @@ STEIF_EXPORT int steif_pattern_find(steif_context *ctx, const steif_problem *pro
                                     steif_pattern **pattern);
 STEIF_EXPORT void steif_pattern_free(steif_context *ctx, steif_pattern **pattern);
 
+/* For callbacks that fill E, A or a Jacobian: M in whatever storage it comes, dense, band or sparse (which
+ * is given room). The diagonal d, n entries, NULL: all 1; or entries (row[k], column[k]) in any order, equal
+ * places are summed. 0, which the callback may return, or STEIF_BAD_INPUT: an entry outside of the matrix or
+ * of its band.
+ *
+ *   static int E(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
+ *   {
+ *     return steif_fill_diagonal(M, user);
+ *   }
+ */
+STEIF_EXPORT int steif_fill_diagonal(SUNMatrix M, const sunrealtype *d);
+STEIF_EXPORT int steif_fill_triplets(SUNMatrix M, sunindextype count, const sunindextype *row,
+                                     const sunindextype *column, const sunrealtype *value);
+
 #ifdef __cplusplus
 }
 #endif

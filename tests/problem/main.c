@@ -2,10 +2,11 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_form[], tests_of_system[], tests_of_differ[], tests_of_pattern[],
-  tests_of_operator[], tests_of_start[];
+extern CU_TestInfo tests_of_form[], tests_of_system[], tests_of_differ[], tests_of_fill[],
+  tests_of_pattern[], tests_of_operator[], tests_of_start[];
 
-SUITE_MAIN({.pName = "form", .pTests = tests_of_form},
+SUITE_MAIN({.pName = "fill", .pTests = tests_of_fill},
+           {.pName = "form", .pTests = tests_of_form},
            {.pName = "system", .pTests = tests_of_system},
            {.pName = "differences", .pTests = tests_of_differ},
            {.pName = "patterns", .pTests = tests_of_pattern},
