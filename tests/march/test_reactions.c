@@ -129,6 +129,30 @@ static void bounces_without_end_are_said(void)
   steif_context_free(&ctx);
 }
 
+/* Bounces too low to be seen by steps within the tolerance are no way through the floor: every method stops near
+ * the time (1 + e)/(1 - e) sqrt(2/g) at which they are over, and says why. */
+static void nothing_falls_through_the_floor(void)
+{
+  static const char *const methods[] = {"radau:s=3", "bdf", "rodas4", "cvode", "ida", "arkode"};
+  for (int m = 0; m < 6; m++)
+    for (double rtol = 1e-3; rtol > 0.9e-9; rtol *= 1e-2) {
+      steif_context *ctx = steif_context_new(NULL);
+      steif_problem p;
+      CU_ASSERT_FATAL(!steif_problem_find(ctx, "bounce", &p));
+      steif_options o = steif_defaults();
+      o.rtol = rtol, o.t1 = 5;
+      steif_solver *s = steif_solver_new(ctx, &p, methods[m], &o);
+      CU_ASSERT_FATAL(s != NULL);
+      CHECK(steif_solve_to(s, 5) == STEIF_STEP_SIZE);
+      CHECK(strstr(steif_message(ctx), "'ground'") && strstr(steif_message(ctx), "crowd"));
+      CHECK(steif_time(s) > 3.5 && steif_time(s) < 4.0638);
+      CHECK(NV_Ith_S(steif_solution(s), 0) > -1e-3);
+      steif_solver_free(&s);
+      steif_problem_clear(ctx, &p);
+      steif_context_free(&ctx);
+    }
+}
+
 static int wild(sunrealtype t, N_Vector y, const int *fired, void *user)
 {
   (void)t, (void)fired;
@@ -292,6 +316,7 @@ CU_TestInfo tests_of_reactions[] = {
   {"a reaction may end the run", a_reaction_may_end_the_run},
   {"sliding along a surface is said", sliding_is_said},
   {"bounces without end are said", bounces_without_end_are_said},
+  {"nothing falls through the floor", nothing_falls_through_the_floor},
   {"wrong reactions are refused", wrong_reactions_are_refused},
   {"multistep methods begin anew on their grid", multistep_methods_begin_anew_on_their_grid},
   {"algebraic components are settled", algebraic_components_are_settled},

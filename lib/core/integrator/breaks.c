@@ -95,6 +95,7 @@ int stf_advance(steif_solver *s, sunrealtype t_stop)
     step->count, step->t, s->problem->name);
   if (step->restart) STEIF_TRY(restart(s));
   if (s->switching) STEIF_TRY(stf_switching_look(s));
+  if (step->adaptive && step->count >= s->pace.steps) STEIF_TRY(stf_corner_check(s));
   const int code = step->adaptive ? step_to_break(s, t_stop) : stf_fixed_step(s);
   if (code && s->switching) stf_switching_stay(s);
   return code || !s->rounding ? code : stf_rounding_step(s);

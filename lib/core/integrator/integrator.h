@@ -20,6 +20,12 @@ typedef struct stf_constant {
 int stf_constant_steps(steif_context *ctx, sunrealtype h, sunrealtype t0, sunrealtype t1,
                        stf_constant *constant);
 
+/* Where the last look at the pace of a run was taken. */
+typedef struct stf_pace {
+  long steps, rejected; /* steps: of the next look */
+  sunrealtype t;
+} stf_pace;
+
 struct steif_solver {
   steif_context *ctx;
   stf_pool *pool;
@@ -62,6 +68,7 @@ struct steif_solver {
   int next_break;
   sunrealtype h_next, h_old, h_tried, error_old; /* chosen steps */
   bool after_reject, failed;
+  stf_pace pace;
   int constraint_moves;   /* steps in a row that a constraint has moved */
   stf_rounding *rounding; /* of runs near it; NULL: not followed */
   sunrealtype rounded;    /* in tolerances */
@@ -82,6 +89,9 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
 int stf_advance(steif_solver *s, sunrealtype t_stop);
 int stf_adaptive_step(steif_solver *s, sunrealtype t_stop);
 int stf_fixed_step(steif_solver *s);
+/* sliding.c, when step.count has come to pace.steps: STEIF_STEP_SIZE where most steps are rejected, the run would
+ * not end within max_steps, and a corner of f or F lies within the tolerance. */
+int stf_corner_check(steif_solver *s);
 
 /* All that depends on the start, which is in s->step.y: opened after the system of equations, and again by
  * a restart. */

@@ -45,12 +45,13 @@ int stf_event_open(steif_solver *s)
   w->after = stf_pool_vector(s->pool, s->shown);
   if (s->options.reinitialise) w->slope = stf_pool_vector(s->pool, s->shown);
   w->low = stf_pool_array(s->pool, m * (5 + STF_NODES + STF_FINE + 1), sizeof *w->low);
-  w->sign = stf_pool_array(s->pool, 2 * m, sizeof *w->sign);
+  w->sign = stf_pool_array(s->pool, 3 * m, sizeof *w->sign);
   if (!w->y || !w->after || (s->options.reinitialise && !w->slope) || !w->low || !w->sign)
     return STEIF_NO_MEMORY;
   w->high = w->low + m, w->mid = w->high + m, w->next = w->mid + m, w->noise = w->next + m;
   w->node = w->noise + m, w->fine = w->node + m * STF_NODES;
   w->fired = w->sign + m;
+  w->leaves = w->sign + 2 * m;
   s->events = w;
   return STEIF_OK;
 }
@@ -157,10 +158,52 @@ static int locate(steif_solver *s, sunrealtype *to)
   }
 }
 
+/* A function that was put at zero by a reaction, that y' takes to one side and that is seen on the other at t has
+ * been on both since w->t, and comes back through an event. Steps that do not show the first side are longer than
+ * the way there and back, within their tolerance: bounces below it. */
+static int find_side(steif_solver *s, int i, sunrealtype t)
+{
+  stf_detector *w = s->events;
+  const sunrealtype least = stf_event_tolerance(s, t);
+  for (sunrealtype x = (t - w->t) / 2; x > least && w->sign[i] == 0; x /= 2) {
+    STEIF_TRY(stf_event_value(s, w->t + x, w->mid));
+    if (side(w->mid[i]) == w->leaves[i]) w->sign[i] = w->leaves[i];
+  }
+  return w->sign[i] != 0 ? STEIF_OK : stf_event_below(s, i, w->t, t - w->t);
+}
+
+int stf_event_below(steif_solver *s, int i, sunrealtype t, sunrealtype h)
+{
+  stf_detector *w = s->events;
+  stf_event_name(s->problem, i, sizeof w->name, w->name);
+  return STEIF_FAIL(s->ctx, STEIF_STEP_SIZE,
+                    "events %s of problem '%s' crowd together at t = %.12g: after the last one "
+                    "the function comes back "
+                    "to zero within a step of %.3g, and its way lies below the tolerance: the "
+                    "model bounces without "
+                    "end, or its bounces are too low to be seen; give it a rule for that (rest "
+                    "below a small speed), "
+                    "lower the tolerance, or end the run there",
+                    w->name, s->problem->name, t, h);
+}
+
+static int find_sides(steif_solver *s, sunrealtype t)
+{
+  stf_detector *w = s->events;
+  for (int i = 0; i < w->count; i++) {
+    if (w->sign[i] != 0 || w->leaves[i] == 0 || !(fabs(w->high[i]) > w->noise[i])) continue;
+    const int asked = s->problem->event_list ? s->problem->event_list[i].direction : 0;
+    const bool event = asked == 0 || asked == -w->leaves[i];
+    if (event && side(w->high[i]) == -w->leaves[i]) STEIF_TRY(find_side(s, i, t));
+  }
+  return STEIF_OK;
+}
+
 /* Go on to t, where g is in `high`; all changes on the way are events. */
 static int walk(steif_solver *s, sunrealtype t)
 {
   stf_detector *w = s->events;
+  STEIF_TRY(find_sides(s, t));
   while (any_crosses(s, w->high)) {
     sunrealtype at = t;
     memcpy(w->next, w->high, bytes(w));

@@ -23,6 +23,8 @@ typedef struct stf_detector {
   sunrealtype *noise; /* |g| that cannot be told from zero behind an event */
   int *sign;          /* side of each function at t: 1, -1; 0: at zero, side unknown */
   int *fired;
+  int *leaves;      /* the side to which y' takes a function that is at zero when a step begins;
+                        0: not known, or not at zero */
   bool started;     /* g was seen at the start */
   bool cut;         /* the step ends at the event, the next one begins anew from `after` */
   bool settled;     /* options.reinitialise has found the slope */
@@ -51,6 +53,8 @@ int stf_event_ask(steif_solver *s, sunrealtype t, N_Vector y, sunrealtype *g);
 void stf_event_name(const steif_problem *p, int i, size_t room, char *name);
 /* Resolution of time near t. */
 sunrealtype stf_event_tolerance(const steif_solver *s, sunrealtype t);
+/* The sentence for function i that comes back to zero within a step of h after an event at t. */
+int stf_event_below(steif_solver *s, int i, sunrealtype t, sunrealtype h);
 /* Does function i leave its side for g in the direction asked for? */
 bool stf_event_crosses(const steif_solver *s, int i, sunrealtype g);
 

@@ -7,6 +7,8 @@
 
 enum { GATHER = 10 }; /* restarts within `close` of each other in a row before the run stops */
 static const sunrealtype close = 1e-9;
+/* Part of the interval in which an event against y' is one of a crowd, and no grazing. */
+static const sunrealtype near = 1e-3;
 
 /* The first of those that fire, "'ground'" or "'ground' and others". */
 static void name_fired(steif_solver *s)
@@ -104,6 +106,37 @@ static int react(steif_solver *s, sunrealtype t)
   return w->cut ? check_gathering(s, t) : STEIF_OK;
 }
 
+/* y' at (t, y), where it is known, else false. */
+static bool slopes(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  const stf_run *run = &s->run;
+  const bool ode = (s->engine ? run->form : s->step.system.form) == STEIF_ODE;
+  if (ode && s->engine) return s->problem->f(t, y, yp, s->problem->user) == 0;
+  if (ode) return stf_system_rhs(&s->step.system, t, y, yp) == 0;
+  if (t != s->end || (!s->engine && !s->step.yp_known)) return false;
+  N_VScale(1, s->engine ? run->yp : s->step.yp, yp);
+  return true;
+}
+
+/* An event in the same step as the one before, or soon after it. Where y' takes a function that fires back to
+ * the side it comes from, the step does not show the way of the solution. */
+static int check_way(steif_solver *s, sunrealtype t)
+{
+  stf_detector *w = s->events;
+  const sunrealtype ahead = close * (s->t1 - s->problem->t0);
+  bool again = false;
+  for (int i = 0; i < w->count; i++)
+    again = again ||
+            (w->fired[i] && (w->leaves[i] || t - w->last <= near * (s->t1 - s->problem->t0)));
+  if (!again || !slopes(s, t, w->after, w->y)) return STEIF_OK;
+  STEIF_TRY(stf_event_ask(s, t, w->after, w->low));
+  N_VLinearSum(1, w->after, ahead, w->y, w->y);
+  STEIF_TRY(stf_event_ask(s, t, w->y, w->mid));
+  for (int i = 0; i < w->count; i++)
+    if (w->fired[i] * (w->mid[i] - w->low[i]) < 0) return stf_event_below(s, i, t, t - w->last);
+  return STEIF_OK;
+}
+
 int stf_event_fire(steif_solver *s, sunrealtype t, sunrealtype to)
 {
   stf_detector *w = s->events;
@@ -118,7 +151,9 @@ int stf_event_fire(steif_solver *s, sunrealtype t, sunrealtype to)
     cut(s, t);
     return STEIF_OK;
   }
-  return s->problem->handle_event ? react(s, t) : STEIF_OK;
+  if (!s->problem->handle_event) return STEIF_OK;
+  STEIF_TRY(check_way(s, t));
+  return react(s, t);
 }
 
 bool stf_event_holds(const steif_solver *s) { return s->events->cut || s->finished; }
@@ -150,32 +185,23 @@ static int renew_step(steif_solver *s)
   return STEIF_OK;
 }
 
-/* y' at s->end where it is known, else false. */
-static bool slopes(steif_solver *s, N_Vector y, N_Vector yp)
-{
-  const stf_run *run = &s->run;
-  const bool ode = (s->engine ? run->form : s->step.system.form) == STEIF_ODE;
-  if (ode && s->engine) return s->problem->f(s->end, y, yp, s->problem->user) == 0;
-  if (ode) return stf_system_rhs(&s->step.system, s->end, y, yp) == 0;
-  if (!s->engine && !s->step.yp_known) return false;
-  N_VScale(1, s->engine ? run->yp : s->step.yp, yp);
-  return true;
-}
-
 /* A function at zero: its side a little later along y'. Dense output would not do: errors within the
  * tolerance may give the beginning of a step the wrong slope. */
 static int look_ahead(steif_solver *s, N_Vector y)
 {
   stf_detector *w = s->events;
   bool known = true;
+  memset(w->leaves, 0, (size_t)w->count * sizeof *w->leaves);
   for (int i = 0; i < w->count; i++) known = known && w->sign[i] != 0;
-  if (known || !slopes(s, y, w->y)) return STEIF_OK;
+  if (known || !slopes(s, s->end, y, w->y)) return STEIF_OK;
   const sunrealtype ahead = close * (s->t1 - s->problem->t0);
   N_VLinearSum(1, y, ahead, w->y, w->y);
   STEIF_TRY(stf_event_ask(s, s->end + ahead, w->y, w->mid));
-  for (int i = 0; i < w->count; i++)
-    if (w->sign[i] == 0 && fabs(w->mid[i]) > w->noise[i])
-      w->sign[i] = (w->mid[i] > 0) - (w->mid[i] < 0);
+  for (int i = 0; i < w->count; i++) {
+    const int there = (w->mid[i] > 0) - (w->mid[i] < 0);
+    if (w->sign[i] == 0 && w->low[i] == 0) w->leaves[i] = there;
+    if (w->sign[i] == 0 && fabs(w->mid[i]) > w->noise[i]) w->sign[i] = there;
+  }
   return STEIF_OK;
 }
 
@@ -199,6 +225,8 @@ static int start_watch(steif_solver *s)
 int stf_event_begin(steif_solver *s)
 {
   stf_detector *w = s->events;
+  for (int i = 0; i < w->count; i++)
+    if (w->sign[i] != 0) w->leaves[i] = 0;
   if (w->started && !w->cut) return STEIF_OK;
   if (w->cut) STEIF_TRY(s->engine ? renew_engine(s) : renew_step(s));
   w->cut = false;
