@@ -27,6 +27,7 @@ extern "C" {
 #endif
 
 typedef struct steif_problem steif_problem;
+typedef struct steif_parameters steif_parameters; /* parameters.h */
 
 typedef int (*steif_rhs)(sunrealtype t, N_Vector y, N_Vector ydot, void *user);
 typedef int (*steif_residual)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user);
@@ -182,6 +183,7 @@ struct steif_problem {
    * that build does not touch keep the values of the shelf entry. */
   int (*build)(steif_context *ctx, const steif_spec *spec, steif_problem *self);
   void (*destroy)(steif_context *ctx, steif_problem *self);
+  const steif_parameters *parameters; /* numbers that it depends on; NULL: none */
 };
 
 /* The form, or 0 with the message set: complete, consistent, finite start values. */

@@ -11,6 +11,7 @@
 #include <steif/initial.h>
 #include <steif/layout.h>
 #include <steif/method.h>
+#include <steif/parameters.h>
 #include <steif/pencil.h>
 #include <steif/phi.h>
 #include <steif/record.h>

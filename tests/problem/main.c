@@ -3,7 +3,7 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_form[], tests_of_system[], tests_of_differ[], tests_of_fill[],
-  tests_of_pattern[], tests_of_operator[], tests_of_start[];
+  tests_of_pattern[], tests_of_operator[], tests_of_start[], tests_of_parameters[];
 
 SUITE_MAIN({.pName = "fill", .pTests = tests_of_fill},
            {.pName = "form", .pTests = tests_of_form},
@@ -11,4 +11,5 @@ SUITE_MAIN({.pName = "fill", .pTests = tests_of_fill},
            {.pName = "differences", .pTests = tests_of_differ},
            {.pName = "patterns", .pTests = tests_of_pattern},
            {.pName = "operators", .pTests = tests_of_operator},
-           {.pName = "start", .pTests = tests_of_start})
+           {.pName = "start", .pTests = tests_of_start},
+           {.pName = "parameters", .pTests = tests_of_parameters})

@@ -112,7 +112,7 @@ static int32_t of_two(stf_graph *g, const stf_node *n, int32_t self, int32_t w, 
   }
 }
 
-static int32_t of_node(stf_graph *g, int32_t self, int32_t w, int operand)
+int32_t stf_partial_times(stf_graph *g, int32_t self, int32_t w, int operand)
 {
   const stf_node n = *stf_node_at(g, self);
   const int count = stf_operands(n.kind);
@@ -141,7 +141,7 @@ static int push_back(stf_graph *g, int32_t node, int wanted, stf_sweep *s)
   const int32_t w = *adjoint(s, node) - 1;
   for (int k = 0; k < count; k++) {
     if (!(stf_node_at(g, child[k])->on & wanted)) continue;
-    const int32_t part = of_node(g, node, w, k);
+    const int32_t part = stf_partial_times(g, node, w, k);
     if (part < 0) return STEIF_NO_MEMORY;
     int32_t *to = adjoint(s, child[k]);
     const int32_t sum = *to ? ADD(*to - 1, part) : part;

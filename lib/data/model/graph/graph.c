@@ -81,6 +81,8 @@ int32_t stf_leaf(stf_graph *g, int kind, int32_t a, const int32_t stride[STF_LOO
   static const uint8_t on[] = {
     [STF_OP_TIME] = STF_ON_TIME,     [STF_OP_PARAMETER] = STF_ON_PARAMETER,
     [STF_OP_STATE] = STF_ON_STATE,   [STF_OP_SLOPE] = STF_ON_SLOPE,
+    [STF_OP_ALONG] = STF_ON_STATE,   [STF_OP_ALONG_SLOPE] = STF_ON_STATE,
+    [STF_OP_WEIGHT] = STF_ON_STATE,  [STF_OP_ALONG_PARAMETER] = STF_ON_STATE,
     [STF_OP_MEMORY] = STF_ON_MEMORY, [STF_OP_COUNTER] = STF_ON_PASS};
   stf_node n = {.kind = (uint8_t)kind, .on = on[kind], .a = a};
   if (stride) {

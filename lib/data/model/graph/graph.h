@@ -83,6 +83,8 @@ typedef struct stf_sweep {
 int stf_graph_differentiate(stf_graph *g, int32_t root, int kind, stf_sweep *sweep,
                             stf_vector *partials);
 void stf_sweep_free(steif_context *ctx, stf_sweep *sweep);
+/* The derivative of node `self` by its operand of the given number, times w. */
+int32_t stf_partial_times(stf_graph *g, int32_t self, int32_t w, int operand);
 /* `root` with all leaves of `kind` put to 0. */
 int32_t stf_without(stf_graph *g, int32_t root, int kind, stf_sweep *sweep);
 

@@ -57,6 +57,7 @@ typedef struct stf_lookup stf_lookup;
 typedef struct stf_feed {
   double t;
   const double *y, *yp, *p, *memory;
+  const double *along[4]; /* direction of y, y', p; weights of rows */
   const stf_lookup *lookups;
 } stf_feed;
 

@@ -63,6 +63,7 @@ static void run_lane(const stf_step_code *s, const double *const *at, double *la
 
 static const double *array_of(const stf_feed *f, int kind)
 {
+  if (kind >= STF_OP_ALONG && kind <= STF_OP_WEIGHT) return f->along[kind - STF_OP_ALONG];
   return kind == STF_OP_STATE    ? f->y
          : kind == STF_OP_SLOPE  ? f->yp
          : kind == STF_OP_MEMORY ? f->memory
