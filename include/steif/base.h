@@ -85,12 +85,17 @@ STEIF_EXPORT const char *steif_version(void);
 /* A spec is a name with parameters: "radau:s=5", "heat:n=400", "dirk:alexander2" (a bare word
  * is the parameter with the empty key), "bdf:p=3,start=cq". Letters, digits and . - + _ only;
  * in values also / for paths. */
-enum { STEIF_SPEC_PARAMS = 8, STEIF_SPEC_WORD = 48, STEIF_SPEC_VALUE = 200 };
+enum {
+  STEIF_SPEC_PARAMS = 64,
+  STEIF_SPEC_WORD = 48,
+  STEIF_SPEC_KEY = 104,
+  STEIF_SPEC_VALUE = 400
+};
 typedef struct steif_spec {
   char name[STEIF_SPEC_WORD];
   int count;
   struct {
-    char key[STEIF_SPEC_WORD], value[STEIF_SPEC_VALUE];
+    char key[STEIF_SPEC_KEY], value[STEIF_SPEC_VALUE];
   } param[STEIF_SPEC_PARAMS];
 } steif_spec;
 

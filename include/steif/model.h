@@ -18,7 +18,7 @@
 #ifndef STEIF_MODEL_H
 #define STEIF_MODEL_H
 
-#include <steif/problem.h>
+#include <steif/parameters.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -33,6 +33,19 @@ STEIF_EXPORT int steif_model_parse(steif_context *ctx, const char *text, const c
  * Solvers made of the problem before must be freed first. On failure the problem is as it was. */
 STEIF_EXPORT int steif_model_set(steif_context *ctx, steif_problem *problem, const char *name,
                                  sunrealtype value);
+
+/* Exact products with the derivatives of the residual F(t, y, y'; p) of the problem's form (parameters.h),
+ * at a few times the cost of F; the parameters are those of problem.parameters. The first call makes
+ * what is evaluated. STEIF_RETRY: not finite.
+ *
+ * out = F_y v + F_y' vp + F_p q; NULL: 0. J v of y' = f is -out with vp = q = NULL. */
+STEIF_EXPORT int steif_model_tangent(steif_context *ctx, const steif_problem *problem,
+                                     sunrealtype t, N_Vector y, N_Vector yp, N_Vector v,
+                                     N_Vector vp, const sunrealtype *q, N_Vector out);
+/* by_y = F_y^T w, by_yp = F_y'^T w, by_p[k] = w . F_p_k; NULL: not wanted. */
+STEIF_EXPORT int steif_model_adjoint(steif_context *ctx, const steif_problem *problem,
+                                     sunrealtype t, N_Vector y, N_Vector yp, N_Vector w,
+                                     N_Vector by_y, N_Vector by_yp, sunrealtype *by_p);
 
 typedef struct steif_model_facts {
   int form;                           /* enum steif_form */

@@ -61,10 +61,15 @@ static void words_and_parameters_have_limits(void)
   CHECK(steif_spec_parse(ctx, text, &s) == STEIF_BAD_INPUT);
   text[STEIF_SPEC_WORD] = 'w', text[sizeof text - 1] = 0;
   CHECK(steif_spec_parse(ctx, text, &s) == STEIF_BAD_INPUT);
-  CHECK(steif_spec_parse(ctx, "m:a=1,b=2,c=3,d=4,e=5,f=6,g=7,h=8", &s) == STEIF_OK);
-  CHECK(s.count == STEIF_SPEC_PARAMS);
-  CHECK(steif_spec_parse(ctx, "m:a=1,b=2,c=3,d=4,e=5,f=6,g=7,h=8,i=9", &s) == STEIF_BAD_INPUT);
-  CHECK(strstr(steif_message(ctx), "at most 8 parameters"));
+  char many[16 * (STEIF_SPEC_PARAMS + 2)] = "m";
+  for (int i = 0; i < STEIF_SPEC_PARAMS; i++)
+    snprintf(many + strlen(many), 16, "%cp%d=%d", i ? ',' : ':', i, 3 * i);
+  CHECK(steif_spec_parse(ctx, many, &s) == STEIF_OK);
+  CHECK(s.count == STEIF_SPEC_PARAMS && !strcmp(s.param[63].key, "p63"));
+  CHECK(!strcmp(s.param[63].value, "189"));
+  strcat(many, ",more=1");
+  CHECK(steif_spec_parse(ctx, many, &s) == STEIF_BAD_INPUT);
+  CHECK(strstr(steif_message(ctx), "at most 64 parameters"));
   steif_context_free(&ctx);
 }
 

@@ -25,7 +25,7 @@ static bool parameter(const char **at, steif_spec *spec)
 {
   if (spec->count == STEIF_SPEC_PARAMS) return false;
   char *key = spec->param[spec->count].key, *value = spec->param[spec->count].value;
-  if (!word(at, key, STEIF_SPEC_WORD, 0)) return false;
+  if (!word(at, key, STEIF_SPEC_KEY, 0)) return false;
   if (**at == '=') {
     ++*at;
     if (!word(at, value, STEIF_SPEC_VALUE, '/')) return false;
@@ -42,7 +42,8 @@ static bool parameter(const char **at, steif_spec *spec)
 int steif_spec_parse(steif_context *ctx, const char *text, steif_spec *spec)
 {
   STEIF_CHECK(spec && text, ctx, STEIF_BAD_INPUT, "a spec and a text are needed, got NULL");
-  memset(spec, 0, sizeof *spec);
+  spec->count = 0;
+  *spec->name = 0;
   const char *at = text;
   bool good = word(&at, spec->name, STEIF_SPEC_WORD, 0);
   for (char mark = ':'; good && *at; mark = ',')

@@ -1,6 +1,7 @@
 /* model_file.c: from a text to a model that can be solved, and back.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "model_file.h"
+#include "products.h"
 #include "reactions.h"
 #include "text.h"
 #include <steif/model.h>
@@ -83,7 +84,7 @@ static int lower(stf_model *m, const steif_spec *spec)
   return stf_build_tapes(m);
 }
 
-static void quantity_free(const stf_model *m, stf_quantity *q)
+void stf_quantity_free(const stf_model *m, stf_quantity *q)
 {
   for (size_t i = 0; i < q->tapes.count; i++)
     stf_tape_free(m->ctx, STF_AT(q->tapes, stf_tape, i));
@@ -117,18 +118,20 @@ void stf_model_free(stf_model *m)
                        &m->symbol_of,
                        &m->names,
                        &m->partials,
+                       &m->settings,
                        &m->breaks};
   blocks_free(m);
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) stf_vector_free(ctx, all[i]);
   stf_words_close(&m->syntax.words);
-  if (m->reactions) quantity_free(m, &m->reactions->conditions);
+  if (m->reactions) stf_quantity_free(m, &m->reactions->conditions);
   stf_reactions_free(m);
-  quantity_free(m, &m->events);
-  quantity_free(m, &m->invariants);
-  quantity_free(m, &m->outputs);
-  quantity_free(m, &m->f);
-  quantity_free(m, &m->A.quantity);
-  quantity_free(m, &m->E.quantity);
+  stf_quantity_free(m, &m->events);
+  stf_quantity_free(m, &m->invariants);
+  stf_quantity_free(m, &m->outputs);
+  stf_quantity_free(m, &m->f);
+  stf_quantity_free(m, &m->A.quantity);
+  stf_quantity_free(m, &m->E.quantity);
+  stf_products_free(m);
   stf_sweep_free(ctx, &m->sweep);
   stf_pool_free(&pool);
 }
@@ -160,8 +163,24 @@ static int build(stf_model *m, const char *path, const char *text, const steif_s
   return stf_model_fill(m, p);
 }
 
+/* Values of another model of the text, and one more. */
+typedef struct change {
+  const stf_vector *settings;
+  const char *name;
+  double value;
+} change;
+
+static int take_settings(stf_model *m, const change *with)
+{
+  for (size_t i = 0; i < with->settings->count; i++) {
+    const stf_setting *s = STF_AT(*with->settings, stf_setting, i);
+    STEIF_TRY(stf_setting_add(m->ctx, &m->settings, s->name, s->value));
+  }
+  return stf_setting_add(m->ctx, &m->settings, with->name, with->value);
+}
+
 static int open_model(steif_context *ctx, const char *path, const char *text,
-                      const steif_spec *spec, steif_problem *p)
+                      const steif_spec *spec, const change *with, steif_problem *p)
 {
   stf_model *m = NULL;
   stf_plain plain;
@@ -169,8 +188,8 @@ static int open_model(steif_context *ctx, const char *path, const char *text,
   p->user = m;
   if (!code) code = stf_plain_begin(ctx, &plain);
   if (code) return code;
-  if (spec) m->spec = *spec;
-  code = build(m, path, text, spec, p);
+  if (with) code = take_settings(m, with);
+  if (!code) code = build(m, path, text, spec, p);
   if (code && code != STEIF_NO_MEMORY && m->syntax.sources.errors)
     code = stf_complaints(&m->syntax.sources);
   stf_plain_end(&plain);
@@ -180,7 +199,7 @@ static int open_model(steif_context *ctx, const char *path, const char *text,
 int stf_model_open(steif_context *ctx, const char *path, const steif_spec *spec,
                    steif_problem *p)
 {
-  return open_model(ctx, path, NULL, spec, p);
+  return open_model(ctx, path, NULL, spec, NULL, p);
 }
 
 void stf_model_close(steif_context *ctx, steif_problem *p)
@@ -208,7 +227,7 @@ int steif_model_parse(steif_context *ctx, const char *text, const char *name,
   if (!copy) return STEIF_NO_MEMORY;
   *p =
     (steif_problem){.name = strcpy(copy, name), .build = no_build, .destroy = stf_model_close};
-  const int code = open_model(ctx, copy, text, parameters, p);
+  const int code = open_model(ctx, copy, text, parameters, NULL, p);
   if (!code) return STEIF_OK;
   stf_model_close(ctx, p);
   stf_release(ctx, copy);
@@ -216,35 +235,28 @@ int steif_model_parse(steif_context *ctx, const char *text, const char *name,
   return code;
 }
 
-/* The value among those that are given. */
-static int give(steif_context *ctx, steif_spec *spec, const char *name, sunrealtype value)
+int stf_model_moved(const stf_model *m, const char *name, double value, steif_problem *p)
 {
-  int i = 0;
-  while (i < spec->count && strcmp(spec->param[i].key, name)) i++;
-  STEIF_CHECK(
-    i < STEIF_SPEC_PARAMS && strlen(name) < STEIF_SPEC_WORD, ctx, STEIF_UNSUPPORTED,
-    "more than %d parameters that differ from the text, or a name too long; change the text",
-    STEIF_SPEC_PARAMS);
-  if (i == spec->count) strcpy(spec->param[spec->count++].key, name);
-  snprintf(spec->param[i].value, sizeof spec->param[i].value, "%.17g", value);
-  return STEIF_OK;
+  const stf_text *text = STF_AT(m->syntax.sources.texts, stf_text, 0);
+  *p = (steif_problem){.name = text->name, .destroy = stf_model_close};
+  STEIF_CHECK(strlen(name) <= STF_NAME_BYTES, m->ctx, STEIF_UNKNOWN_NAME,
+              "%s has no parameter '%.40s...'; names have at most %d characters", text->name,
+              name, STF_NAME_BYTES);
+  const change with = {&m->settings, name, value};
+  const int code = open_model(m->ctx, text->name, text->text, NULL, &with, p);
+  if (code) stf_model_close(m->ctx, p);
+  return code;
 }
 
 int steif_model_set(steif_context *ctx, steif_problem *p, const char *name, sunrealtype value)
 {
   STEIF_CHECK(p && name && p->destroy == stf_model_close, ctx, STEIF_BAD_INPUT,
               "a problem made from a text and the name of a parameter are needed");
-  const stf_model *m = p->user;
-  steif_problem next = {.name = p->name, .build = p->build, .destroy = p->destroy};
-  steif_spec spec = m->spec;
-  STEIF_TRY(give(ctx, &spec, name, value));
-  const int code =
-    open_model(ctx, p->name, STF_AT(m->syntax.sources.texts, stf_text, 0)->text, &spec, &next);
-  if (code)
-    stf_model_close(ctx, &next);
-  else {
-    stf_model_close(ctx, p);
-    *p = next;
-  }
-  return code;
+  steif_problem next;
+  STEIF_TRY(stf_model_moved(p->user, name, value, &next));
+  next.name = p->name;
+  next.build = p->build;
+  stf_model_close(ctx, p);
+  *p = next;
+  return STEIF_OK;
 }

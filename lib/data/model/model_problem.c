@@ -1,5 +1,6 @@
 /* model_problem.c: a model as a steif_problem: its callbacks and its members.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "products.h"
 #include "reactions.h"
 #include "series.h"
 #include <math.h>
@@ -29,7 +30,7 @@ static bool finite(sunindextype count, const double *f)
 /* A frozen branch is evaluated a little beyond its border, where it may have no
  * value: then relations are taken as they are at this point. The step ends at
  * the event, so that this does no harm. */
-static void take_literally(const stf_model *m, stf_feed *feed)
+void stf_take_literally(const stf_model *m, stf_feed *feed)
 {
   memcpy(m->memory_literal, m->memory, (size_t)m->memories * sizeof *m->memory);
   stf_literal_switches(m, feed->t, feed->y, m->memory_literal);
@@ -39,7 +40,7 @@ static void take_literally(const stf_model *m, stf_feed *feed)
 static bool retried(const stf_model *m, stf_feed *feed, double *to)
 {
   if (!m->switches || !feed->y) return false;
-  take_literally(m, feed);
+  stf_take_literally(m, feed);
   memset(to, 0, (size_t)m->n * sizeof *to);
   stf_quantity_run(m, &m->f, feed, to);
   return finite(m->n, to);
@@ -84,7 +85,7 @@ static void entries(const stf_model *m, const stf_matrix *M, stf_feed *feed, dou
   memset(to, 0, bytes);
   stf_quantity_run(m, &M->quantity, feed, to);
   if (!m->switches || !feed->y || finite(M->entries, to)) return;
-  take_literally(m, feed);
+  stf_take_literally(m, feed);
   memset(to, 0, bytes);
   stf_quantity_run(m, &M->quantity, feed, to);
 }
@@ -274,6 +275,8 @@ int stf_model_fill(stf_model *m, steif_problem *p)
   events(m, p);
   STEIF_TRY(sizes(m, p));
   STEIF_TRY(stf_finish(m, p));
+  STEIF_TRY(stf_products_open(m));
+  STEIF_TRY(stf_parameter_members(m, p));
   STEIF_TRY(stf_reactions_begin(m->t0, m));
   STEIF_TRY(stf_consistent_start(m, p));
   STEIF_TRY(stf_reactions_begin(m->t0, m));

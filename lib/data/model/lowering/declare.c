@@ -2,6 +2,7 @@
  * parameters, sizes of arrays. SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -107,15 +108,37 @@ static int unknown_parameter(stf_model *m, const char *key)
                     all);
 }
 
-static int give(stf_model *m, const char *key, const char *value)
+int stf_setting_add(steif_context *ctx, stf_vector *settings, const char *name, double value)
 {
-  const int word = stf_word_known(&m->syntax.words, key, strlen(key));
-  stf_symbol *s = word < 0 ? NULL : stf_symbol_of(m, word);
-  if (!s || s->kind != STF_IS_PARAMETER) return unknown_parameter(m, key);
+  size_t i = 0;
+  while (i < settings->count && strcmp(STF_AT(*settings, stf_setting, i)->name, name)) i++;
+  stf_setting *s = i < settings->count ? STF_AT(*settings, stf_setting, i)
+                                       : stf_vector_push(ctx, settings, sizeof *s);
+  if (!s) return STEIF_NO_MEMORY;
+  snprintf(s->name, sizeof s->name, "%s", name);
+  s->value = value;
+  return STEIF_OK;
+}
+
+/* A parameter of a spec: the name is there, the value a number. */
+static int read_setting(stf_model *m, const char *key, const char *text)
+{
+  if (!*key) return unknown_parameter(m, text);
   char *end;
-  s->value = strtod(value, &end);
-  STEIF_CHECK(*value && !*end && isfinite(s->value), m->ctx, STEIF_BAD_INPUT,
-              "parameter %s=%s must be a finite number", key, value);
+  const double value = strtod(text, &end);
+  STEIF_CHECK(*text && !*end && isfinite(value), m->ctx, STEIF_BAD_INPUT,
+              "parameter %s=%s must be a finite number", key, text);
+  return stf_setting_add(m->ctx, &m->settings, key, value);
+}
+
+static int give(stf_model *m, const stf_setting *setting)
+{
+  const int word = stf_word_known(&m->syntax.words, setting->name, strlen(setting->name));
+  stf_symbol *s = word < 0 ? NULL : stf_symbol_of(m, word);
+  if (!s || s->kind != STF_IS_PARAMETER) return unknown_parameter(m, setting->name);
+  STEIF_CHECK(isfinite(setting->value), m->ctx, STEIF_BAD_INPUT,
+              "parameter %s=%g must be a finite number", setting->name, setting->value);
+  s->value = setting->value;
   s->given = true;
   s->visit = 2;
   return STEIF_OK;
@@ -170,6 +193,18 @@ static int values(stf_model *m)
   return code;
 }
 
+/* Those that are whole numbers come last. */
+static void number_parameters(stf_model *m, bool whole)
+{
+  for (size_t i = 0; i < m->symbols.count; i++) {
+    stf_symbol *s = stf_symbol_at(m, (int32_t)i);
+    if (s->kind != STF_IS_PARAMETER || s->assigned) continue;
+    const stf_statement *said = stf_statement_at(m, s->statement);
+    if (said->whole != whole || !(s->given || literal(m, said))) continue;
+    s->which = m->parameters++;
+  }
+}
+
 static int registers(stf_model *m)
 {
   for (size_t i = 0; i < m->syntax.statements.count; i++) {
@@ -179,13 +214,12 @@ static int registers(stf_model *m)
   }
   for (size_t i = 0; i < m->symbols.count; i++) {
     stf_symbol *s = stf_symbol_at(m, (int32_t)i);
-    const bool own = s->kind == STF_IS_PARAMETER &&
-                     (s->given || literal(m, stf_statement_at(m, s->statement)));
-    if (own && !s->assigned) s->which = m->parameters++;
     if (s->kind == STF_IS_DISCRETE) s->which = m->discretes++;
     if (s->assigned) s->memory = m->discretes++;
     if (s->kind == STF_IS_TABLE) s->which = m->tables++;
   }
+  number_parameters(m, false);
+  number_parameters(m, true);
   m->memories = m->discretes;
   m->p = stf_pool_array(m->pool, (size_t)m->parameters, sizeof *m->p);
   if (!m->p) return STEIF_NO_MEMORY;
@@ -201,11 +235,10 @@ int stf_declare(stf_model *m, const steif_spec *spec)
   STEIF_TRY(
     stf_vector_resize(m->ctx, &m->symbol_of, m->syntax.words.names.count, sizeof(int32_t)));
   for (size_t i = 0; i < m->syntax.statements.count; i++) STEIF_TRY(declare(m, (int32_t)i));
-  for (int i = 0; spec && i < spec->count; i++) {
-    const char *key = spec->param[i].key;
-    STEIF_TRY(*key ? give(m, key, spec->param[i].value)
-                   : unknown_parameter(m, spec->param[i].value));
-  }
+  for (int i = 0; spec && i < spec->count; i++)
+    STEIF_TRY(read_setting(m, spec->param[i].key, spec->param[i].value));
+  for (size_t i = 0; i < m->settings.count; i++)
+    STEIF_TRY(give(m, STF_AT(m->settings, stf_setting, i)));
   STEIF_TRY(stf_check_names(m));
   STEIF_TRY(values(m));
   return registers(m);

@@ -5,7 +5,7 @@
 
 #include "syntax.h"
 #include "tape.h"
-#include <steif/problem.h>
+#include <steif/parameters.h>
 
 enum { STF_UNKNOWNS = 10000000, STF_PASSES_MOST = 100000000 };
 
@@ -62,6 +62,12 @@ typedef struct stf_switch {
   int32_t a, stride[STF_LOOPS]; /* place in memory */
 } stf_switch;
 
+/* The value of a parameter that is given from outside. */
+typedef struct stf_setting {
+  char name[STF_NAME_BYTES + 1];
+  double value;
+} stf_setting;
+
 /* Equations that share loops and a graph. */
 typedef struct stf_block {
   stf_graph graph;
@@ -85,7 +91,7 @@ typedef struct stf_matrix {
 typedef struct stf_model {
   steif_context *ctx;
   stf_pool *pool;
-  steif_spec spec; /* parameters that are given */
+  stf_vector settings; /* stf_setting: parameters that are given */
   stf_syntax syntax;
   stf_vector symbols;   /* stf_symbol */
   stf_vector symbol_of; /* int32_t by word: 1 + symbol; 0: none */
@@ -125,6 +131,9 @@ typedef struct stf_model {
   steif_names problem_names;
   stf_sweep sweep;
   stf_vector partials;
+  steif_parameters given; /* those that are no whole numbers: the first of p */
+  const char **parameter_name;
+  struct stf_products *products;
 } stf_model;
 
 static inline stf_symbol *stf_symbol_at(const stf_model *m, int32_t i)
@@ -142,8 +151,11 @@ static inline const char *stf_named(const stf_model *m, int32_t word)
 /* The symbol of a word; NULL: it is not declared. */
 stf_symbol *stf_symbol_of(const stf_model *m, int32_t word);
 
-/* declare.c: symbols, values of parameters, sizes, numbers of unknowns. */
+/* declare.c: symbols, values of parameters (those of m->settings and of the spec), sizes, numbers of
+ * unknowns. */
 int stf_declare(stf_model *m, const steif_spec *spec);
+/* A value among those that are given, in place of the former one of that name. */
+int stf_setting_add(steif_context *ctx, stf_vector *settings, const char *name, double value);
 int stf_number_unknowns(stf_model *m);
 /* check.c: every name that is used is known. */
 int stf_check_names(stf_model *m);
@@ -212,8 +224,11 @@ int64_t stf_passes(const stf_box *box);
 int32_t stf_at_pass(const stf_box *box, int64_t k, int32_t a, const int32_t *stride);
 void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed *feed,
                       double *out);
+void stf_quantity_free(const stf_model *m, stf_quantity *q);
 /* starts.c: start values. */
 int stf_build_start(stf_model *m);
+/* The names of the indices of a state statement, bound to those of element k. */
+int stf_bind_element(stf_builder *b, const stf_statement *said, const stf_symbol *s, int32_t k);
 /* problem.c of this room */
 int stf_name_unknowns(stf_model *m);
 /* A number of parameters and constants only; the failure is told. */
@@ -227,8 +242,14 @@ int stf_component(stf_model *m, stf_builder *b, const stf_statement *s, int32_t 
 int stf_consistent_start(stf_model *m, steif_problem *problem);
 /* table_file.c */
 int stf_read_tables(stf_model *m);
-/* model_problem.c: members and callbacks. */
+/* given_parameters.c: members of the problem about its parameters. */
+int stf_parameter_members(stf_model *m, steif_problem *problem);
+/* model_problem.c: relations as they are at the point of the feed. */
+void stf_take_literally(const stf_model *m, stf_feed *feed);
+/* Members and callbacks. */
 int stf_model_fill(stf_model *m, steif_problem *problem);
 void stf_model_free(stf_model *m);
+/* model_file.c: the same text with another value of one parameter; stf_model_close ends it. */
+int stf_model_moved(const stf_model *m, const char *name, double value, steif_problem *problem);
 
 #endif

@@ -44,9 +44,7 @@ int stf_name_unknowns(stf_model *m)
   return STEIF_OK;
 }
 
-/* The names of the indices of a state statement, bound to those of element k.
- */
-static int bind(stf_builder *b, const stf_statement *said, const stf_symbol *s, int32_t k)
+int stf_bind_element(stf_builder *b, const stf_statement *said, const stf_symbol *s, int32_t k)
 {
   for (int d = s->dims; d--; k /= s->count[d])
     if (said->range[d].name >= 0)
@@ -69,7 +67,7 @@ static int start(stf_model *m, stf_builder *b, const stf_statement *said)
     m->start[at] = said->start;
     if (!said->start) continue;
     b->bindings.count = 0;
-    STEIF_TRY(bind(b, said, s, k));
+    STEIF_TRY(stf_bind_element(b, said, s, k));
     STEIF_TRY(stf_value(b, &said->value, m->y0 + at));
     if (!isfinite(m->y0[at]))
       return stf_complain(&m->syntax.sources, said->at, STEIF_NOT_FINITE,

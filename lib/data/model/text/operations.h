@@ -64,9 +64,9 @@ enum stf_kind {
   STF_OP_ALONG,     /* its component of a direction, and those of the next two */
   STF_OP_ALONG_SLOPE,
   STF_OP_ALONG_PARAMETER,
-  STF_OP_WEIGHT, /* of a row */
-  STF_OP_MEMORY,    /* a discrete value or a switch */
-  STF_OP_COUNTER,   /* a: value of loop a */
+  STF_OP_WEIGHT,  /* of a row */
+  STF_OP_MEMORY,  /* a discrete value or a switch */
+  STF_OP_COUNTER, /* a: value of loop a */
 #define STF_ONE(name, word, value) STF_OP_##name,
   STF_UNARY(STF_ONE) STF_BINARY(STF_ONE)
 #undef STF_ONE
