@@ -47,6 +47,14 @@ STEIF_EXPORT int steif_model_adjoint(steif_context *ctx, const steif_problem *pr
                                      sunrealtype t, N_Vector y, N_Vector yp, N_Vector w,
                                      N_Vector by_y, N_Vector by_yp, sunrealtype *by_p);
 
+/* Taylor coefficients: for y(t + s) = sum_k y_k s^k and y'(t + s) those of F(t + s, y, y') = sum_k F_k s^k,
+ * k = 0 .. order <= 64. y: (order + 2) n numbers, y[k n + i] of unknown i; F: (order + 1) n. For y' = f
+ * with y_{k+1} = 0, F_k = -f_k, from which y_{k+1} = f_k/(k+1): the series of the solution. At a kink or
+ * jump in t they are those to the right. STEIF_RETRY: an operation has no series there. */
+STEIF_EXPORT int steif_model_taylor(steif_context *ctx, const steif_problem *problem,
+                                    sunrealtype t, int order, const sunrealtype *y,
+                                    sunrealtype *F);
+
 typedef struct steif_model_facts {
   int form;                           /* enum steif_form */
   const char *why;                    /* ... and what keeps it from a simpler one */

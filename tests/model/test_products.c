@@ -286,8 +286,88 @@ static void the_list(void)
   fixture_close(&s);
 }
 
+/* sum F_k s^k against F at t + s, along cubic curves; coefficient 12 still shows at s = 0.1. */
+static void along_a_curve(fixture *s, bool near_start)
+{
+  enum { ORDER = 22 };
+  const size_t n = (size_t)s->p.n;
+  vectors x = vectors_new(s);
+  double *y = calloc((ORDER + 2) * n, sizeof *y), *F = calloc((ORDER + 1) * n, sizeof *F);
+  draw(s, &x, near_start);
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < 4; k++)
+      y[k * n + i] = k ? NV_Ith_S(x.y, i) * number(-0.3, 0.3) : NV_Ith_S(x.y, i);
+  const int code = steif_model_taylor(s->ctx, &s->p, 0.4, ORDER, y, F);
+  if (code) printf("\n  %s", steif_message(s->ctx));
+  CHECK(code == STEIF_OK);
+  for (double at = -0.1; !code && at < 0.15; at += 0.05) {
+    for (size_t i = 0; i < n; i++) {
+      NV_Ith_S(x.y, i) = y[i] + at * (y[n + i] + at * (y[2 * n + i] + at * y[3 * n + i]));
+      NV_Ith_S(x.yp, i) = y[n + i] + at * (2 * y[2 * n + i] + 3 * at * y[3 * n + i]);
+    }
+    residual(&s->p, &x, 0.4 + at, x.r[0]);
+    for (size_t i = 0; i < n; i++) {
+      double sum = 0, size = 0;
+      for (size_t k = ORDER + 1; k--;) {
+        sum = sum * at + F[k * n + i];
+        size = fmax(size, fabs(F[k * n + i] * pow(at, (double)k)));
+      }
+      CLOSE_FLOOR(NV_Ith_S(x.r[0], i), sum, 2e-13, 10 * size);
+    }
+  }
+  free(y), free(F);
+  vectors_free(&x);
+}
+
+static void taylor_coefficients(void)
+{
+  char text[1000];
+  fixture s;
+  for (size_t i = 0; i < sizeof sides / sizeof *sides; i++) {
+    snprintf(text, sizeof text,
+             "param a = 0.7, b = 1.3\nstate x = a^2, y = 1, z = sin(b) + 1\nlet q = x*y + a\n"
+             "function f(u, v) = u*v + g(u)\nfunction g(u) = exp(-u)/(1 + u^2)\nx' = a*y\n"
+             "y' = -x*acosh(1.5 + y)\nz' + b*z'^3*x = %s\ntime 0 to 1\n",
+             sides[i]);
+    CU_ASSERT_FATAL(fixture_text(&s, text, "") == STEIF_OK);
+    along_a_curve(&s, false);
+    fixture_close(&s);
+  }
+  CU_ASSERT_FATAL(
+    fixture_text(&s,
+                 "table f = (0, 1), (1, 3), (2, 2), (9, 5) cubic\ntable g = (0, 1), (2, 7), "
+                 "(9, 5) linear\n"
+                 "state x = 1, y = 1.5\nx' = f(y)*g(2.5 + t)\ny' = g(5 + x)\ntime 0 to 1\n",
+                 "") == STEIF_OK);
+  along_a_curve(&s, true);
+  fixture_close(&s);
+  CU_ASSERT_FATAL(fixture_example(&s, "brusselator.steif") == STEIF_OK);
+  along_a_curve(&s, true);
+  fixture_close(&s);
+}
+
+/* x' = x^2, x(0) = 1: x = 1/(1 - t), all coefficients are 1. */
+static void series_of_a_solution(void)
+{
+  enum { ORDER = 40 };
+  fixture s;
+  double x[ORDER + 2] = {1}, F[ORDER + 1];
+  CU_ASSERT_FATAL(fixture_text(&s, "state x = 1\nx' = x^2\ntime 0 to 1\n", "") == STEIF_OK);
+  for (int k = 0; k < ORDER; k++) {
+    CHECK(!steif_model_taylor(s.ctx, &s.p, 0, k, x, F));
+    x[k + 1] = -F[k] / (k + 1);
+    CLOSE(x[k + 1], 1, 1e-13);
+  }
+  CHECK(steif_model_taylor(s.ctx, &s.p, 0, 65, x, F) == STEIF_BAD_INPUT);
+  x[0] = NAN;
+  CHECK(steif_model_taylor(s.ctx, &s.p, 0, 1, x, F) == STEIF_RETRY);
+  fixture_close(&s);
+}
+
 CU_TestInfo tests_of_products[] = {{"all functions, three forms", of_all_functions},
                                    {"the examples", of_the_examples},
                                    {"loops", of_loops},
                                    {"the list of parameters", the_list},
+                                   {"Taylor coefficients", taylor_coefficients},
+                                   {"the series of a solution", series_of_a_solution},
                                    CU_TEST_INFO_NULL};

@@ -142,10 +142,12 @@ static int differentiate(stf_model *m, const stf_block *block, const stf_equatio
       static const int32_t unit[STF_LOOPS][STF_LOOPS] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
       counter[d] = stf_at_pass(&block->box, k, 0, unit[d]);
     }
-    const int code =
-      stf_taylor(&block->graph, e->forcing, feed, counter, order, &m->sweep, to + row);
+    double coefficient[DERIVATIVES + 1], factorial = 1;
+    const int code = stf_taylor(&block->graph, e->forcing, feed, NULL, counter, order,
+                                &m->sweep, coefficient, NULL);
     if (code < 0) return code;
-    if (code) to[row] = NAN;
+    for (int j = 2; j <= order; j++) factorial *= j;
+    to[row] = code ? NAN : factorial * coefficient[order];
     *known = *known || !code;
   }
   return STEIF_OK;

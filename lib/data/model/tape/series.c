@@ -1,14 +1,13 @@
-/* series.c: Taylor coefficients in t of nodes that depend on t, parameters and
- * loop counters only, by the arithmetic of the forcing functions. At a kink or
+/* series.c: Taylor coefficients in t of nodes, by the arithmetic of the forcing functions. At a kink or
  * jump they are those to the right. SPDX-License-Identifier: BSD-3-Clause */
 #include "series.h"
-#include "input.h"
 #include <math.h>
 #include <string.h>
 
 typedef struct machine {
   int order;
   const stf_feed *feed;
+  const stf_curve *curve;
   const int32_t *counter;
   stf_series *scratch; /* 4 */
 } machine;
@@ -26,17 +25,43 @@ static void copy(int n, const stf_series *a, double factor, stf_series *to)
   for (int k = 0; k <= n; k++) to->c[k] = factor * a->c[k];
 }
 
+/* Unknown `at`, or its derivative. */
+static void of_curve(const machine *m, int64_t at, bool slope, stf_series *u)
+{
+  const int64_t n = m->curve->n;
+  for (int k = 0; k <= m->order; k++)
+    u->c[k] = slope ? (k + 1) * m->curve->y[(k + 1) * n + at] : m->curve->y[k * n + at];
+}
+
 static const char *leaf(const machine *m, const stf_node *n, stf_series *u)
 {
   double value = n->number;
+  const bool unknown = n->kind == STF_OP_STATE || n->kind == STF_OP_SLOPE;
+  if ((unknown || n->kind == STF_OP_MEMORY) && !m->curve) return "unknowns";
+  const int64_t at = unknown || n->kind == STF_OP_MEMORY
+                       ? n->a + (int64_t)n->b * m->counter[0] +
+                           (int64_t)n->stride[0] * m->counter[1] +
+                           (int64_t)n->stride[1] * m->counter[2]
+                       : 0;
+  if (unknown) {
+    of_curve(m, at, n->kind == STF_OP_SLOPE, u);
+    return NULL;
+  }
+  if (n->kind == STF_OP_MEMORY) value = m->feed->memory[at];
   if (n->kind == STF_OP_TIME) value = m->feed->t;
   if (n->kind == STF_OP_PARAMETER) value = m->feed->p[n->a];
   if (n->kind == STF_OP_COUNTER) value = m->counter[n->a];
-  if (n->kind == STF_OP_STATE || n->kind == STF_OP_SLOPE || n->kind == STF_OP_MEMORY)
-    return "unknowns";
   stf_series_constant(m->order, value, u);
   if (n->kind == STF_OP_TIME && m->order) u->c[1] = 1;
   return NULL;
+}
+
+static double floor_to_the_right(int n, const stf_series *a)
+{
+  stf_series rest = *a;
+  rest.c[0] = 0;
+  const bool falls = a->c[0] == floor(a->c[0]) && sign(&rest, n) < 0;
+  return floor(a->c[0]) - falls;
 }
 
 static const char *of_one(const machine *m, const stf_node *n, const stf_series *a,
@@ -75,11 +100,12 @@ static const char *of_one(const machine *m, const stf_node *n, const stf_series 
   case STF_OP_STEP: stf_series_constant(order, sign(a, order) >= 0, u); return NULL;
   case STF_OP_SIGN: stf_series_constant(order, sign(a, order), u); return NULL;
   case STF_OP_NOT: stf_series_constant(order, a->c[0] == 0, u); return NULL;
-  default:
-    if (order) return "a function without a series";
-    u->c[0] = n->kind == STF_OP_LOOKUP ? stf_lookup_value(m->feed->lookups + n->b, a->c[0])
-                                       : stf_operate(n->kind, a->c[0], 0, 0);
-    return NULL;
+  case STF_OP_FLOOR: stf_series_constant(order, floor_to_the_right(order, a), u); return NULL;
+  case STF_OP_LOOKUP:
+    copy(order, a, 1, w);
+    w->c[0] = 0;
+    return stf_lookup_series(m->feed->lookups + n->b, order, a, sign(w, order), u, w);
+  default: return stf_special_series(n->kind, order, a, u, w);
   }
 }
 
@@ -97,6 +123,26 @@ static const char *power(const machine *m, const stf_series *a, const stf_series
   if (stf_series_log(order, a, m->scratch)) return "a power";
   stf_series_times(order, m->scratch, b, m->scratch + 1);
   stf_series_exp(order, m->scratch + 1, u);
+  return NULL;
+}
+
+static const char *length(int n, const stf_series *a, const stf_series *b, stf_series *u,
+                          stf_series *w)
+{
+  stf_series_times(n, a, a, w);
+  stf_series_times(n, b, b, w + 1);
+  for (int k = 0; k <= n; k++) w->c[k] += w[1].c[k];
+  return stf_series_power(n, w, 0.5, u);
+}
+
+/* a - b floor(a/b) */
+static const char *remainder_of(int n, const stf_series *a, const stf_series *b, stf_series *u,
+                                stf_series *w)
+{
+  const char *wrong = stf_series_over(n, a, b, w);
+  if (wrong) return wrong;
+  const double whole = floor_to_the_right(n, w);
+  for (int k = 0; k <= n; k++) u->c[k] = a->c[k] - whole * b->c[k];
   return NULL;
 }
 
@@ -119,42 +165,51 @@ static const char *of_two(const machine *m, const stf_node *n, const stf_series 
   case STF_OP_MAX: copy(order, s > 0 ? a : b, 1, u); return NULL;
   case STF_OP_LESS: stf_series_constant(order, s < 0, u); return NULL;
   case STF_OP_LESS_EQUAL: stf_series_constant(order, s <= 0, u); return NULL;
+  case STF_OP_ATAN2: return stf_angle_series(order, a, b, u, m->scratch);
+  case STF_OP_HYPOT: return length(order, a, b, u, m->scratch);
+  case STF_OP_MOD: return remainder_of(order, a, b, u, m->scratch);
   default:
-    if (order && n->kind != STF_OP_AND && n->kind != STF_OP_OR)
-      return "a function without a series";
     stf_series_constant(order, stf_operate(n->kind, a->c[0], b->c[0], 0), u);
     return NULL;
   }
 }
 
-int stf_taylor(const stf_graph *g, int32_t root, const stf_feed *feed, const int32_t *counter,
-               int order, stf_sweep *sweep, double *value)
+/* A branch that is not taken may have no series: NaN until it is chosen. */
+int stf_taylor(const stf_graph *g, int32_t root, const stf_feed *feed, const stf_curve *curve,
+               const int32_t *counter, int order, stf_sweep *sweep, double *value,
+               const char **why)
 {
   int32_t child[3];
-  const char *wrong = NULL;
+  const char *unused = NULL;
+  if (!why) why = &unused;
   STEIF_TRY(stf_reach(g, root, &sweep->mark, &sweep->list));
   STEIF_TRY(stf_vector_resize(g->ctx, &sweep->adjoint, g->nodes.count, sizeof(int32_t)));
   const size_t count = sweep->list.count;
   stf_series *all = stf_allocate(g->ctx, count + 4, sizeof *all);
   if (!all) return STEIF_NO_MEMORY;
-  const machine m = {order, feed, counter, all + count};
-  for (size_t i = 0; i < count && !wrong; i++) {
+  const machine m = {order, feed, curve, counter, all + count};
+  for (size_t i = 0; i < count; i++) {
     const int32_t node = *STF_AT(sweep->list, int32_t, i);
     const stf_node *n = stf_node_at(g, node);
     const int operands = stf_children(n, child);
     const stf_series *x[3] = {NULL, NULL, NULL};
+    const char *wrong = NULL;
     for (int k = 0; k < operands; k++) x[k] = all + *STF_AT(sweep->adjoint, int32_t, child[k]);
     *STF_AT(sweep->adjoint, int32_t, node) = (int32_t)i;
     if (operands == 0) wrong = leaf(&m, n, all + i);
     if (operands == 1) wrong = of_one(&m, n, x[0], all + i);
     if (operands == 2) wrong = of_two(&m, n, x[0], x[1], all + i);
     if (operands == 3) copy(order, x[0]->c[0] != 0 ? x[1] : x[2], 1, all + i);
+    for (int k = 0; wrong && k <= order; k++) all[i].c[k] = NAN;
+    if (wrong && !*why) *why = wrong;
   }
-  double scale = 1;
-  for (int k = 2; k <= order; k++) scale *= k;
-  if (!wrong) *value = scale * all[count - 1].c[order];
+  bool finite = true;
+  for (int k = 0; k <= order; k++) {
+    value[k] = all[count - 1].c[k];
+    finite = finite && isfinite(value[k]);
+  }
   for (size_t i = 0; i < count; i++)
     *STF_AT(sweep->adjoint, int32_t, *STF_AT(sweep->list, int32_t, i)) = 0;
   stf_release(g->ctx, all);
-  return wrong || !isfinite(*value) ? STEIF_RETRY : STEIF_OK;
+  return finite ? STEIF_OK : STEIF_RETRY;
 }
