@@ -84,14 +84,6 @@ static int lower(stf_model *m, const steif_spec *spec)
   return stf_build_tapes(m);
 }
 
-void stf_quantity_free(const stf_model *m, stf_quantity *q)
-{
-  for (size_t i = 0; i < q->tapes.count; i++)
-    stf_tape_free(m->ctx, STF_AT(q->tapes, stf_tape, i));
-  stf_vector_free(m->ctx, &q->tapes);
-  stf_vector_free(m->ctx, &q->spaces);
-}
-
 static void blocks_free(stf_model *m)
 {
   for (size_t i = 0; i < m->blocks.count; i++) {

@@ -41,7 +41,6 @@ static bool retried(const stf_model *m, stf_feed *feed, double *to)
 {
   if (!m->switches || !feed->y) return false;
   stf_take_literally(m, feed);
-  memset(to, 0, (size_t)m->n * sizeof *to);
   stf_quantity_run(m, &m->f, feed, to);
   return finite(m->n, to);
 }
@@ -63,7 +62,6 @@ static int run(sunrealtype t, N_Vector y, N_Vector yp, N_Vector out, stf_model *
 {
   stf_feed feed = feed_at(m, t, y, yp);
   double *to = N_VGetArrayPointer(out);
-  memset(to, 0, (size_t)m->n * sizeof *to);
   stf_quantity_run(m, &m->f, &feed, to);
   return finite(m->n, to) || retried(m, &feed, to) ? 0 : blame(m, &feed, to);
 }
@@ -81,12 +79,9 @@ static int F(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
 /* The entries; where a frozen branch has none, those of the branch at this point. */
 static void entries(const stf_model *m, const stf_matrix *M, stf_feed *feed, double *to)
 {
-  const size_t bytes = (size_t)M->entries * sizeof *to;
-  memset(to, 0, bytes);
   stf_quantity_run(m, &M->quantity, feed, to);
   if (!m->switches || !feed->y || finite(M->entries, to)) return;
   stf_take_literally(m, feed);
-  memset(to, 0, bytes);
   stf_quantity_run(m, &M->quantity, feed, to);
 }
 

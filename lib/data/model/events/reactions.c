@@ -67,7 +67,6 @@ static void look_ahead(stf_model *m, double t, const double *at)
   const double h = 1e-8 * (m->t1 - m->t0);
   stf_feed feed = feed_at(m, t, at);
   double *y = m->memory_literal + m->memories, *g = m->event_values[1];
-  memset(y, 0, (size_t)m->n * sizeof *y);
   stf_quantity_run(m, &m->f, &feed, y);
   for (int32_t i = 0; i < m->n; i++) y[i] = at[i] + h * y[i];
   stf_event_values(m, t + h, y, g);

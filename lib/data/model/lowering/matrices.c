@@ -22,32 +22,6 @@ static int32_t row_of(const stf_box *box, int64_t k, const stf_equation *e)
   return e->slot ? e->slot[k] : stf_at_pass(box, k, e->row, e->stride);
 }
 
-/* ---- quantities
- * ------------------------------------------------------------------------------
- */
-
-int stf_compile_quantity(stf_model *m, const stf_block *block, const stf_vector *stores,
-                         stf_quantity *q)
-{
-  if (!stores->count) return STEIF_OK;
-  stf_tape *tape = stf_vector_push(m->ctx, &q->tapes, sizeof *tape);
-  double **space = tape ? stf_vector_push(m->ctx, &q->spaces, sizeof *space) : NULL;
-  if (!space) return STEIF_NO_MEMORY;
-  STEIF_TRY(stf_tape_compile(&block->graph, &block->box, stores->count, stores->data, tape));
-  *space = stf_pool_array(m->pool, stf_tape_space(tape), sizeof **space);
-  if (!*space) return STEIF_NO_MEMORY;
-  stf_tape_prepare(tape, &m->feed, *space);
-  return STEIF_OK;
-}
-
-void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed *feed,
-                      double *out)
-{
-  (void)m;
-  for (size_t i = 0; i < q->tapes.count; i++)
-    stf_tape_run(STF_AT(q->tapes, stf_tape, i), feed, *STF_AT(q->spaces, double *, i), out);
-}
-
 /* f, with the equations that are not explicit as -residual without derivatives;
  * F is the residual. */
 static int values(stf_model *m)
@@ -88,7 +62,7 @@ static int build_values(stf_model *m, bool without_states)
     if (!code) code = stf_compile_quantity(m, block, &stores, &m->f);
   }
   stf_vector_free(m->ctx, &stores);
-  return code;
+  return code ? code : stf_quantity_close(m, &m->f, m->n);
 }
 
 /* ---- entries
@@ -238,7 +212,7 @@ static int tapes(stf_model *m, const stf_vector *entries, stf_matrix *M)
     if (!code) code = stf_compile_quantity(m, block_at(m, i), &stores, &M->quantity);
   }
   stf_vector_free(m->ctx, &stores);
-  return code;
+  return code ? code : stf_quantity_close(m, &M->quantity, M->entries);
 }
 
 /* What all entries depend on. */

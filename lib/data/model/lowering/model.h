@@ -76,9 +76,18 @@ typedef struct stf_block {
   stf_vector switches;  /* of stf_switch */
 } stf_block;
 
+/* Compiled code of a tape: what depends on parameters only is in `space`, slots are those of its stores. */
+typedef void (*stf_code_of_tape)(double t, const double *y, const double *yp, const double *p,
+                                 const double *memory, const double *space,
+                                 const int32_t *const *slots, double *out);
+
 /* One quantity of all blocks: f, F or the entries of a matrix. */
 typedef struct stf_quantity {
   stf_vector tapes, spaces; /* stf_tape, double * */
+  int64_t size;             /* outputs; 0: the caller has filled them, and tapes add */
+  bool assigns;             /* each output is written once */
+  stf_code_of_tape *code;   /* of each tape; NULL: the machine runs it */
+  const int32_t *const **slots;
 } stf_quantity;
 
 typedef struct stf_matrix {
@@ -216,6 +225,7 @@ typedef struct stf_blame {
 bool stf_find_blame(stf_model *m, const stf_feed *feed, int32_t row, stf_blame *blame);
 /* matrices.c: tapes of f and the matrices. */
 int stf_build_tapes(stf_model *m);
+/* quantity.c */
 int stf_compile_quantity(stf_model *m, const stf_block *block, const stf_vector *stores,
                          stf_quantity *q);
 /* passes.c: how many passes a box has, and the value a + stride . counters in
@@ -224,6 +234,8 @@ int64_t stf_passes(const stf_box *box);
 int32_t stf_at_pass(const stf_box *box, int64_t k, int32_t a, const int32_t *stride);
 void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed *feed,
                       double *out);
+/* All tapes are there: how many outputs they write. */
+int stf_quantity_close(stf_model *m, stf_quantity *q, int64_t size);
 void stf_quantity_free(const stf_model *m, stf_quantity *q);
 /* starts.c: start values. */
 int stf_build_start(stf_model *m);

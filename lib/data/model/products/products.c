@@ -45,6 +45,7 @@ int stf_products_ready(stf_model *m)
   if (!s->none || !s->direction) return STEIF_NO_MEMORY;
   for (size_t i = 0; i < m->blocks.count; i++)
     STEIF_TRY(stf_tangent_tape(m, block_at(m, i), &s->tangent));
+  STEIF_TRY(stf_quantity_close(m, &s->tangent, m->n));
   s->tangent_made = true;
   return STEIF_OK;
 }
@@ -60,6 +61,7 @@ static int adjoint_ready(stf_model *m)
   s->weight = stf_pool_array(m->pool, (size_t)s->rows, sizeof *s->weight);
   s->gradient = stf_pool_array(m->pool, lengths(m), sizeof *s->gradient);
   if (!s->weight || !s->gradient) return STEIF_NO_MEMORY;
+  STEIF_TRY(stf_quantity_close(m, &s->adjoint, (int64_t)lengths(m)));
   s->adjoint_made = true;
   return STEIF_OK;
 }
@@ -75,12 +77,10 @@ static bool finite(size_t count, const double *x)
 static int evaluate(stf_model *m, const stf_quantity *q, stf_feed *feed, size_t count,
                     double *out)
 {
-  memset(out, 0, count * sizeof *out);
   stf_quantity_run(m, q, feed, out);
   if (finite(count, out)) return STEIF_OK;
   if (m->switches) {
     stf_take_literally(m, feed);
-    memset(out, 0, count * sizeof *out);
     stf_quantity_run(m, q, feed, out);
     if (finite(count, out)) return STEIF_OK;
   }

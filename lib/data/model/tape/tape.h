@@ -48,6 +48,7 @@ typedef struct stf_tape {
   size_t fixed, fixed_loads; /* of code and loads: those of parameters only, which come first */
   stf_vector at;             /* const double *: values of each lane register */
   int32_t registers, lanes;  /* scalar registers, lane registers */
+  bool assigns;              /* stores write, they do not add */
   stf_box box;
 } stf_tape;
 
@@ -68,7 +69,7 @@ void stf_tape_free(steif_context *ctx, stf_tape *tape);
 /* Doubles of workspace; numbers and what parameters determine into it. */
 size_t stf_tape_space(const stf_tape *tape);
 void stf_tape_prepare(const stf_tape *tape, const stf_feed *feed, double *space);
-/* Add the outputs to `out`. */
+/* Add the outputs to `out`, or write them there. */
 void stf_tape_run(const stf_tape *tape, const stf_feed *feed, double *space, double *out);
 
 /* tables.c */

@@ -126,11 +126,19 @@ static void store(const stf_tape *t, const int32_t *counter, int64_t pass, int c
     const double *from = at[s->from];
     if (s->slot) {
       const int32_t *slot = s->slot + pass;
-      for (int k = 0; k < count; k++) out[slot[k]] += from[k];
+      if (t->assigns)
+        for (int k = 0; k < count; k++) out[slot[k]] = from[k];
+      else
+        for (int k = 0; k < count; k++) out[slot[k]] += from[k];
     } else {
       double *to = out + offset(s->a, s->stride, counter);
       const int64_t step = s->stride[inner];
-      for (int k = 0; k < count; k++) to[k * step] += from[k];
+      if (t->assigns && step == 1)
+        memcpy(to, from, (size_t)count * sizeof *to);
+      else if (t->assigns)
+        for (int k = 0; k < count; k++) to[k * step] = from[k];
+      else
+        for (int k = 0; k < count; k++) to[k * step] += from[k];
     }
   }
 }
@@ -182,6 +190,10 @@ void stf_tape_run(const stf_tape *t, const stf_feed *feed, double *space, double
     return;
   }
   const stf_store *o = t->stores.data;
-  for (size_t i = 0; i < t->stores.count; i++)
-    out[o[i].slot ? o[i].slot[0] : o[i].a] += space[o[i].from];
+  if (t->assigns)
+    for (size_t i = 0; i < t->stores.count; i++)
+      out[o[i].slot ? o[i].slot[0] : o[i].a] = space[o[i].from];
+  else
+    for (size_t i = 0; i < t->stores.count; i++)
+      out[o[i].slot ? o[i].slot[0] : o[i].a] += space[o[i].from];
 }
