@@ -3,6 +3,7 @@
 #include "members.h"
 #include "problem.h"
 #include <steif/model.h>
+#include <stdio.h>
 
 struct answer {
   const steif_problem *p;
@@ -57,19 +58,31 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   unknowns(r, a->p);
 }
 
+static int as_program(struct call *call, const steif_problem *p)
+{
+  const char *text = steif_model_c(call->ctx, p);
+  if (!text) return fail(call);
+  return fputs(text, stdout) < 0 ? EXIT_FAILED : EXIT_OK;
+}
+
 static int describe(struct call *call, const steif_problem *p)
 {
+  if (given(call, "--c")) return as_program(call, p);
   struct answer a = {.p = p};
   if (steif_model_describe(call->ctx, p, &a.facts)) return fail(call);
   return present_result(call, fill, &a);
 }
+
+static const struct option options[] = {
+  {"--c", FLAG, NULL, "the model as a C program, on standard output", NULL}, OPTIONS_END};
 
 static int run(struct call *call) { return with_problem(call, describe); }
 
 const struct verb verb_model = {.name = "model",
                                 .about =
                                   "Show form, sizes, parameters and start of a model file",
-                                .usage = "FILE.steif[:NAME=VALUE,...]",
+                                .usage = "FILE.steif[:NAME=VALUE,...] [--c]",
                                 .least = 1,
                                 .most = 1,
+                                .option = options,
                                 .run = run};
