@@ -56,6 +56,31 @@ if(TARGET steif_program)
   house_test(commands -DPROGRAM=$<TARGET_FILE:steif_program> -DREADME=${PROJECT_SOURCE_DIR}/README.md)
 endif()
 
+# Models as C programs, written and compiled here, against the same models as text.
+if(TARGET steif_program)
+  set(programs "")
+  set(list "")
+  set(examples ${PROJECT_SOURCE_DIR}/examples/models)
+  foreach(name rober vdpol orego akzo transamp pendulum caraxis brusselator reactor grid implicit)
+    set(folder ${examples})
+    if(EXISTS ${PROJECT_SOURCE_DIR}/tests/in_c/${name}.steif)
+      set(folder ${PROJECT_SOURCE_DIR}/tests/in_c)
+    endif()
+    set(program ${PROJECT_BINARY_DIR}/in_c/${name}.c)
+    add_custom_command(OUTPUT ${program} DEPENDS steif_program ${folder}/${name}.steif
+                       COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/in_c
+                       COMMAND steif_program model ${folder}/${name}.steif --c > ${program})
+    set_source_files_properties(${program} PROPERTIES COMPILE_DEFINITIONS "model=model_${name};WITHOUT_MAIN")
+    list(APPEND programs ${program})
+    string(APPEND list "X(${name}, \"${folder}\") ")
+  endforeach()
+  add_executable(test_in_c ${PROJECT_SOURCE_DIR}/tests/in_c/check.c ${programs})
+  target_include_directories(test_in_c PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_BINARY_DIR}/in_c)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/in_c/models.h CONTENT "#define MODELS(X) ${list}\n" @ONLY)
+  target_link_libraries(test_in_c PRIVATE steif steif_settings CUnit::CUnit)
+  add_test(NAME in_c COMMAND test_in_c)
+endif()
+
 # The first C program of README.md, as printed.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/README.md)
 file(READ README.md text)

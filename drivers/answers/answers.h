@@ -17,6 +17,14 @@ void report_eigenvalues(steif_report *r, const steif_eigenvalues *e);
 int eigenvalues_plot(const struct call *call, const steif_eigenvalues *e, const double near[2]);
 int structure_present(const struct call *call, const struct structure_answer *a);
 
+struct model_answer {
+  const steif_problem *p;
+  steif_model_facts facts;
+};
+int model_present(struct call *call, const struct model_answer *a);
+/* A model in C (steif_model_c) with a main that integrates it, on stdout. */
+int model_print(const char *text);
+
 struct region_answer {
   steif_region region;
   size_t count;

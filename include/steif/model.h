@@ -55,11 +55,10 @@ STEIF_EXPORT int steif_model_taylor(steif_context *ctx, const steif_problem *pro
                                     sunrealtype t, int order, const sunrealtype *y,
                                     sunrealtype *F);
 
-/* The model with its present parameters as a C program: a `const steif_problem model` with f, sparse or
- * dense Jacobians, loops as loops, names and parameters, and a main (not with WITHOUT_MAIN) that integrates
- * it. It computes the same numbers bit for bit where the compiler does not contract a*b + c
- * (-std=c11 or -ffp-contract=off). The text lives as long as the problem; NULL with the message:
- * STEIF_UNSUPPORTED for a model with events. */
+/* The model with its present parameters in C: a `const steif_problem model` with f, sparse or dense
+ * Jacobians, loops as loops, names and parameters. It computes the same numbers bit for bit where the
+ * compiler does not contract a*b + c (-std=c11 or -ffp-contract=off). The text lives as long as the problem;
+ * NULL with the message: STEIF_UNSUPPORTED for a model with events. */
 STEIF_EXPORT const char *steif_model_c(steif_context *ctx, const steif_problem *problem);
 
 typedef struct steif_model_facts {

@@ -1,4 +1,4 @@
-/* c_problem.c: a model as a C program: a steif_problem and a main that integrates it.
+/* c_problem.c: a model as a steif_problem in C.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "native.h"
 #include <stdio.h>
@@ -46,10 +46,11 @@ static void data(stf_writer *w, const stf_model *m, const steif_problem *p)
   reals(w, "static double parameter", m->parameters, m->p);
   if (m->given.count) {
     strings(w, "parameter_names", m->given.count, m->given.name);
-    stf_write(w,
-              "static const steif_parameters parameters = {.count = %d, .value = parameter, .name = "
-              "parameter_names};\n",
-              m->given.count);
+    stf_write(
+      w,
+      "static const steif_parameters parameters = {.count = %d, .value = parameter, .name = "
+      "parameter_names};\n",
+      m->given.count);
   }
   reals(w, "static const double y0", m->n, p->y0);
   if (p->yp0) reals(w, "static const double yp0", m->n, p->yp0);
@@ -185,25 +186,6 @@ static void members(stf_writer *w, const stf_model *m, const steif_problem *p)
   stf_write(w, ",\n%s};\n\n", m->given.count ? "  .parameters = &parameters,\n" : "");
 }
 
-static const char main_program[] =
-  "#ifndef WITHOUT_MAIN\n"
-  "/* Method and tolerance from the command line, the end of the solution in 17 digits. */\n"
-  "int main(int argc, char **argv)\n"
-  "{\n"
-  "  steif_options opt = steif_defaults();\n"
-  "  if (argc > 2) opt.rtol = strtod(argv[2], NULL);\n"
-  "  steif_context *ctx = steif_context_new(NULL);\n"
-  "  steif_solver *s = steif_solver_new(ctx, &model, argc > 1 ? argv[1] : \"auto\", &opt);\n"
-  "  const int code = s ? steif_solve_to(s, model.t1) : steif_status(ctx);\n"
-  "  for (long i = 0; !code && i < (long)model.n; i++)\n"
-  "    printf(\"%s %.17g\\n\", unknowns[i], NV_Ith_S(steif_solution(s), i));\n"
-  "  if (code) fprintf(stderr, \"%s\\n\", steif_message(ctx));\n"
-  "  steif_solver_free(&s);\n"
-  "  steif_context_free(&ctx);\n"
-  "  return code != 0;\n"
-  "}\n"
-  "#endif\n";
-
 static void head(stf_writer *w, const stf_model *m, const steif_problem *p)
 {
   stf_write(w, "/* ");
@@ -238,5 +220,4 @@ void stf_write_problem(stf_writer *w, const stf_model *m, const steif_problem *p
   if (m->form != STEIF_ODE) matrix(w, m, p, &m->E, "E");
   invariants(w, m);
   members(w, m, p);
-  stf_write_text(w, main_program);
 }
