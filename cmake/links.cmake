@@ -24,7 +24,7 @@ endforeach()
 
 if(KLU_FOUND AND LAPACK_FOUND AND Threads_FOUND AND JANSSON_LIBRARY AND JANSSON_INCLUDE_DIR)
   set_property(TARGET steif::private APPEND PROPERTY INTERFACE_LINK_LIBRARIES
-               steif_klu LAPACK::LAPACK Threads::Threads ${JANSSON_LIBRARY} m)
+               steif_klu LAPACK::LAPACK Threads::Threads ${JANSSON_LIBRARY} ${CMAKE_DL_LIBS} m)
   set_property(TARGET steif::private APPEND PROPERTY
                INTERFACE_INCLUDE_DIRECTORIES ${JANSSON_INCLUDE_DIR})
 endif()

@@ -1,6 +1,7 @@
 /* compare.c: several methods on one problem, work against precision.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "comparison.h"
+#include "problem.h"
 
 static int run(struct call *call)
 {
@@ -8,7 +9,8 @@ static int run(struct call *call)
   steif_method_info m;
   for (int k = 1; k < call->words; k++)
     if (steif_method_find(call->ctx, call->word[k], &m) != STEIF_OK) return fail(call);
-  if (steif_problem_find(call->ctx, call->word[0], &c.problem) != STEIF_OK) return fail(call);
+  const int found = find_problem(call, call->word[0], &c.problem);
+  if (found) return found;
   c.given = c.problem;
   c.report = steif_report_new(call->ctx);
   steif_report_text(c.report, "problem", call->word[0]);

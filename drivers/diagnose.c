@@ -1,7 +1,7 @@
 /* diagnose.c: index, structure and consistent start of a problem.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
-#include "problem.h"
+#include "integration.h"
 #include "two_starts.h"
 
 /* Is there something to look for a consistent start in? */
@@ -40,6 +40,7 @@ static int find(struct call *call, const steif_problem *p)
 static int run(struct call *call) { return with_problem(call, find); }
 
 static const struct option options[] = {
+  SET_OPTION,
   {"--at", REAL, "T", "time on the solution instead of the start", NULL},
   OPTIONS_END,
 };

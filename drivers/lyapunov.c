@@ -1,7 +1,7 @@
 /* lyapunov.c: Lyapunov exponents of a method's solution, and whether its step is short enough.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
-#include "problem.h"
+#include "integration.h"
 #include <stdlib.h>
 
 static int find(struct call *call, const steif_problem *p)
@@ -35,6 +35,7 @@ static int find(struct call *call, const steif_problem *p)
 static int run(struct call *call) { return with_problem(call, find); }
 
 static const struct option options[] = {
+  SET_OPTION,
   {"--h", POSITIVE, "H", "constant step size", NULL},
   {"--t1", POSITIVE, "T", "end of the run (default: the problem's)", NULL},
   {"--transient", POSITIVE, "T", "time before the averages begin", NULL},

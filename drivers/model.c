@@ -1,7 +1,7 @@
 /* model.c: what a model written as text is: form, sizes, parameters, start.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
-#include "problem.h"
+#include "integration.h"
 #include <steif/model.h>
 #include <stdio.h>
 
@@ -21,7 +21,9 @@ static int describe(struct call *call, const steif_problem *p)
 }
 
 static const struct option options[] = {
-  {"--c", FLAG, NULL, "the model as a C program, on standard output", NULL}, OPTIONS_END};
+  SET_OPTION,
+  {"--c", FLAG, NULL, "the model as a C program, on standard output", NULL},
+  OPTIONS_END};
 
 static int run(struct call *call) { return with_problem(call, describe); }
 

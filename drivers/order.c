@@ -47,10 +47,11 @@ static int run(struct call *call)
   const steif_options o = options_of(call);
   steif_problem p;
   if (steif_method_find(call->ctx, call->word[0], &a.method)) return fail(call);
-  if (steif_problem_find(call->ctx, word_of(call, "--problem"), &p)) return fail(call);
+  int code = find_problem(call, word_of(call, "--problem"), &p);
+  if (code) return code;
   progress(call, "%s on %s", call->word[0], p.name);
   interruption_poll();
-  int code =
+  code =
     steif_order_measure(call->ctx, &p, call->word[0], &o, real_of(call, "--h"), a.count, a.row);
   if (code == STEIF_STOPPED && a.row[0].error >= 0) present_rows(call, &p, &a);
   code = code ? fail(call) : present_rows(call, &p, &a);
@@ -63,8 +64,7 @@ static const struct option options[] = {
   {"--h", POSITIVE, "H", "first step size (default: 1/16; 1/4 and 1/2 for high orders)", NULL},
   {"--halvings", NATURAL, "M", "how often it is halved", "4"},
   RUN_OPTIONS,
-  OPTIONS_END,
-};
+  OPTIONS_END};
 static const struct rule rules[] = {{"--halvings", AT_MOST, "39"}, RULES_END};
 
 const struct verb verb_order = {

@@ -3,7 +3,7 @@
 #ifndef INTEGRATION_H
 #define INTEGRATION_H
 
-#include "program.h"
+#include "problem.h"
 
 typedef struct outcome {
   int code;
@@ -17,7 +17,12 @@ typedef struct outcome {
 
 /* Rows of an option table that options_of reads, besides --rtol, --atol and --h. */
 /* clang-format off */
+#define SET_OPTION                                                                             \
+  {"--set", WORD, "NAME=VALUE,...", "values of parameters, as after a colon", NULL}
 #define RUN_OPTIONS                                                                            \
+  SET_OPTION,                                                                                  \
+  {"--compile", FLAG, NULL,                                                                    \
+   "a model by the C compiler of CC (else cc), kept in the cache folder of the user", NULL},   \
   {"--t1", POSITIVE, "T", "end of the integration (default: the problem's)", NULL},            \
   {"--h0", POSITIVE, "H", "first step of an adaptive step size (default: automatic)", NULL},   \
   {"--h-max", POSITIVE, "H", "largest step of an adaptive step size (default: none)", NULL},   \

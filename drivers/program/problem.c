@@ -2,11 +2,49 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "problem.h"
 #include <nvector/nvector_serial.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* XDG_CACHE_HOME, or .cache of the home folder; NULL: neither is an absolute path. */
+static const char *cache_folder(char *room, size_t size)
+{
+  const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+  const bool own = cache && *cache == '/';
+  if (!own && !(home && *home == '/')) return NULL;
+  const int length =
+    snprintf(room, size, "%s%s/steif/models", own ? cache : home, own ? "" : "/.cache");
+  return length > 0 && (size_t)length < size ? room : NULL;
+}
+
+static void compile(struct call *call, const steif_problem *p)
+{
+  char folder[900];
+  const char *compiler = getenv("CC");
+  if (!compiler || !*compiler) compiler = "cc";
+  if (!steif_model_compile(call->ctx, p, compiler, cache_folder(folder, sizeof folder))) return;
+  say(call, "%s; it runs without --compile", steif_message(call->ctx));
+  steif_forget(call->ctx);
+}
+
+int find_problem(struct call *call, const char *word, steif_problem *p)
+{
+  const char *set = word_of(call, "--set"), *file = strstr(word, ".steif");
+  char text[4096];
+  const char mark = strchr(file ? file : word, ':') ? ',' : ':';
+  const int length = set ? snprintf(text, sizeof text, "%s%c%s", word, mark, set)
+                         : snprintf(text, sizeof text, "%s", word);
+  if (length < 0 || (size_t)length >= sizeof text)
+    return bad_usage(call, "--set is longer than %zu characters", sizeof text);
+  if (steif_problem_find(call->ctx, text, p) != STEIF_OK) return fail(call);
+  if (given(call, "--compile")) compile(call, p);
+  return EXIT_OK;
+}
 
 int with_problem(struct call *call, int (*work)(struct call *call, const steif_problem *p))
 {
   steif_problem p;
-  if (steif_problem_find(call->ctx, call->word[0], &p) != STEIF_OK) return fail(call);
+  const int found = find_problem(call, call->word[0], &p);
+  if (found) return found;
   const int code = work(call, &p);
   steif_problem_clear(call->ctx, &p);
   return code;

@@ -5,6 +5,10 @@
 
 #include "program.h"
 
+/* The problem of a word with the parameters of --set, compiled where --compile asks for it: what then
+ * stands in the way is said, and the interpreter runs it. EXIT_OK or an exit code after a sentence. */
+int find_problem(struct call *call, const char *word, steif_problem *p);
+
 /* What `work` returns for the problem of the first word, or an exit code after a sentence. */
 int with_problem(struct call *call, int (*work)(struct call *call, const steif_problem *p));
 

@@ -61,6 +61,16 @@ STEIF_EXPORT int steif_model_taylor(steif_context *ctx, const steif_problem *pro
  * NULL with the message: STEIF_UNSUPPORTED for a model with events. */
 STEIF_EXPORT const char *steif_model_c(steif_context *ctx, const steif_problem *problem);
 
+/* f and the Jacobians of a model by compiled code from now on, loops at the speed of C by hand, the same
+ * numbers bit for bit. `compiler` is one path or a name looked for in PATH, without arguments, NULL: "cc"; it
+ * is started without a shell. `folder`, an absolute path, keeps what was compiled for later runs: made for
+ * the user alone, and not used when other users may enter it; NULL: nothing is kept. Straight code of more
+ * than 2000 operations stays with the interpreter. The code is compared with the interpreter at the start.
+ * On failure, STEIF_UNSUPPORTED without a compiler, STEIF_IO for a folder or file, STEIF_NOT_CERTIFIED where values
+ * differ, the problem is as before. After steif_model_set compile again: it is found in the folder. */
+STEIF_EXPORT int steif_model_compile(steif_context *ctx, const steif_problem *problem,
+                                     const char *compiler, const char *folder);
+
 typedef struct steif_model_facts {
   int form;                           /* enum steif_form */
   const char *why;                    /* ... and what keeps it from a simpler one */

@@ -8,7 +8,7 @@
 
 static bool letter(char c)
 {
-  return isalnum((unsigned char)c) || c == '.' || c == '-' || c == '+' || c == '_';
+  return isalnum((unsigned char)c) || (unsigned char)c >= 0x80 || c == '.' || c == '-' || c == '+' || c == '_';
 }
 
 /* Copy a word from *at into out, with the mark `extra` taken as a letter; false when it is empty or

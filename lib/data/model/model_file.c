@@ -124,6 +124,7 @@ void stf_model_free(stf_model *m)
   stf_quantity_free(m, &m->A.quantity);
   stf_quantity_free(m, &m->E.quantity);
   stf_products_free(m);
+  stf_native_free(m);
   stf_sweep_free(ctx, &m->sweep);
   stf_pool_free(&pool);
 }

@@ -143,6 +143,7 @@ typedef struct stf_model {
   steif_parameters given; /* those that are no whole numbers: the first of p */
   const char **parameter_name;
   struct stf_products *products;
+  void *library; /* of compiled code; NULL: none */
 } stf_model;
 
 static inline stf_symbol *stf_symbol_at(const stf_model *m, int32_t i)
@@ -261,6 +262,8 @@ void stf_take_literally(const stf_model *m, stf_feed *feed);
 /* Members and callbacks. */
 int stf_model_fill(stf_model *m, steif_problem *problem);
 void stf_model_free(stf_model *m);
+/* native.c: compiled code is given up. */
+void stf_native_free(stf_model *m);
 /* model_file.c: the same text with another value of one parameter; stf_model_close ends it. */
 int stf_model_moved(const stf_model *m, const char *name, double value, steif_problem *problem);
 

@@ -57,7 +57,7 @@ void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed 
   for (size_t i = 0; i < q->tapes.count; i++) {
     const stf_tape *t = STF_AT(q->tapes, stf_tape, i);
     double *space = *STF_AT(q->spaces, double *, i);
-    if (q->code)
+    if (q->code && q->code[i])
       q->code[i](feed->t, feed->y, feed->yp, feed->p, feed->memory, space, q->slots[i], out);
     else
       stf_tape_run(t, feed, space, out);

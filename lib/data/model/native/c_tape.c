@@ -321,17 +321,15 @@ static void one(stf_writer *w, const stf_dialect *d, const stf_tape *t, size_t t
   stf_write(w, "}\n\n");
 }
 
-void stf_write_quantity(stf_writer *w, const stf_dialect *d, const stf_quantity *q)
+size_t stf_write_quantity(stf_writer *w, const stf_dialect *d, const stf_quantity *q)
 {
-  for (size_t i = 0; i < q->tapes.count; i++) one(w, d, STF_AT(q->tapes, stf_tape, i), i);
-}
-
-long stf_statements_of(const stf_quantity *q)
-{
-  long count = 0;
+  size_t count = 0;
   for (size_t i = 0; i < q->tapes.count; i++) {
     const stf_tape *t = STF_AT(q->tapes, stf_tape, i);
-    count += (long)(t->code.count + t->wide.count + t->stores.count);
+    const size_t statements = t->code.count + t->wide.count + t->stores.count;
+    if (d->most && statements > (size_t)d->most) continue;
+    one(w, d, t, i);
+    count++;
   }
   return count;
 }

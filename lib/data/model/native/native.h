@@ -32,6 +32,7 @@ typedef struct stf_dialect {
   const char *name;  /* "f": functions f_0, f_1, ... of the tapes */
   bool standalone;   /* parameters' part is computed there and slots are arrays of the text */
   const char *store; /* before the functions: "static " */
+  long most;         /* statements; longer tapes are left out; 0: any */
 } stf_dialect;
 
 /* c_tape.c: what all functions need; and a function for each tape:
@@ -39,9 +40,8 @@ typedef struct stf_dialect {
  *           const double *r, const int *const *slot, double *out) */
 void stf_write_functions(stf_writer *w, const stf_model *m, size_t count,
                          const stf_quantity *const *quantities);
-void stf_write_quantity(stf_writer *w, const stf_dialect *d, const stf_quantity *q);
-/* Statements that are written for it. */
-long stf_statements_of(const stf_quantity *q);
+/* Returns how many functions. */
+size_t stf_write_quantity(stf_writer *w, const stf_dialect *d, const stf_quantity *q);
 /* c_problem.c: the model as a program. */
 void stf_write_problem(stf_writer *w, const stf_model *m, const steif_problem *p);
 
