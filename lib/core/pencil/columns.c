@@ -12,12 +12,14 @@ int stf_columns_open(steif_pencil *p)
 
 bool stf_all_finite(const double *x, size_t count)
 {
-  double sum[4] = {0}; /* of x - x: 0, or NaN */
+  enum { SUMS = 16 };
+  double sum[SUMS] = {0}; /* of x - x: 0, or NaN */
   size_t i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (size_t j = 0; j < 4; j++) sum[j] += x[i + j] - x[i + j];
+  for (; i + SUMS <= count; i += SUMS)
+    for (size_t j = 0; j < SUMS; j++) sum[j] += x[i + j] - x[i + j];
   for (; i < count; i++) sum[0] += x[i] - x[i];
-  return sum[0] + sum[1] + sum[2] + sum[3] == 0;
+  for (size_t j = 1; j < SUMS; j++) sum[0] += sum[j];
+  return sum[0] == 0;
 }
 
 /* The distance between columns when the vectors are neighbours in memory already, or 0. Separate

@@ -1,5 +1,6 @@
 /* model_problem.c: a model as a steif_problem: its callbacks and its members.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "pencil.h"
 #include "products.h"
 #include "reactions.h"
 #include "series.h"
@@ -20,13 +21,6 @@ static stf_feed feed_at(const stf_model *m, sunrealtype t, N_Vector y, N_Vector 
   return feed;
 }
 
-static bool finite(sunindextype count, const double *f)
-{
-  for (sunindextype i = 0; i < count; i++)
-    if (!isfinite(f[i])) return false;
-  return true;
-}
-
 /* A frozen branch is evaluated a little beyond its border, where it may have no
  * value: then relations are taken as they are at this point. The step ends at
  * the event, so that this does no harm. */
@@ -42,7 +36,7 @@ static bool retried(const stf_model *m, stf_feed *feed, double *to)
   if (!m->switches || !feed->y) return false;
   stf_take_literally(m, feed);
   stf_quantity_run(m, &m->f, feed, to);
-  return finite(m->n, to);
+  return stf_all_finite(to, (size_t)m->n);
 }
 
 /* The operation that has no value, as a failure that a smaller step may cure. */
@@ -63,7 +57,7 @@ static int run(sunrealtype t, N_Vector y, N_Vector yp, N_Vector out, stf_model *
   stf_feed feed = feed_at(m, t, y, yp);
   double *to = N_VGetArrayPointer(out);
   stf_quantity_run(m, &m->f, &feed, to);
-  return finite(m->n, to) || retried(m, &feed, to) ? 0 : blame(m, &feed, to);
+  return stf_all_finite(to, (size_t)m->n) || retried(m, &feed, to) ? 0 : blame(m, &feed, to);
 }
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
@@ -80,7 +74,7 @@ static int F(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
 static void entries(const stf_model *m, const stf_matrix *M, stf_feed *feed, double *to)
 {
   stf_quantity_run(m, &M->quantity, feed, to);
-  if (!m->switches || !feed->y || finite(M->entries, to)) return;
+  if (!m->switches || !feed->y || stf_all_finite(to, (size_t)M->entries)) return;
   stf_take_literally(m, feed);
   stf_quantity_run(m, &M->quantity, feed, to);
 }

@@ -196,23 +196,57 @@ static bool narrow(stf_builder *b, const stf_affine *x, int64_t low, int64_t hig
   return true;
 }
 
-/* The boundary statement that gives an element outside; its names are bound. */
+static int bounds_of(stf_builder *b, const stf_statement *s, int d, int64_t *low, int64_t *high)
+{
+  stf_affine first = {0}, last;
+  STEIF_TRY(stf_index(b, &s->range[d].low, s->at, &first));
+  last = first;
+  if (s->range[d].high.to > s->range[d].high.from)
+    STEIF_TRY(stf_index(b, &s->range[d].high, s->at, &last));
+  *low = first.c;
+  *high = last.c;
+  return STEIF_OK;
+}
+
+/* Does x lie between low and high in some of the passes that are left? */
+static bool reaches(const stf_builder *b, const stf_affine *x, int64_t low, int64_t high)
+{
+  int64_t least = x->c, most = x->c;
+  for (int d = 0; d < b->dims; d++) {
+    const int64_t ends[] = {x->s[d] * b->low[d], x->s[d] * b->high[d]};
+    least += ends[0] < ends[1] ? ends[0] : ends[1];
+    most += ends[0] < ends[1] ? ends[1] : ends[0];
+  }
+  return most >= low && least <= high;
+}
+
+static bool no_passes(const stf_builder *b)
+{
+  for (int d = 0; d < b->dims; d++)
+    if (b->low[d] > b->high[d]) return true;
+  return false;
+}
+
+/* The boundary statement that gives an element outside; its names are bound. With counters it is the first
+ * that some passes meet, and the others are left to themselves. */
 static const stf_statement *boundary(stf_builder *b, const stf_code *c, const stf_affine *x,
                                      int *code)
 {
   for (size_t i = 0; i < b->m->syntax.statements.count; i++) {
     const stf_statement *s = stf_statement_at(b->m, (int32_t)i);
     if (s->kind != STF_SAY_BOUNDARY || s->name != c->b || s->dimensions != c->count) continue;
+    int64_t low[STF_DIMENSIONS], high[STF_DIMENSIONS];
     bool here = true;
     for (int d = 0; d < c->count && here && !*code; d++) {
-      stf_affine low = {0}, high;
-      *code = stf_index(b, &s->range[d].low, s->at, &low);
-      high = low;
-      if (!*code && s->range[d].high.to > s->range[d].high.from)
-        *code = stf_index(b, &s->range[d].high, s->at, &high);
-      here = x[d].c >= low.c && x[d].c <= high.c;
+      *code = bounds_of(b, s, d, low + d, high + d);
+      here = fixed(x + d) ? x[d].c >= low[d] && x[d].c <= high[d]
+                          : reaches(b, x + d, low[d], high[d]);
     }
-    if (*code || here) return s;
+    if (*code) return s;
+    if (!here) continue;
+    for (int d = 0; d < c->count; d++)
+      if (!fixed(x + d) && !narrow(b, x + d, low[d], high[d])) b->fallback = true;
+    return s;
   }
   return NULL;
 }
@@ -224,6 +258,10 @@ static int outside(stf_builder *b, const stf_symbol *s, const stf_code *c, const
   const stf_statement *said = boundary(b, c, x, &code);
   STEIF_TRY(code);
   const char *name = stf_named(b->m, s->word);
+  if (no_passes(b)) {
+    b->fallback = true;
+    return stf_push_node(b, stf_number(b->g, 0));
+  }
   if (!said || c->primes) {
     char pass[60] = "";
     const stf_binding *local = b->bindings.data;

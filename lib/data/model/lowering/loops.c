@@ -1,7 +1,7 @@
-/* loops.c: equations into blocks: one without loops, and one for each loop,
- * whose passes are kept together as far as all indices exist in them; passes at
- * the borders become equations of the first block. SPDX-License-Identifier:
- * BSD-3-Clause */
+/* loops.c: equations into blocks: one without loops, and some for each loop, whose passes are kept together
+ * in rectangles as far as all indices exist in them: the interior of a grid, its faces, its edges. What is
+ * left becomes equations of the first block.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
 #include <math.h>
 #include <string.h>
@@ -114,71 +114,187 @@ static int body(stf_model *m, stf_builder *b, stf_block *block, int32_t loop)
   return STEIF_OK;
 }
 
-/* Passes one by one, but for those inside the box of the block. */
-static int one_by_one(stf_model *m, stf_builder *b, const loops *l, int d, const stf_box *box,
-                      int32_t *counter)
+/* A rectangle of passes. */
+typedef struct region {
+  int32_t low[STF_LOOPS], high[STF_LOOPS];
+} region;
+
+/* Passes one by one; of a rectangle, where there is one. */
+static int one_by_one(stf_model *m, stf_builder *b, const loops *l, const region *part, int d)
 {
-  if (d >= l->dims || d >= STF_LOOPS) {
-    bool inside = box->dims > 0;
-    for (int k = 0; k < box->dims; k++)
-      inside = inside && counter[k] >= box->low[k] && counter[k] < box->low[k] + box->count[k];
-    if (inside) return STEIF_OK;
+  if (d >= l->dims || d >= STF_LOOPS)
     return body(m, b, block_at(m, 0), l->statement[l->dims - 1]);
-  }
   loops own = *l;
   b->fallback = false;
   STEIF_TRY(bounds(m, b, &own, d));
-  for (int64_t i = own.low[d]; i <= own.high[d]; i++) {
+  const int64_t low = part ? part->low[d] : own.low[d],
+                high = part ? part->high[d] : own.high[d];
+  for (int64_t i = low; i <= high; i++) {
     const size_t before = b->bindings.count;
-    bool inside = box->dims > 0 && d == l->dims - 1;
-    for (int k = 0; k < d && k < STF_LOOPS; k++)
-      inside = inside && counter[k] >= box->low[k] && counter[k] < box->low[k] + box->count[k];
-    if (inside && i == box->low[d]) i += box->count[d];
-    if (i > own.high[d]) break;
-    counter[d] = (int32_t)i;
     STEIF_TRY(
       stf_bind_index(b, stf_statement_at(m, l->statement[d])->name, &(stf_affine){.c = i}));
-    STEIF_TRY(one_by_one(m, b, &own, d + 1, box, counter));
+    STEIF_TRY(one_by_one(m, b, &own, part, d + 1));
     b->bindings.count = before;
   }
   return STEIF_OK;
 }
 
-/* The body once for all passes: the box in which it holds, empty where there is
- * none. */
-static int together(stf_model *m, loops *l, stf_box *box)
+/* The names of the loops: of those with one pass a number, of the others a counter; returns how many
+ * counters, which are the loops `of`. */
+static int bind_counters(stf_model *m, stf_builder *b, const loops *l, const region *part,
+                         int *of)
+{
+  b->dims = 0;
+  for (int d = 0; d < l->dims; d++) {
+    stf_affine x = {.c = part->low[d]};
+    if (part->high[d] > part->low[d]) {
+      x = (stf_affine){0};
+      x.s[b->dims] = 1;
+      b->low[b->dims] = b->range_low[b->dims] = part->low[d];
+      b->high[b->dims] = b->range_high[b->dims] = part->high[d];
+      of[b->dims++] = d;
+    }
+    STEIF_TRY(stf_bind_index(b, stf_statement_at(m, l->statement[d])->name, &x));
+  }
+  return STEIF_OK;
+}
+
+static void drop_block(stf_model *m, stf_block *block)
+{
+  stf_graph_free(&block->graph);
+  stf_vector_free(m->ctx, &block->equations);
+  stf_vector_free(m->ctx, &block->switches);
+  m->blocks.count--;
+}
+
+/* The body once for the passes of a rectangle in which it holds, `done`; false: for none. */
+static int together(stf_model *m, const loops *l, const region *part, region *done, bool *any)
 {
   stf_builder b;
+  int of[STF_LOOPS];
   stf_block *block = block_new(m);
   if (!block) return STEIF_NO_MEMORY;
+  const int32_t memories = m->memories, switches = m->switches;
   int code = stf_builder_open(&b, m, &block->graph, false);
-  b.dims = l->dims;
   b.events = true;
   b.block = block;
+  if (!code) code = bind_counters(m, &b, l, part, of);
+  if (!code) code = body(m, &b, block, l->statement[l->dims - 1]);
+  int64_t passes = b.fallback || code ? 0 : 1;
+  *done = *part;
+  block->box = (stf_box){.dims = b.dims};
+  for (int k = 0; k < b.dims; k++) {
+    const int32_t count = b.high[k] < b.low[k] ? 0 : b.high[k] - b.low[k] + 1;
+    block->box.low[k] = done->low[of[k]] = b.low[k];
+    block->box.count[k] = count;
+    done->high[of[k]] = b.high[k];
+    passes *= count;
+  }
+  *any = passes >= FEWEST;
+  stf_builder_close(&b);
+  if (!*any) {
+    drop_block(m, block);
+    m->memories = memories;
+    m->switches = switches;
+  }
+  return code;
+}
+
+/* A loop of a few passes that could be looked at one by one; -1: none. */
+static int thinnest(const loops *l, const region *part)
+{
+  int found = -1;
+  for (int d = 0; d < l->dims; d++) {
+    const int32_t count = part->high[d] - part->low[d] + 1;
+    if (count > 1 && count <= FEWEST &&
+        (found < 0 || count < part->high[found] - part->low[found] + 1))
+      found = d;
+  }
+  return found;
+}
+
+static int64_t passes_of(const loops *l, const region *part)
+{
+  int64_t count = 1;
+  for (int d = 0; d < l->dims; d++) count *= (int64_t)part->high[d] - part->low[d] + 1;
+  return count;
+}
+
+enum { REGIONS = 4096 };
+
+/* What is left of `part` around `done`, in slabs: those of loop d lie inside `done` in the loops before. */
+static int around(stf_model *m, const loops *l, region part, const region *done,
+                  stf_vector *open)
+{
+  for (int d = 0; d < l->dims; d++) {
+    region below = part, above = part;
+    below.high[d] = done->low[d] - 1;
+    above.low[d] = done->high[d] + 1;
+    const region *const sides[] = {&below, &above};
+    for (int k = 0; k < 2; k++) {
+      if (passes_of(l, sides[k]) < 1) continue;
+      region *to = stf_vector_push(m->ctx, open, sizeof *to);
+      if (!to) return STEIF_NO_MEMORY;
+      *to = *sides[k];
+    }
+    part.low[d] = done->low[d];
+    part.high[d] = done->high[d];
+  }
+  return STEIF_OK;
+}
+
+/* One rectangle: together as far as possible, and what is left around it; or in layers. */
+static int rectangle(stf_model *m, stf_builder *b, const loops *l, const region *part,
+                     stf_vector *open)
+{
+  region done, layer = *part;
+  bool any = false;
+  if (passes_of(l, part) >= FEWEST && open->count < REGIONS)
+    STEIF_TRY(together(m, l, part, &done, &any));
+  if (any) return around(m, l, *part, &done, open);
+  const int thin = passes_of(l, part) >= 2 * FEWEST ? thinnest(l, part) : -1;
+  if (thin < 0) return one_by_one(m, b, l, part, 0);
+  for (int32_t i = part->low[thin]; i <= part->high[thin]; i++) {
+    layer.low[thin] = layer.high[thin] = i;
+    region *to = stf_vector_push(m->ctx, open, sizeof *to);
+    if (!to) return STEIF_NO_MEMORY;
+    *to = layer;
+  }
+  return STEIF_OK;
+}
+
+/* Bounds that are numbers make a rectangle; others depend on counters around. */
+static int is_rectangle(stf_model *m, loops *l, region *all, bool *yes)
+{
+  stf_builder b;
+  stf_graph g = {.ctx = m->ctx};
+  int code = stf_builder_open(&b, m, &g, false);
   for (int d = 0; !code && d < l->dims; d++) {
     stf_affine x = {0};
     x.s[d] = 1;
     code = bounds(m, &b, l, d);
     if (!code) code = stf_bind_index(&b, stf_statement_at(m, l->statement[d])->name, &x);
-    b.low[d] = b.range_low[d] = l->low[d];
-    b.high[d] = b.range_high[d] = l->high[d];
+    all->low[d] = l->low[d];
+    all->high[d] = l->high[d];
   }
-  if (!code && !b.fallback) code = body(m, &b, block, l->statement[l->dims - 1]);
-  *box = (stf_box){.dims = b.fallback || code ? 0 : l->dims};
-  int64_t passes = 1;
-  for (int d = 0; d < box->dims; d++) {
-    box->low[d] = b.low[d];
-    box->count[d] = b.high[d] < b.low[d] ? 0 : b.high[d] - b.low[d] + 1;
-    passes *= box->count[d];
-  }
-  if (passes < FEWEST) box->dims = 0;
+  *yes = !b.fallback;
   stf_builder_close(&b);
-  block->box = *box;
-  if (box->dims) return code;
-  stf_graph_free(&block->graph);
-  stf_vector_free(m->ctx, &block->equations);
-  stf_vector_free(m->ctx, &block->switches);
-  m->blocks.count--;
+  stf_graph_free(&g);
+  return code;
+}
+
+static int rectangles(stf_model *m, stf_builder *b, const loops *l, const region *all)
+{
+  stf_vector open = {0};
+  int code = STEIF_OK;
+  region *first = passes_of(l, all) < 1 ? NULL : stf_vector_push(m->ctx, &open, sizeof *first);
+  if (first) *first = *all;
+  if (!first && passes_of(l, all) > 0) code = STEIF_NO_MEMORY;
+  for (size_t i = 0; !code && i < open.count; i++) {
+    const region part = *STF_AT(open, region, i);
+    code = rectangle(m, b, l, &part, &open);
+  }
+  stf_vector_free(m->ctx, &open);
   return code;
 }
 
@@ -195,8 +311,9 @@ static bool holds_equations(const stf_model *m, int32_t loop)
 static int loop(stf_model *m, stf_builder *b, int32_t statement)
 {
   loops l = {.dims = 0};
-  stf_box box = {0};
-  int32_t counter[STF_LOOPS], chain[STF_LOOPS + 1];
+  region all = {{0}, {0}};
+  bool yes = false;
+  int32_t chain[STF_LOOPS + 1];
   int depth = 0;
   if (!holds_equations(m, statement)) return STEIF_OK;
   for (int32_t i = statement; i >= 0; i = stf_statement_at(m, i)->parent) {
@@ -206,8 +323,8 @@ static int loop(stf_model *m, stf_builder *b, int32_t statement)
     chain[depth++] = i;
   }
   while (depth) l.statement[l.dims++] = chain[--depth];
-  STEIF_TRY(together(m, &l, &box));
-  return one_by_one(m, b, &l, 0, &box, counter);
+  STEIF_TRY(is_rectangle(m, &l, &all, &yes));
+  return yes ? rectangles(m, b, &l, &all) : one_by_one(m, b, &l, NULL, 0);
 }
 
 /* ---- velocities

@@ -1,5 +1,6 @@
 /* products.c: products with the derivatives of a model, and the functions of steif/model.h for them.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "pencil.h"
 #include "products.h"
 #include "model_file.h"
 #include <math.h>
@@ -66,23 +67,16 @@ static int adjoint_ready(stf_model *m)
   return STEIF_OK;
 }
 
-static bool finite(size_t count, const double *x)
-{
-  for (size_t i = 0; i < count; i++)
-    if (!isfinite(x[i])) return false;
-  return true;
-}
-
 /* A frozen branch without a value is taken literally, as f is. */
 static int evaluate(stf_model *m, const stf_quantity *q, stf_feed *feed, size_t count,
                     double *out)
 {
   stf_quantity_run(m, q, feed, out);
-  if (finite(count, out)) return STEIF_OK;
+  if (stf_all_finite(out, count)) return STEIF_OK;
   if (m->switches) {
     stf_take_literally(m, feed);
     stf_quantity_run(m, q, feed, out);
-    if (finite(count, out)) return STEIF_OK;
+    if (stf_all_finite(out, count)) return STEIF_OK;
   }
   return STEIF_RECOVER(m->ctx, STEIF_NOT_FINITE,
                        "a derivative of the model is not finite at t = %.12g", feed->t);
