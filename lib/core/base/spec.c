@@ -8,27 +8,34 @@
 
 static bool letter(char c)
 {
-  return isalnum((unsigned char)c) || (unsigned char)c >= 0x80 || c == '.' || c == '-' || c == '+' || c == '_';
+  return isalnum((unsigned char)c) || c == '.' || c == '-' || c == '+' || c == '_';
 }
 
-/* Copy a word from *at into out, with the mark `extra` taken as a letter; false when it is empty or
- * too long. */
-static bool word(const char **at, char *out, size_t room, char extra)
+enum { PLAIN, KEY, VALUE };
+
+/* Keys are names, of a model in any script; values may be paths. */
+static bool belongs(char c, int to)
+{
+  return letter(c) || (to == KEY && (unsigned char)c >= 0x80) || (to == VALUE && c == '/');
+}
+
+/* Copy a word from *at into out; false when it is empty or too long. */
+static bool word(const char **at, char *out, size_t room, int kind)
 {
   size_t used = 0;
-  while ((letter(**at) || (**at && **at == extra)) && used < room - 1) out[used++] = *(*at)++;
+  while (belongs(**at, kind) && used < room - 1) out[used++] = *(*at)++;
   out[used] = 0;
-  return used > 0 && !letter(**at) && !(**at && **at == extra);
+  return used > 0 && !belongs(**at, kind);
 }
 
 static bool parameter(const char **at, steif_spec *spec)
 {
   if (spec->count == STEIF_SPEC_PARAMS) return false;
   char *key = spec->param[spec->count].key, *value = spec->param[spec->count].value;
-  if (!word(at, key, STEIF_SPEC_KEY, 0)) return false;
+  if (!word(at, key, STEIF_SPEC_KEY, KEY)) return false;
   if (**at == '=') {
     ++*at;
-    if (!word(at, value, STEIF_SPEC_VALUE, '/')) return false;
+    if (!word(at, value, STEIF_SPEC_VALUE, VALUE)) return false;
   } else {
     strcpy(value, key);
     *key = 0;
@@ -45,7 +52,7 @@ int steif_spec_parse(steif_context *ctx, const char *text, steif_spec *spec)
   spec->count = 0;
   *spec->name = 0;
   const char *at = text;
-  bool good = word(&at, spec->name, STEIF_SPEC_WORD, 0);
+  bool good = word(&at, spec->name, STEIF_SPEC_WORD, PLAIN);
   for (char mark = ':'; good && *at; mark = ',')
     good = *at == mark && (at++, parameter(&at, spec));
   STEIF_CHECK(
