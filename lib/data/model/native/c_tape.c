@@ -106,6 +106,8 @@ void stf_write_functions(stf_writer *w, const stf_model *m, size_t count,
       mark_used(&t->wide, used);
     }
   if (used[STF_OP_LOOKUP] || used[STF_OP_TILT]) tables(w, m);
+  if (used[STF_OP_TIMES_PLUS] || used[STF_OP_TIMES_MINUS] || used[STF_OP_MINUS_TIMES])
+    stf_write(w, "static inline double plus(double a, double b) { return a + b; }\n");
   for (int k = 0; k < STF_OP_KINDS; k++) {
     if (!used[k] || !value_of[k] || infix[k] || k == STF_OP_NEGATIVE) continue;
     stf_write(w, "static inline double op%d(double a%s) { return %s; }\n", k,
@@ -127,6 +129,12 @@ static void operation(stf_writer *w, const stf_step_code *s, const char *a, cons
   else if (s->kind == STF_OP_LOOKUP || s->kind == STF_OP_TILT)
     stf_write(w, "%s(&table[%d], %s);\n", s->kind == STF_OP_LOOKUP ? "value" : "tilt",
               (int)s->b, a);
+  else if (s->kind == STF_OP_TIMES_PLUS)
+    stf_write(w, "plus(%s * %s, %s);\n", a, b, c);
+  else if (s->kind == STF_OP_TIMES_MINUS)
+    stf_write(w, "plus(%s * %s, -%s);\n", a, b, c);
+  else if (s->kind == STF_OP_MINUS_TIMES)
+    stf_write(w, "plus(%s, -(%s * %s));\n", c, a, b);
   else if (s->kind == STF_OP_SELECT)
     stf_write(w, "op%d(%s, %s, %s);\n", s->kind, a, b, c);
   else if (stf_operands(s->kind) > 1)

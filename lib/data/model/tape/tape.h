@@ -46,6 +46,7 @@ typedef struct stf_tape {
   stf_vector broadcasts;     /* stf_step_code: to a lane register from a scalar one, a */
   stf_vector stores;         /* stf_store */
   size_t fixed, fixed_loads; /* of code and loads: those of parameters only, which come first */
+  size_t state_loads;        /* then loads of unknowns, up to here */
   stf_vector at;             /* const double *: values of each lane register */
   int32_t registers, lanes;  /* scalar registers, lane registers */
   bool assigns;              /* stores write, they do not add */
@@ -65,6 +66,8 @@ typedef struct stf_feed {
 /* Outputs are nodes with a destination (`from` is the node). */
 int stf_tape_compile(const stf_graph *g, const stf_box *box, size_t count,
                      const stf_store *outputs, stf_tape *tape);
+/* fuse.c: products and the sums that need them as one instruction. */
+int stf_tape_fuse(steif_context *ctx, stf_tape *tape);
 void stf_tape_free(steif_context *ctx, stf_tape *tape);
 /* Doubles of workspace; numbers and what parameters determine into it. */
 size_t stf_tape_space(const stf_tape *tape);

@@ -133,6 +133,10 @@ static int stores(compiler *c, size_t count, const stf_store *outputs)
     stf_store *s = push(c, &c->tape->stores, sizeof *s);
     if (!s) return STEIF_NO_MEMORY;
     *s = outputs[i];
+    if (s->slot && !c->tape->box.dims) {
+      s->a = s->slot[0];
+      s->slot = NULL;
+    }
     s->wide = c->tape->box.dims > 0;
     const int32_t node = outputs[i].from;
     s->from = !s->wide                        ? *scalar(c, node) - 1
@@ -141,6 +145,19 @@ static int stores(compiler *c, size_t count, const stf_store *outputs)
     if (s->from < 0) return STEIF_NO_MEMORY;
   }
   return STEIF_OK;
+}
+
+/* Of the loads that every call makes. */
+static void states_first(stf_tape *t)
+{
+  stf_load *l = t->loads.data;
+  t->state_loads = t->fixed_loads;
+  for (size_t i = t->fixed_loads; i < t->loads.count; i++) {
+    const stf_load own = l[i];
+    if (own.kind != STF_OP_STATE) continue;
+    l[i] = l[t->state_loads];
+    l[t->state_loads++] = own;
+  }
 }
 
 int stf_tape_compile(const stf_graph *g, const stf_box *box, size_t count,
@@ -157,6 +174,8 @@ int stf_tape_compile(const stf_graph *g, const stf_box *box, size_t count,
     code = nodes(&c);
   }
   if (!code) code = stores(&c, count, outputs);
+  if (!code) code = stf_tape_fuse(g->ctx, tape);
+  if (!code) states_first(tape);
   if (!code) code = stf_vector_resize(g->ctx, &tape->at, (size_t)tape->lanes, sizeof(double *));
   stf_vector_free(g->ctx, &c.scalar);
   stf_vector_free(g->ctx, &c.lane);

@@ -5,6 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+/* A call between them: no compiler takes the product and the sum for one operation. */
+INLINE double plus(double a, double b) { return a + b; }
+
 static void run_scalar(const stf_step_code *s, const stf_step_code *end, double *r,
                        const stf_lookup *l)
 {
@@ -15,6 +18,9 @@ static void run_scalar(const stf_step_code *s, const stf_step_code *end, double 
     case STF_OP_SUBTRACT: r[s->to] = a - r[s->b]; break;
     case STF_OP_MULTIPLY: r[s->to] = a * r[s->b]; break;
     case STF_OP_DIVIDE: r[s->to] = a / r[s->b]; break;
+    case STF_OP_TIMES_PLUS: r[s->to] = plus(a * r[s->b], r[s->c]); break;
+    case STF_OP_TIMES_MINUS: r[s->to] = plus(a * r[s->b], -r[s->c]); break;
+    case STF_OP_MINUS_TIMES: r[s->to] = plus(r[s->c], -(a * r[s->b])); break;
     case STF_OP_NEGATIVE: r[s->to] = -a; break;
     case STF_OP_SELECT: r[s->to] = a != 0 ? r[s->b] : r[s->c]; break;
     case STF_OP_LOOKUP: r[s->to] = stf_lookup_value(l + s->b, a); break;
@@ -50,6 +56,15 @@ INLINE void run_lane(const stf_step_code *s, const double *const *at, double *la
     break;
     STF_BINARY(STF_ONE)
 #undef STF_ONE
+  case STF_OP_TIMES_PLUS:
+    for (int i = 0; i < count; i++) to[i] = plus(x[i] * y[i], z[i]);
+    break;
+  case STF_OP_TIMES_MINUS:
+    for (int i = 0; i < count; i++) to[i] = plus(x[i] * y[i], -z[i]);
+    break;
+  case STF_OP_MINUS_TIMES:
+    for (int i = 0; i < count; i++) to[i] = plus(z[i], -(x[i] * y[i]));
+    break;
   case STF_OP_SELECT:
     for (int i = 0; i < count; i++) to[i] = x[i] != 0 ? y[i] : z[i];
     break;
@@ -200,7 +215,9 @@ void stf_tape_run(const stf_tape *t, const stf_feed *feed, double *space, double
   const double **at = t->at.data;
   for (int32_t i = 0; i < t->lanes; i++) at[i] = lanes + (size_t)i * STF_PASSES;
   const stf_load *l = t->loads.data;
-  for (size_t i = t->fixed_loads; i < t->loads.count; i++) space[l[i].to] = loaded(feed, l + i);
+  const double *y = feed->y;
+  for (size_t i = t->fixed_loads; i < t->state_loads; i++) space[l[i].to] = y[l[i].a];
+  for (size_t i = t->state_loads; i < t->loads.count; i++) space[l[i].to] = loaded(feed, l + i);
   const stf_step_code *s = t->code.data;
   if (s) run_scalar(s + t->fixed, s + t->code.count, space, feed->lookups);
   if (t->box.dims) {
@@ -213,9 +230,7 @@ void stf_tape_run(const stf_tape *t, const stf_feed *feed, double *space, double
   }
   const stf_store *o = t->stores.data;
   if (t->assigns)
-    for (size_t i = 0; i < t->stores.count; i++)
-      out[o[i].slot ? o[i].slot[0] : o[i].a] = space[o[i].from];
+    for (size_t i = 0; i < t->stores.count; i++) out[o[i].a] = space[o[i].from];
   else
-    for (size_t i = 0; i < t->stores.count; i++)
-      out[o[i].slot ? o[i].slot[0] : o[i].a] += space[o[i].from];
+    for (size_t i = 0; i < t->stores.count; i++) out[o[i].a] += space[o[i].from];
 }

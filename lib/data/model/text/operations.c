@@ -14,7 +14,7 @@ int stf_operands(int kind)
 {
   if (kind < STF_OP_NEGATIVE) return 0;
   if (kind < STF_OP_ADD || kind == STF_OP_LOOKUP || kind == STF_OP_TILT) return 1;
-  return kind == STF_OP_SELECT ? 3 : 2;
+  return kind >= STF_OP_SELECT ? 3 : 2;
 }
 
 int stf_function_of(const char *word, int *operands)

@@ -73,6 +73,10 @@ enum stf_kind {
     STF_OP_LOOKUP, /* table b at a */
   STF_OP_TILT,     /* its slope */
   STF_OP_SELECT,   /* a holds: b, else c */
+  /* of the machine only: a b + c, a b - c, c - a b */
+  STF_OP_TIMES_PLUS,
+  STF_OP_TIMES_MINUS,
+  STF_OP_MINUS_TIMES,
   STF_OP_KINDS,
   /* of the text only */
   STF_OP_NAME = STF_OP_KINDS, /* a: word; count: primes */
