@@ -20,12 +20,20 @@ static bool same(const stf_node *x, const stf_node *y)
          !memcmp(&x->number, &y->number, sizeof x->number);
 }
 
-static int32_t *slot(const stf_graph *g, const stf_node *n)
+/* A slot holds 1 + the number of a node, and half its hash: most others are told apart by that. */
+static uint64_t entry_of(size_t h, int32_t node)
+{
+  return ((uint64_t)h & ~(uint64_t)UINT32_MAX) | (uint32_t)(node + 1);
+}
+
+static uint64_t *slot(const stf_graph *g, const stf_node *n, size_t h)
 {
   const size_t mask = g->slots.count - 1;
-  for (size_t i = hash(n);; i++) {
-    int32_t *s = STF_AT(g->slots, int32_t, i & mask);
-    if (!*s || same(n, stf_node_at(g, *s - 1))) return s;
+  for (size_t i = h;; i++) {
+    uint64_t *s = STF_AT(g->slots, uint64_t, i & mask);
+    if (!*s) return s;
+    const bool alike = !((*s ^ h) >> 32);
+    if (alike && same(n, stf_node_at(g, (int32_t)(uint32_t)*s - 1))) return s;
   }
 }
 
@@ -34,12 +42,18 @@ static int widen(stf_graph *g)
   stf_vector before = g->slots;
   g->slots = (stf_vector){0};
   const int code =
-    stf_vector_resize(g->ctx, &g->slots, before.count ? 2 * before.count : 64, sizeof(int32_t));
+    stf_vector_resize(g->ctx, &g->slots, before.count ? 4 * before.count : 64, sizeof(uint64_t));
   if (code) {
     g->slots = before;
     return code;
   }
-  for (int32_t i = 0; i < (int32_t)g->nodes.count; i++) *slot(g, stf_node_at(g, i)) = i + 1;
+  const size_t mask = g->slots.count - 1;
+  for (int32_t i = 0; i < (int32_t)g->nodes.count; i++) {
+    const size_t h = hash(stf_node_at(g, i));
+    size_t at = h & mask;
+    while (*STF_AT(g->slots, uint64_t, at)) at = (at + 1) & mask;
+    *STF_AT(g->slots, uint64_t, at) = entry_of(h, i);
+  }
   stf_vector_free(g->ctx, &before);
   return STEIF_OK;
 }
@@ -47,8 +61,9 @@ static int widen(stf_graph *g)
 static int32_t keep(stf_graph *g, stf_node n)
 {
   if (2 * (g->nodes.count + 1) > g->slots.count && widen(g)) return -1;
-  int32_t *s = slot(g, &n);
-  if (*s) return *s - 1;
+  const size_t h = hash(&n);
+  uint64_t *s = slot(g, &n, h);
+  if (*s) return (int32_t)(uint32_t)*s - 1;
   if (g->nodes.count >= STF_NODES) {
     STEIF_FAIL(g->ctx, STEIF_NO_MEMORY, "a model of more than %d operations; use loops",
                STF_NODES);
@@ -58,8 +73,8 @@ static int32_t keep(stf_graph *g, stf_node n)
   if (!to) return -1;
   n.at = g->at;
   *to = n;
-  *s = (int32_t)g->nodes.count;
-  return *s - 1;
+  *s = entry_of(h, (int32_t)g->nodes.count - 1);
+  return (int32_t)g->nodes.count - 1;
 }
 
 int stf_children(const stf_node *n, int32_t child[3])
