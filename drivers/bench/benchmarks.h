@@ -11,6 +11,7 @@
 int bench_step(struct call *call);
 int bench_cost_accounting(struct call *call);
 int bench_lyapunov(struct call *call);
+int bench_model(struct call *call);
 int bench_workprec(struct call *call);
 int bench_success(struct call *call);
 int bench_certificates(struct call *call);

@@ -52,6 +52,8 @@ int bench_cost_accounting(struct call *call)
   return against_kernels(call, "books", steif_bench_cost_accounting);
 }
 
+int bench_model(struct call *call) { return against_kernels(call, "model", steif_bench_model); }
+
 int bench_lyapunov(struct call *call)
 {
   return against_kernels(call, "lyapunov", steif_bench_lyapunov);

@@ -25,6 +25,9 @@
  *   "price"    step_s: a whole run of a baseline through steif, from its creation to its destruction;
  *              floor_s: the same by a direct program (direct.h) with the same steps (else
  *              STEIF_NOT_CERTIFIED); ratio: median over runs in turns; limit 1.05
+ *   "operations", "loops f", "compiled f", ... (steif_bench_model) step_s: f or J of a model as text, by the
+ *              interpreter and compiled; floor_s: a nanosecond an operation, or f and J of the same problem
+ *              in C; "run": a step of a whole run, of both; "reading": 1e5 equations, and 2 seconds
  *   "lyapunov" (steif_bench_lyapunov) step_s: a step with all n Lyapunov exponents, 10 where n is
  *              10000; floor_s: the step alone, J and its product with as many columns for every
  *              stage, the systems of the stages (one of order s n for s collocation stages), Q R by
@@ -39,6 +42,8 @@ typedef struct steif_bench_row {
 
 /* Row i; STEIF_BAD_INPUT without a sentence past the end. */
 int steif_bench_step(steif_context *ctx, size_t i, steif_bench_row *row);
+/* Models as text against C. */
+int steif_bench_model(steif_context *ctx, size_t i, steif_bench_row *row);
 int steif_bench_lyapunov(steif_context *ctx, size_t i, steif_bench_row *row);
 /* Whole runs of `auto` on the dense problems of 3 to 30 unknowns, at the tolerance that stands in kind;
  * floor_s: what f, J, factorisations and solves take of a step, by the run's counters and their times at
