@@ -13,6 +13,7 @@ if(STEIF_PYTHON)
   install(DIRECTORY python/steif DESTINATION ${CMAKE_INSTALL_LIBDIR}/python3/dist-packages
           FILES_MATCHING PATTERN "*.py")
 endif()
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY include/steif DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 
 if(TARGET steif_program)

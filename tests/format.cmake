@@ -19,7 +19,7 @@ if(NOT tool)
 endif()
 
 file(GLOB_RECURSE files ${SOURCE}/lib/*.[ch] ${SOURCE}/include/*.h ${SOURCE}/drivers/*.[ch]
-     ${SOURCE}/tests/*.[ch])
+     ${SOURCE}/tests/*.[ch] ${SOURCE}/examples/*.c ${SOURCE}/examples/*.cpp)
 execute_process(COMMAND ${tool} --dry-run -Werror --style=file ${files}
                 RESULT_VARIABLE code ERROR_VARIABLE out)
 list(LENGTH files count)

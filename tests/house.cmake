@@ -31,6 +31,10 @@ house_test(consumer -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
            -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DVERSION=${PROJECT_VERSION} -DCC=${CMAKE_C_COMPILER}
            -DFLAGS=${flags})
 
+house_test(examples -DBUILD=${PROJECT_BINARY_DIR} -DLIBDIR=${CMAKE_INSTALL_LIBDIR}
+           -DDOCDIR=${CMAKE_INSTALL_DOCDIR} -DCC=${CMAKE_C_COMPILER} -DCMAKE_CTEST_COMMAND=${CMAKE_CTEST_COMMAND}
+           -DFLAGS=${flags})
+
 # With a compiler cache the objects there are serve again, else no optimisation is the quickest.
 set(how -DTYPE=Debug -DWERROR=OFF -DLAUNCHER=)
 if(CMAKE_C_COMPILER_LAUNCHER)
