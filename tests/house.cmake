@@ -118,7 +118,7 @@ foreach(name /usr/bin/python3 python3)
 endforeach()
 if(pythons AND NOT STEIF_SANITIZE)
   list(GET pythons 0 interpreter)
-  add_test(NAME python COMMAND ${interpreter} ${PROJECT_SOURCE_DIR}/tests/python/test_solve.py)
+  add_test(NAME python COMMAND ${interpreter} -m unittest discover -s ${PROJECT_SOURCE_DIR}/tests/python)
   set_tests_properties(python PROPERTIES ENVIRONMENT
     "PYTHONPATH=${PROJECT_SOURCE_DIR}/python;STEIF_LIBRARY=$<TARGET_FILE:steif>;PYTHONDONTWRITEBYTECODE=1")
 else()

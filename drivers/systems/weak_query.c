@@ -23,26 +23,15 @@ struct weak weak_asked(const struct call *call)
   return w;
 }
 
-/* Stages for Runge-Kutta methods but backward Euler, the comb for convolution quadrature. */
-static enum steif_convention usual(const char *method, const char *start,
-                                   const steif_method_info *m)
-{
-  if (strstr(method, "start=cq") || (start && !strcmp(start, "cq"))) return STEIF_C;
-  const bool table = !strcmp(m->family, "irk") || !strcmp(m->family, "dirk");
-  return m->stages > 1 || (table && strncmp(method, "radau:s=1", 9)) ? STEIF_STAGE : STEIF_R;
-}
-
 int weak_prepare(steif_context *ctx, struct weak *w)
 {
-  steif_method_info m = {.family = "cobb",
-                         .stages = 1}; /* no method, but a limit beside them */
-  if (strcmp(w->query.method, "cobb") && steif_method_find(ctx, w->query.method, &m))
-    return steif_status(ctx);
   if (w->k) {
     snprintf(w->problem, sizeof w->problem, "jordan:k=%ld,case=%s", w->k, w->kind);
     w->query.problem = w->problem;
   }
-  w->query.convention = usual(w->query.method, w->query.start, &m);
+  const int code =
+    steif_convention_usual(ctx, w->query.method, w->query.start, &w->query.convention);
+  if (code) return code;
   for (int i = 0; w->convention && i < 4; i++)
     if (!strcmp(w->convention, name[i])) w->query.convention = (enum steif_convention)i;
   return STEIF_OK;

@@ -11,8 +11,8 @@
  *   C      h sum_i x_i delta(t - ih), i >= 1; i >= 0 where the run has solved for x_0, as convolution
  *          quadrature (start=cq) does            (comb)
  *   stage  h sum_n sum_j b_j X_{n,j} delta(t - t_n - c_j h)   (Runge-Kutta stages)
- * The program takes stage for Runge-Kutta methods of any number of stages (backward Euler apart), C
- * for convolution quadrature, R for the others.
+ * Usual are stage for Runge-Kutta methods of any number of stages (backward Euler apart), C for
+ * convolution quadrature, R for the others.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_WEAK_H
@@ -61,6 +61,10 @@ typedef struct steif_weak_result {
   int index;            /* of the system */
   char note[160]; /* on the test function, where it does not end smoothly at t1; else empty */
 } steif_weak_result;
+
+/* The convention of the program, of a method from a starting procedure (NULL: its own). */
+STEIF_EXPORT int steif_convention_usual(steif_context *ctx, const char *method,
+                                        const char *start, enum steif_convention *convention);
 
 enum { STEIF_ALL = -1 }; /* components */
 

@@ -6,9 +6,14 @@
     steif.solve("rober", method="radau:s=3", rtol=1e-8)        # a problem of the collection
     steif.solve("pendulum.steif")                              # or a model file
 
+    steif.impulse(E, F, x0, f="sin(t); 0")      # the jump and the impulses of E x' + F x = f
+    steif.weak("bdf:p=2", E, F, x0)             # does the method converge to them
+    steif.c2d(A, B, dt=0.1, scheme="foh")       # x' = A x + B u on a time grid
+
 The library is found by the environment variable STEIF_LIBRARY, else beside this file, else by the loader.
 """
 from ._library import SteifError, version
+from ._linear import c2d, impulse, weak
 from ._solve import Result, solve
 
-__all__ = ["solve", "Result", "SteifError", "version"]
+__all__ = ["solve", "impulse", "weak", "c2d", "Result", "SteifError", "version"]

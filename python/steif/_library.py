@@ -3,6 +3,8 @@ import ctypes as c
 import os
 import sys
 
+import numpy as np
+
 POINTER, REAL, INT = c.c_void_p, c.c_double, c.c_int
 
 
@@ -40,6 +42,8 @@ def _open():
 
 
 lib = _open()
+lib.steif_layout.restype, lib.steif_layout.argtypes = c.c_long, (c.c_char_p,)
+WHOLE = c.c_int64 if lib.steif_layout(b"sunindextype") == 8 else c.c_int32  # of sizes and rows
 
 
 def _declare(name, result, *arguments):
@@ -53,7 +57,6 @@ for _row in (
     ("steif_message", c.c_char_p, POINTER),
     ("steif_status", INT, POINTER),
     ("steif_version", c.c_char_p),
-    ("steif_layout", c.c_long, c.c_char_p),
     ("steif_problem_find", INT, POINTER, c.c_char_p, POINTER),
     ("steif_problem_clear", None, POINTER, POINTER),
     ("steif_solver_new", POINTER, POINTER, POINTER, c.c_char_p, POINTER),
@@ -63,8 +66,33 @@ for _row in (
     ("steif_solution", POINTER, POINTER),
     ("steif_time", REAL, POINTER),
     ("steif_statistics", POINTER, POINTER),
+    ("steif_record_new", POINTER, POINTER, WHOLE, INT),
+    ("steif_record_free", None, POINTER),
+    ("steif_record_step", INT, POINTER, REAL, POINTER, POINTER),
+    ("steif_record_at", INT, POINTER, REAL, POINTER, POINTER),
     ("N_VGetArrayPointer", POINTER, POINTER),
     ("SUNDenseMatrix_Data", POINTER, POINTER),
+    ("steif_sundials", POINTER, POINTER),
+    ("SUNDenseMatrix", POINTER, WHOLE, WHOLE, POINTER),
+    ("SUNSparseMatrix", POINTER, WHOLE, WHOLE, WHOLE, INT, POINTER),
+    ("SUNSparseMatrix_Data", POINTER, POINTER),
+    ("SUNSparseMatrix_IndexPointers", POINTER, POINTER),
+    ("SUNSparseMatrix_IndexValues", POINTER, POINTER),
+    ("SUNMatDestroy", None, POINTER),
+    ("steif_structure_find", INT, POINTER, POINTER, POINTER, POINTER, POINTER),
+    ("steif_structure_clear", None, POINTER, POINTER),
+    ("steif_impulse_find", INT, POINTER, POINTER, POINTER, POINTER, REAL, POINTER, POINTER, POINTER,
+     POINTER, POINTER),
+    ("steif_impulse_clear", None, POINTER, POINTER),
+    ("steif_function_parse", POINTER, POINTER, c.c_char_p, WHOLE, POINTER),
+    ("steif_function_free", None, POINTER),
+    ("steif_function_breaks", c.c_size_t, POINTER, REAL, REAL, c.c_size_t, POINTER),
+    ("steif_convention_usual", INT, POINTER, c.c_char_p, c.c_char_p, POINTER),
+    ("steif_weak_measure", INT, POINTER, POINTER, POINTER, POINTER),
+    ("steif_c2d", INT, POINTER, POINTER, c.c_char_p, REAL, POINTER),
+    ("steif_discrete_clear", None, POINTER, POINTER),
+    ("steif_finite_part_find", INT, POINTER, POINTER, POINTER, POINTER),
+    ("steif_finite_part_clear", None, POINTER, POINTER),
 ):
     _declare(*_row)
 
@@ -77,10 +105,34 @@ def version():
 class Struct:
     """Zeroed memory of a struct of the library; members are set and read by their offsets."""
 
-    def __init__(self, kind):
+    def __init__(self, kind, count=1, address=None):
         self.kind, self.kept = kind, {}
-        self.memory = c.create_string_buffer(lib.steif_layout(kind.encode()))
-        self.address = c.addressof(self.memory)
+        self.size = lib.steif_layout(kind.encode())
+        if self.size < 0:
+            raise SteifError(-2, "this libsteif has no struct %s" % kind)
+        self.memory = None if address else c.create_string_buffer(self.size * count)
+        self.address = address or c.addressof(self.memory)
+
+    def row(self, i):
+        """Struct i of an array of them."""
+        return Struct(self.kind, address=self.address + i * self.size)
+
+    def inner(self, member, kind):
+        """A struct that is a member of this one."""
+        place = self._place(member, c.c_char)
+        return Struct(kind, address=c.addressof(place))
+
+    def text(self, member):
+        """A member that is an array of characters."""
+        return c.string_at(c.addressof(self._place(member, c.c_char))).decode()
+
+    def array(self, member, *shape, order="C"):
+        """A copy of the numbers that a pointer leads to; None for NULL."""
+        address = self.get(member, POINTER)
+        count = int(np.prod(shape))
+        if not address:
+            return None if count else np.zeros(shape)
+        return np.array((REAL * count).from_address(address)).reshape(shape, order=order)
 
     def _place(self, member, kind):
         at = lib.steif_layout(("%s.%s" % (self.kind, member)).encode())

@@ -6,7 +6,7 @@ import threading
 
 import numpy as np
 
-from ._library import INT, POINTER, REAL, Context, SteifError, Struct, lib
+from ._library import INT, POINTER, REAL, WHOLE, Context, SteifError, Struct, lib
 
 _RHS = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER)
 _JACOBIAN = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER, POINTER, POINTER, POINTER, POINTER)
@@ -14,17 +14,47 @@ _FILL = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER, POINTER)
 _VALUES = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER)
 _OBSERVE = c.CFUNCTYPE(INT, POINTER, REAL, POINTER, POINTER)
 _ON_EVENT = c.CFUNCTYPE(INT, POINTER, REAL, POINTER, POINTER, POINTER)
-_STOP, _EVENT, _AGAIN = -1, 2, 1
+_STOP, _EVENT, _SPARSE = -1, 2, 2  # the last: STEIF_SPARSE of problem.h
 _COUNTS = {"nfev": "nfe", "njev": "nje", "nlu": "nlu", "nsteps": "steps", "nrejected": "rejected"}
 
 
 class Result:
-    """What a run has left: t, y (n x points), t_events, y_events, nfev, njev, nlu, nsteps, nrejected,
-    method, status (0 the end was reached, 1 an event ended the run, negative a failure), message,
-    success."""
+    """What a run has left: t, y (n x points), sol (with dense_output), names (of the unknowns, or None),
+    t_events, y_events, nfev, njev, nlu, nsteps, nrejected, method, status (0 the end was reached, 1 an
+    event ended the run, negative a failure), message, success."""
 
     def __repr__(self):
         return "\n".join("%10s: %s" % (key, getattr(self, key)) for key in sorted(vars(self)))
+
+
+class Dense:
+    """The solution as a function: s(t) has n values, s([t1, t2, ...]) is n x points."""
+
+    def __init__(self, context, n):
+        self.context, self.n = context, n
+        self.record = lib.steif_record_new(context.pointer, n, 10)  # degree of its polynomials
+        if not self.record:
+            raise context.error()
+
+    def step(self, solver, t, y):
+        if lib.steif_record_step(solver, t, y, self.record):
+            raise self.context.error()
+
+    def __call__(self, t):
+        times = np.asarray(t, dtype=float)
+        y = np.zeros((times.size, self.n))
+        for i, time in enumerate(times.ravel()):
+            if lib.steif_record_at(self.record, time, y[i].ctypes.data, None):
+                raise ValueError("t = %g lies outside of the run" % time)
+        return y[0] if times.ndim == 0 else y.T
+
+    def close(self):
+        if self.record:
+            lib.steif_record_free(c.byref(POINTER(self.record)))
+            self.record = None
+            self.context.close()
+
+    __del__ = close
 
 
 class _Arrays:
@@ -81,7 +111,7 @@ class _Run:
     def __init__(self, n):
         self.n, self.arrays, self.raised = n, _Arrays(), None
         self.problem, self.options = Struct("problem"), Struct("options")
-        self.t, self.y = [], []
+        self.t, self.y, self.names = [], [], None
 
     def guarded(self, work):
         """A callback of the library: an exception ends the run and is raised again after it."""
@@ -118,7 +148,7 @@ class _Run:
 
     def mass(self, M):
         matrix, n = self.arrays.matrix, self.n
-        M = np.asarray(M, dtype=float)
+        M = np.asarray(M.toarray() if hasattr(M, "toarray") else M, dtype=float)
         if M.shape != (n, n):
             raise ValueError("mass has the shape %s, %s is needed" % (M.shape, (n, n)))
 
@@ -144,7 +174,11 @@ class _Run:
         self.give("event", _VALUES, work)
         self.problem.set("events", INT, count)
         self.problem.set("event_list", POINTER, rows)
-        self.t_events, self.y_events = [[] for _ in events], [[] for _ in events]
+        self.note_events(count)
+
+    def note_events(self, count):
+        vector, n = self.arrays.vector, self.n
+        self.t_events, self.y_events = [[] for _ in range(count)], [[] for _ in range(count)]
 
         def fired(s, t, y, which, user):
             signs = (INT * count).from_address(which)
@@ -155,14 +189,34 @@ class _Run:
 
         self.options.set("on_event", POINTER, _ON_EVENT(self.guarded(fired)))
 
-    def keep_steps(self):
+    def sparse(self, pattern):
+        """Entries that df/dy may have: differences by groups of columns, sparse matrices."""
+        if np.shape(pattern) != (self.n, self.n):
+            raise ValueError("jac_sparsity has the shape %s, %s is needed"
+                             % (np.shape(pattern), (self.n, self.n)))
+        rows, columns = pattern.nonzero() if hasattr(pattern, "nonzero") else np.nonzero(pattern)
+        order = np.lexsort((rows, columns))
+        start = np.searchsorted(columns[order], np.arange(self.n + 1)).astype(WHOLE)
+        rows, kept = rows[order].astype(WHOLE), Struct("pattern")
+        kept.set("column", POINTER, start.ctypes.data)
+        kept.set("row", POINTER, rows.ctypes.data)
+        self.problem.set("pattern", POINTER, kept.address)
+        self.problem.set("storage", INT, _SPARSE)
+        self.problem.kept["pattern"] = kept, start, rows
+
+    def observe(self, steps, record):
+        """Keep all steps as points, or as polynomials in the record, or both."""
         vector, n = self.arrays.vector, self.n
 
         def keep(s, t, y, user):
-            self.t.append(t)
-            self.y.append(vector(y, n).copy())
+            if steps:
+                self.t.append(t)
+                self.y.append(vector(y, n).copy())
+            if record is not None:
+                record.step(s, t, y)
 
-        self.options.set("observe", POINTER, _OBSERVE(self.guarded(keep)))
+        if steps or record is not None:
+            self.options.set("observe", POINTER, _OBSERVE(self.guarded(keep)))
 
     def go(self, context, method, t0, t1, times):
         with _Interrupt(self.options):
@@ -203,6 +257,7 @@ class _Run:
         r.t, r.y = np.array(self.t), np.array(self.y).T
         r.t_events = [np.array(t) for t in self.t_events] if hasattr(self, "t_events") else None
         r.y_events = [np.array(y) for y in self.y_events] if hasattr(self, "y_events") else None
+        r.names = self.names
         r.method = lib.steif_method_used(solver).decode()
         r.status = 0 if code == 0 else 1 if code == _EVENT else code
         r.message = lib.steif_message(context.pointer).decode()
@@ -241,13 +296,19 @@ def _known(context, spec, t_span):
     code = lib.steif_problem_find(context.pointer, os.fspath(spec).encode(), found.address)
     if code:
         raise context.error()
-    run = _Run(found.get("n", c.c_int64))
+    run = _Run(found.get("n", WHOLE))
     run.problem = found
+    if found.get("events", INT):
+        run.note_events(found.get("events", INT))
+    names = found.get("names", POINTER)
+    unknown = Struct("names", address=names).get("unknown", POINTER) if names else None
+    if unknown:
+        run.names = [name.decode() for name in (c.c_char_p * run.n).from_address(unknown)]
     t0, t1 = found.get("t0", REAL), found.get("t1", REAL)
     return run, t0, t1 if t_span is None else float(t_span[1])
 
 
-def _own(f, t_span, y0, args, jac, mass, events):
+def _own(f, t_span, y0, args, jac, jac_sparsity, mass, events):
     start = np.array(y0, dtype=float)
     if start.ndim != 1:
         raise ValueError("y0 must have one dimension, it has %d" % start.ndim)
@@ -255,7 +316,7 @@ def _own(f, t_span, y0, args, jac, mass, events):
         raise ValueError("solve needs f(t, y), (t0, t1) and y0, or the name of a problem")
     run = _Run(start.size)
     t0, t1 = (float(t) for t in t_span)
-    for member, kind, value in (("n", c.c_int64, start.size), ("t0", REAL, t0), ("t1", REAL, t1)):
+    for member, kind, value in (("n", WHOLE, start.size), ("t0", REAL, t0), ("t1", REAL, t1)):
         run.problem.set(member, kind, value)
     run.problem.set("name", POINTER, c.c_char_p(b"f"))
     run.problem.set("y0", POINTER, start.ctypes.data)
@@ -263,6 +324,10 @@ def _own(f, t_span, y0, args, jac, mass, events):
     run.right_hand_side(f, args)
     if jac is not None:
         run.jacobian(jac, args)
+    if jac_sparsity is not None:
+        if jac is not None or mass is not None:
+            raise ValueError("jac_sparsity goes without jac and without mass")
+        run.sparse(jac_sparsity)
     if mass is not None:
         run.mass(mass)
     if events is not None:
@@ -270,30 +335,33 @@ def _own(f, t_span, y0, args, jac, mass, events):
     return run, t0, t1
 
 
-def solve(f, t_span=None, y0=None, *, method="auto", rtol=1e-6, atol=None, t_eval=None, jac=None,
-          mass=None, events=None, args=(), h=None, first_step=None, max_step=None, max_steps=None):
+def solve(f, t_span=None, y0=None, *, method="auto", rtol=1e-6, atol=None, t_eval=None,
+          dense_output=False, jac=None, jac_sparsity=None, mass=None, events=None, args=(), h=None,
+          first_step=None, max_step=None, max_steps=None):
     """Integrate y' = f(t, y), or mass y' = f(t, y) with a constant, possibly singular matrix.
 
-    f        f(t, y) -> array or list; or the name of a problem ("rober", "pendulum.steif:k=3")
-    t_span   (t0, t1); of a named problem None: its own
-    method   a spec of steif: "auto", "radau:s=3", "bdf", "cvode", ...
-    atol     a number or one for each component; None: rtol times the scale of the problem (1)
-    t_eval   times of the output; None: the steps
-    jac      jac(t, y) -> n x n, or a constant array; None: differences
-    events   g(t, y) or several; .terminal and .direction as in SciPy
-    h        a constant step size instead of tolerances
+    f             f(t, y) -> array or list; or the name of a problem ("rober", "pendulum.steif:k=3")
+    t_span        (t0, t1); of a named problem None: its own
+    method        a spec of steif: "auto", "radau:s=3", "bdf", "cvode", ...
+    atol          a number or one for each component; None: rtol times the scale of the problem (1)
+    t_eval        times of the output; None: the steps
+    dense_output  True: .sol(t) is the solution at any time of the run
+    jac           jac(t, y) -> n x n, or a constant array; None: differences
+    jac_sparsity  n x n, not 0 where df/dy may have an entry (NumPy or scipy.sparse): for large n
+    events        g(t, y) or several; .terminal and .direction as in SciPy
+    h             a constant step size instead of tolerances
 
     Returns a Result. A run that stops early has success False and says why in message; bad input is a
     SteifError or ValueError; an exception in a callback ends the run and is raised again.
     """
     context = Context()
     named = isinstance(f, (str, bytes, os.PathLike))
-    run = None
+    run = record = result = None
     try:
         if named:
             run, t0, t1 = _known(context, f, t_span)
         else:
-            run, t0, t1 = _own(f, t_span, y0, tuple(args), jac, mass, events)
+            run, t0, t1 = _own(f, t_span, y0, tuple(args), jac, jac_sparsity, mass, events)
         _tolerances(run, rtol, atol, run.n)
         run.options.set("t1", REAL, t1)
         for member, value in (("h", h), ("h0", first_step), ("h_max", max_step)):
@@ -302,10 +370,13 @@ def solve(f, t_span=None, y0=None, *, method="auto", rtol=1e-6, atol=None, t_eva
         if max_steps is not None:
             run.options.set("max_steps", c.c_long, int(max_steps))
         times = _times(t_eval, t0, t1)
-        if times is None:
-            run.keep_steps()
-        return run.go(context, method, t0, t1, times)
+        record = Dense(context, run.n) if dense_output else None
+        run.observe(times is None, record)
+        result = run.go(context, method, t0, t1, times)
+        result.sol = record  # which keeps the context from here on
+        return result
     finally:
         if named and run is not None:
             lib.steif_problem_clear(context.pointer, run.problem.address)
-        context.close()
+        if result is None or record is None:
+            (record or context).close()

@@ -1,5 +1,6 @@
 """The Python module: solutions, counts, events, errors, against closed forms and SciPy."""
 import math
+import os
 import signal
 import threading
 import unittest
@@ -69,12 +70,55 @@ class Solve(unittest.TestCase):
         self.assertAlmostEqual(s.t[-1], math.sqrt(2 / 9.81), 8)
         self.assertEqual(s.y_events[0][0].shape, (2,))
 
+    def test_dense_output(self):
+        s = steif.solve(lambda t, y: [y[1], -y[0]], (0, 6), [1, 0], rtol=1e-10, dense_output=True,
+                        method="radau:s=3")
+        t = np.linspace(0, 6, 200)
+        np.testing.assert_allclose(s.sol(t), [np.cos(t), -np.sin(t)], atol=1e-6)
+        np.testing.assert_allclose(s.sol(s.t), s.y, atol=1e-12)
+        self.assertEqual(s.sol(2.5).shape, (2,))
+        for outside in (-0.1, 6.1, float("nan")):
+            with self.assertRaisesRegex(ValueError, "outside"):
+                s.sol(outside)
+        r = steif.solve(lambda t, y: [1.0], (0, 1), [0], t_eval=[0.5], dense_output=True)
+        self.assertEqual(r.t.size, 1)
+        self.assertAlmostEqual(r.sol(0.25)[0], 0.25, 12)
+        with self.assertRaises(ZeroDivisionError):  # the record is freed with the run
+            steif.solve(lambda t, y: [1 / 0], (0, 1), [0], dense_output=True)
+
+    def test_sparse_jacobian(self):
+        # u_t = u_xx on a grid: the sine decays by its eigenvalue; few evaluations for 300 unknowns
+        n = 300
+        dx, x = 1 / (n + 1), np.arange(1, n + 1) / (n + 1)
+
+        def f(t, u):
+            return (np.r_[u[1:], 0] - 2 * u + np.r_[0, u[:-1]]) / dx ** 2
+
+        pattern = np.eye(n) + np.eye(n, k=1) + np.eye(n, k=-1)
+        decay = math.exp(-4 * math.sin(math.pi * dx / 2) ** 2 / dx ** 2 * 0.1)
+        s = steif.solve(f, (0, 0.1), np.sin(math.pi * x), jac_sparsity=pattern, rtol=1e-8)
+        np.testing.assert_allclose(s.y[:, -1], decay * np.sin(math.pi * x), atol=1e-7)
+        self.assertLess(s.nfev, n)
+        with self.assertRaisesRegex(ValueError, "shape"):
+            steif.solve(f, (0, 0.1), np.sin(math.pi * x), jac_sparsity=np.eye(3))
+
     def test_named_problems(self):
         s = steif.solve("rober", method="radau:s=3", rtol=1e-8)
         self.assertEqual(s.t[-1], 1e11)
         self.assertAlmostEqual(s.y[0, -1] / 2.0833401497e-8, 1, 5)
+        self.assertEqual(steif.solve(lambda t, y: -y, (0, 1), [1]).names, None)
         with self.assertRaisesRegex(steif.SteifError, "nearest is 'rober'"):
             steif.solve("rober1")
+
+    def test_model_file(self):
+        path = os.path.join(os.path.dirname(__file__), "..", "..", "examples", "models", "bounce.steif")
+        s = steif.solve(path, rtol=1e-9)
+        self.assertEqual(s.names, ["h", "v"])
+        first, e = math.sqrt(2 / 9.81), 0.8
+        known = [first * (1 + 2 * sum(e ** i for i in range(1, k))) for k in range(1, 7)]
+        np.testing.assert_allclose(s.t_events[0], known, rtol=1e-8)
+        s = steif.solve(path + ":e=0.5", (0, 0.4), rtol=1e-9)
+        self.assertAlmostEqual(s.y[0, -1], 1 - 9.81 * 0.4 ** 2 / 2, 8)
 
     def test_exceptions_come_back(self):
         def bad(t, y):

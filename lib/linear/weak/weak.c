@@ -5,6 +5,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "measure.h"
 #include <math.h>
+#include <steif/method.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -162,4 +163,19 @@ int steif_weak_measure(steif_context *ctx, const steif_weak_query *query, steif_
   if (!code) code = measure_rows(&w, row, result);
   stf_measure_close(&w);
   return code;
+}
+
+/* ---- conventions ------------------------------------------------------------------------- */
+
+int steif_convention_usual(steif_context *ctx, const char *method, const char *start,
+                           enum steif_convention *convention)
+{
+  steif_method_info m = {.family = "cobb",
+                         .stages = 1}; /* no method, but a limit beside them */
+  if (strcmp(method, "cobb")) STEIF_TRY(steif_method_find(ctx, method, &m));
+  const bool table = !strcmp(m.family, "irk") || !strcmp(m.family, "dirk");
+  *convention =
+    m.stages > 1 || (table && strncmp(method, "radau:s=1", 9)) ? STEIF_STAGE : STEIF_R;
+  if (strstr(method, "start=cq") || (start && !strcmp(start, "cq"))) *convention = STEIF_C;
+  return STEIF_OK;
 }
