@@ -94,8 +94,8 @@ class Impulse(unittest.TestCase):
 
 class Weak(unittest.TestCase):
     def test_jordan_block_of_the_collection(self):
-        # S. L. Campbell (1988): backward Euler converges weakly, of order 1; a Gauss method does not: its
-        # R(inf) = 1, so that the error of the first step never dies away
+        # S. L. Campbell (1988): backward Euler converges weakly, of order 1. The weak order at index k is the
+        # pointwise order of the adjoint method at index k - 1: Gauss's of two stages has 0 at index 2
         r = steif.weak("be", "jordan:k=3,case=H-inc")
         self.assertIs(r.converges, True)
         self.assertEqual((r.index, r.convention), (3, "R"))
