@@ -47,6 +47,39 @@ const size_t stf_${kind}_count = sizeof stf_${kind}_shelf / sizeof *stf_${kind}_
   set(${out} ${list} PARENT_SCOPE)
 endfunction()
 
+# The heads of the files of a shelf, in the order of its list, as a source file whose path goes to `out`.
+function(steif_shelf_texts kind out)
+  get_property(files GLOBAL PROPERTY steif_shelf_${kind})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
+  set(names "")
+  foreach(file ${files})
+    get_filename_component(name ${file} NAME_WE)
+    list(APPEND names ${name})
+    file(READ ${file} text LIMIT 4096)
+    string(REGEX REPLACE "[ \n*]*SPDX-License-Identifier.*" "" text "${text}")
+    string(REGEX REPLACE "^/[*] ${name}[.]c: " "" text "${text}")
+    string(REGEX REPLACE "\n [*] ?" "\n" text "${text}")
+    string(REPLACE "\\" "\\\\" text "${text}")
+    string(REPLACE "\"" "\\\"" text "${text}")
+    string(REPLACE "\n" "\\n\"\n  \"" text "${text}")
+    set(text_${name} "${text}")
+  endforeach()
+  list(SORT names)
+  set(entries "")
+  foreach(name ${names})
+    string(APPEND entries "  /* ${name} */\n  \"${text_${name}}\\n\",\n")
+  endforeach()
+  get_property(header GLOBAL PROPERTY steif_header_${kind})
+  set(list ${PROJECT_BINARY_DIR}/shelf/${kind}_texts.c)
+  file(CONFIGURE OUTPUT ${list} CONTENT
+"/* The heads of the files on the shelves of kind ${kind}, written by cmake/rooms.cmake. */
+#include \"${header}\"
+const char *const stf_${kind}_texts[] = {
+${entries}};
+" @ONLY)
+  set(${out} ${list} PARENT_SCOPE)
+endfunction()
+
 # The folders of a room that may hold headers: itself and all below it.
 function(steif_folders room out)
   file(GLOB_RECURSE entries LIST_DIRECTORIES true CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/${room}/*)
@@ -95,6 +128,8 @@ function(steif_library name)
     steif_shelf_list(${kind} list)
     list(APPEND lists ${list})
   endforeach()
+  steif_shelf_texts(problem list)
+  list(APPEND lists ${list})
   add_library(room_shelves OBJECT ${lists})
   target_include_directories(room_shelves PRIVATE ${inside})
   target_link_libraries(room_shelves PRIVATE steif_settings)

@@ -1,33 +1,7 @@
-/* list.c: what methods, problems and discretisation schemes there are.
+/* list.c: what methods, problems, discretisation schemes and codes there are.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "answers.h"
 #include "members.h"
-#include "program.h"
-
-static void claims(steif_report *r, unsigned claim)
-{
-  static const char *const name[] = {"A-stable", "L-stable", "stiffly accurate", "symplectic",
-                                     "symmetric"}; /* bits of enum steif_claim */
-  const char *word[sizeof name / sizeof *name];
-  size_t count = 0;
-  for (size_t i = 0; i < sizeof name / sizeof *name; i++)
-    if (claim & 1u << i) word[count++] = name[i];
-  steif_report_texts(r, "methods.claims", count, word);
-}
-
-static void methods(struct call *call, steif_report *r)
-{
-  static const struct member members[] = {
-    MEMBER(steif_method_info, name, A_WORD), MEMBER(steif_method_info, family, A_TEXT),
-    MEMBER(steif_method_info, order, A_WHOLE), MEMBER(steif_method_info, stages, A_WHOLE),
-    MEMBERS_END};
-  steif_method_info m;
-  for (size_t i = 0; steif_method_at(call->ctx, i, &m) == STEIF_OK; i++) {
-    steif_report_row(r, "methods");
-    report_members(r, "methods.", members, &m);
-    claims(r, m.claims);
-    steif_report_text(r, "methods.about", m.about);
-  }
-}
 
 static void problems(struct call *call, steif_report *r)
 {
@@ -57,23 +31,36 @@ static void schemes(steif_report *r)
   }
 }
 
+static void codes(steif_report *r)
+{
+  for (int code = STEIF_EVENT; code >= STEIF_INFEASIBLE; code--) {
+    steif_report_row(r, "codes");
+    steif_report_whole(r, "codes.code", code);
+    steif_report_text(r, "codes.name", steif_code_symbol(code));
+    steif_report_text(r, "codes.meaning", steif_code_name(code));
+    steif_report_text(r, "codes.cure", steif_code_remedy(code));
+  }
+}
+
 static int run(struct call *call)
 {
-  const int what = call->words ? word_place("methods|problems|schemes", call->word[0]) : 3;
-  if (what < 0)
-    return bad_usage(call, "\"%s\" is not listed; ask for methods, problems or schemes",
-                     call->word[0]);
+  const int what =
+    call->words ? word_place("methods|problems|schemes|codes", call->word[0]) : 4;
+  if (what < 0) return problem_shown(call);
   steif_report *r = steif_report_new(call->ctx);
-  if (r && what % 3 == 0) methods(call, r);
-  if (r && what % 2 == 1) problems(call, r);
+  if (r && what % 4 == 0) report_methods(r, call);
+  if (r && (what == 1 || what == 4)) problems(call, r);
   if (r && what == 2) schemes(r);
+  if (r && what == 3) codes(r);
   const int code = r && !steif_status(call->ctx) ? present(call, r) : fail(call);
   steif_report_free(&r);
   return code;
 }
 
 const struct verb verb_list = {.name = "list",
-                               .about = "Show the methods, problems and discretisation schemes",
-                               .usage = "[methods|problems|schemes]",
+                               .about =
+                                 "Show the methods, problems, discretisation schemes and "
+                                 "codes, or the equations and sizes of one problem",
+                               .usage = "[methods|problems|schemes|codes|PROBLEM]",
                                .most = 1,
                                .run = run};

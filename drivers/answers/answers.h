@@ -6,6 +6,16 @@
 
 #include "program.h"
 
+/* Rows of the sheet "methods". */
+void report_methods(steif_report *r, const struct call *call);
+
+struct problem_answer {
+  const steif_problem *problem;
+  const char *text; /* equations and sources; NULL: none */
+};
+/* The problem of the first word of the call, or that there is none. */
+int problem_shown(struct call *call);
+
 struct structure_answer {
   const steif_names *names; /* NULL: none */
   steif_structure found;

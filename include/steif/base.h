@@ -75,7 +75,8 @@ STEIF_EXPORT void steif_forget(steif_context *ctx);
 /* The SUNDIALS context inside, for users who build their own vectors and matrices. */
 STEIF_EXPORT SUNContext steif_sundials(steif_context *ctx);
 
-/* "no convergence" and "make the step smaller ..." of a code. */
+/* "STEIF_NO_CONVERGENCE", "no convergence" and "make the step smaller ..." of a code. */
+STEIF_EXPORT const char *steif_code_symbol(int code);
 STEIF_EXPORT const char *steif_code_name(int code);
 STEIF_EXPORT const char *steif_code_remedy(int code);
 

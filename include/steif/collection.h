@@ -16,6 +16,9 @@ extern "C" {
 /* Name of problem i, as a spec with the default parameters; NULL past the end. */
 STEIF_EXPORT const char *steif_problem_name(size_t i);
 
+/* What stands at the head of the file of problem i: equations, parameters, sources; lines end in \n. */
+STEIF_EXPORT const char *steif_problem_text(size_t i);
+
 /* Fill *problem from a spec; steif_problem_clear releases its memory and zeroes it. */
 STEIF_EXPORT int steif_problem_find(steif_context *ctx, const char *spec,
                                     steif_problem *problem);

@@ -11,7 +11,6 @@
 /* Store code and sentence in ctx, which ends with the name of the code, and return the code. */
 int stf_fail(steif_context *ctx, int code, const char *format, ...) STEIF_PRINTF(3, 4);
 /* "STEIF_BAD_INPUT" of a code. */
-const char *stf_code_symbol(int code);
 
 #define STEIF_TRY(call)                                                                        \
   do {                                                                                         \

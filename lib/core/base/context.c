@@ -115,7 +115,7 @@ static void keep(steif_context *ctx, int code, const char *format, va_list argum
   ctx->code = code;
   const int used = vsnprintf(ctx->message, MESSAGE, format, arguments);
   if (used >= 0 && used < MESSAGE)
-    snprintf(ctx->message + used, (size_t)(MESSAGE - used), " [%s]", stf_code_symbol(code));
+    snprintf(ctx->message + used, (size_t)(MESSAGE - used), " [%s]", steif_code_symbol(code));
 }
 
 int stf_fail(steif_context *ctx, int code, const char *format, ...)

@@ -47,7 +47,7 @@ const char *steif_code_name(int code)
   return i < sizeof codes / sizeof *codes ? codes[i].name : "unknown code";
 }
 
-const char *stf_code_symbol(int code)
+const char *steif_code_symbol(int code)
 {
   const size_t i = row(code);
   return i < sizeof codes / sizeof *codes ? codes[i].symbol : "unknown code";

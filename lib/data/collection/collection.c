@@ -9,6 +9,11 @@ const char *steif_problem_name(size_t i)
   return i < stf_problem_count ? stf_problem_shelf[i].name : NULL;
 }
 
+const char *steif_problem_text(size_t i)
+{
+  return i < stf_problem_count ? stf_problem_texts[i] : NULL;
+}
+
 static const stf_problem_entry *look_up(const char *name)
 {
   for (size_t i = 0; i < stf_problem_count; i++)

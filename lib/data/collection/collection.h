@@ -12,6 +12,8 @@ typedef struct stf_problem_entry {
 } stf_problem_entry;
 extern const stf_problem_entry stf_problem_shelf[];
 extern const size_t stf_problem_count;
+extern const char
+  *const stf_problem_texts[]; /* of all entries, from the heads of their files */
 
 /* .build works on a copy of the shelf entry. When it fails, steif_problem_find calls .destroy:
  * build releases nothing itself, and destroy accepts what build had set, user == NULL too. */

@@ -1,7 +1,13 @@
 /* chemakzo.c: the chemical Akzo Nobel problem: carbon dioxide bubbles through a mixture of two
  * species; five kinetic equations and one equilibrium, M y' = f(y), M = diag(1,1,1,1,1,0),
- * index 1. W. J. H. Stortelder, Parameter estimation in dynamic systems, CWI (1998); IVP Test
- * Set.
+ * index 1.
+ *
+ *   y1' = -2 r1 + r2 - r3 - r4,  y2' = -r1/2 - r4 - r5/2 + F,  y3' = r1 - r2 + r3,
+ *   y4' = -r2 + r3 - 2 r4,  y5' = r2 - r3 + r5,  0 = Ks y1 y4 - y6,
+ *   r1 = k1 y1^4 sqrt(y2), r2 = k2 y3 y4, r3 = k2/K y1 y5, r4 = k3 y1 y4^2, r5 = k4 y6^2 sqrt(y2),
+ *   F = klA (p/H - y2)
+ *
+ * W. J. H. Stortelder, Parameter estimation in dynamic systems, CWI (1998); IVP Test Set.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"

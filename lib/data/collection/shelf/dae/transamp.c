@@ -1,5 +1,14 @@
 /* transamp.c: an amplifier of two transistors, node voltages U_1 .. U_8, M U' = f(t, U) with a
- * constant M of rank 5, index 1. P. Rentrop, M. Roche, G. Steinebach, Numer. Math. 55 (1989)
+ * constant M of rank 5, index 1.
+ *
+ *   C1 (U2' - U1') = (U1 - Ue)/R0                C1 (U1' - U2') = (2 U2 - Ub)/R + (1 - alpha) g1
+ *   -C2 U3' = U3/R - g1                          C3 (U5' - U4') = (U4 - Ub)/R + alpha g1
+ *   C3 (U4' - U5') = (2 U5 - Ub)/R + (1 - alpha) g2
+ *   -C4 U6' = U6/R - g2                          C5 (U8' - U7') = (U7 - Ub)/R + alpha g2
+ *   C5 (U7' - U8') = U8/R
+ *   g1 = beta (e^((U2 - U3)/Uf) - 1),  g2 = beta (e^((U5 - U6)/Uf) - 1),  Ue = 0.1 sin(200 pi t)
+ *
+ * P. Rentrop, M. Roche, G. Steinebach, Numer. Math. 55 (1989)
  * 545-563; E. Hairer, C. Lubich, M. Roche, Lecture Notes in Mathematics 1409 (1989).
  *
  * SPDX-License-Identifier: BSD-3-Clause */

@@ -1,6 +1,9 @@
 /* plei.c: the Pleiades, seven stars of masses 1 .. 7 in a plane under gravitation; not stiff,
- * with close encounters. Unknowns x, y, x', y'. E. Hairer, S. P. Norsett, G. Wanner, Solving
- * Ordinary Differential Equations I, section II.10.
+ * with close encounters. Unknowns x, y, x', y'.
+ *
+ *   x_i'' = sum_j j (x_j - x_i)/r_ij^3,  y_i'' = sum_j j (y_j - y_i)/r_ij^3
+ *
+ * E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, section II.10.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"

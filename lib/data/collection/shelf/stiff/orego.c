@@ -1,4 +1,8 @@
 /* orego.c: the Oregonator, a limit cycle of the Belousov-Zhabotinskii reaction.
+ *
+ *   y1' = s (y2 + y1 (1 - q y1 - y2)),  y2' = (y3 - (1 + y1) y2)/s,  y3' = w (y1 - y3),
+ *   s = 77.27, w = 0.161, q = 8.375e-6
+ *
  * R. J. Field, R. M. Noyes, J. Chem. Phys. 60 (1974) 1877-1884.
  *
  * SPDX-License-Identifier: BSD-3-Clause */

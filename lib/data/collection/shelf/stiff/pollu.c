@@ -1,4 +1,7 @@
 /* pollu.c: the chemical part of an air pollution model, 25 reactions of 20 species.
+ *
+ *   y_i' = sum_r nu_ir v_r,  v_r = k_r y_a or k_r y_a y_b
+ *
  * J. G. Verwer, SIAM J. Sci. Comput. 15 (1994) 1243-1250.
  *
  * SPDX-License-Identifier: BSD-3-Clause */

@@ -1,6 +1,18 @@
 /* ringmod.c: a ring modulator that mixes a low- and a high-frequency signal through four
- * diodes; parasitic capacitances Cs make it an oscillatory stiff ODE. E. H. Horneber, Analyse
- * nichtlinearer RLCUE-Netzwerke, dissertation, Kaiserslautern (1976).
+ * diodes; parasitic capacitances Cs make it an oscillatory stiff ODE.
+ *
+ *   C U1' = I1 - I3/2 + I4/2 + I7 - U1/R        C U2' = I2 - I5/2 + I6/2 + I8 - U2/R
+ *   Cs U3' = I3 - q(D1) + q(D4)                 Cs U4' = -I4 + q(D2) - q(D3)
+ *   Cs U5' = I5 + q(D1) - q(D3)                 Cs U6' = -I6 - q(D2) + q(D4)
+ *   Cp U7' = -U7/Rp + q(D1) + q(D2) - q(D3) - q(D4)
+ *   Lh I1' = -U1,  Lh I2' = -U2
+ *   Ls2 I3' = U1/2 - U3 - Rg2 I3                Ls3 I4' = -U1/2 + U4 - Rg3 I4
+ *   Ls2 I5' = U2/2 - U5 - Rg2 I5                Ls3 I6' = -U2/2 + U6 - Rg3 I6
+ *   Ls1 I7' = -U1 + e1(t) - (Ri + Rg1) I7       Ls1 I8' = -U2 - (Rc + Rg1) I8
+ *   q(D) = gamma (e^(delta D) - 1),  D1 = U3 - U5 - U7 - e2(t),  D2 = U6 - U4 - U7 - e2(t),
+ *   D3 = U4 + U5 + U7 + e2(t),  D4 = U7 + e2(t) - U3 - U6
+ *
+ * E. H. Horneber, Analyse nichtlinearer RLCUE-Netzwerke, dissertation, Kaiserslautern (1976).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"

@@ -1,5 +1,10 @@
 /* rober.c: Robertson's autocatalytic reaction, as an ODE or with the conservation law
  * y1 + y2 + y3 = 1 in place of the third equation (M = diag(1, 1, 0), index 1).
+ *
+ *   y1' = -0.04 y1 + 1e4 y2 y3
+ *   y2' = 0.04 y1 - 1e4 y2 y3 - 3e7 y2^2
+ *   y3' = 3e7 y2^2                          rober:form=mass: 0 = y1 + y2 + y3 - 1
+ *
  * H. H. Robertson, in J. Walsh (ed.), Numerical Analysis, an Introduction (1966) 178-182.
  *
  * SPDX-License-Identifier: BSD-3-Clause */

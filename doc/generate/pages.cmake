@@ -1,0 +1,38 @@
+# Runs the program for its help and hands that to awk.
+#   cmake -DPROGRAM= -DAWK= -DVERBS= -DGENERATE= -DFOLDER= -DVERSION= -P pages.cmake
+cmake_minimum_required(VERSION 3.19)
+file(MAKE_DIRECTORY ${FOLDER}/man)
+
+function(ask out)
+  execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_VARIABLE text RESULT_VARIABLE code)
+  if(code)
+    list(JOIN ARGN " " words)
+    message(FATAL_ERROR "steif ${words} ended with ${code}")
+  endif()
+  set(${out} "${text}" PARENT_SCOPE)
+endfunction()
+
+function(translate script text to)
+  file(WRITE ${FOLDER}/input.txt "${text}")
+  execute_process(COMMAND ${AWK} ${ARGN} -v version=${VERSION} -f ${GENERATE}/${script} ${FOLDER}/input.txt
+                  OUTPUT_FILE ${to} RESULT_VARIABLE code)
+  file(REMOVE ${FOLDER}/input.txt)
+  if(code)
+    message(FATAL_ERROR "${script}: awk ended with ${code}")
+  endif()
+endfunction()
+
+ask(help --help)
+translate(man.awk "${help}" ${FOLDER}/man/steif.1)
+set(all "@verbs\n${help}")
+foreach(verb ${VERBS})
+  ask(help ${verb} --help)
+  translate(man.awk "${help}" ${FOLDER}/man/steif-${verb}.1 -v verb=${verb})
+  string(APPEND all "@verb ${verb}\n${help}")
+endforeach()
+foreach(list methods problems)
+  ask(rows list ${list})
+  string(APPEND all "@${list}\n${rows}")
+endforeach()
+translate(completion.awk "${all}" ${FOLDER}/steif.bash -v shell=bash)
+translate(completion.awk "${all}" ${FOLDER}/_steif -v shell=zsh)
