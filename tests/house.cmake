@@ -49,6 +49,10 @@ if(TARGET steif_program)
   house_test(impulses -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/impulses)
   house_test(workprec -DPROGRAM=$<TARGET_FILE:steif_program>)
   house_test(c2d -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/c2d)
+  if(STEIF_AWK)
+    house_test(documents -DPROGRAM=$<TARGET_FILE:steif_program> -DDOCUMENTS=${PROJECT_BINARY_DIR}/documents
+               -DFOLDER=${PROJECT_BINARY_DIR}/documents_test)
+  endif()
   find_program(PYTHON3 python3)
   house_test(output -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/output
              -DPYTHON=$<$<BOOL:${PYTHON3}>:${PYTHON3}>)

@@ -1,14 +1,19 @@
 # Completion of the command line, for bash (shell=bash) or zsh, from what the program prints: a file of
 #   @verbs  and `steif --help`, then for each verb  @verb NAME  and `steif NAME --help`,
-#   @methods and `steif list methods`,  @problems and `steif list problems`.
+#   @methods, @problems and `steif list methods`, `steif list problems` with --csv.
 /^@/ { part = substr($1, 2); verb = $2; line = 0; next }
 { line++ }
 part == "verbs" && /^  [a-z0-9]+ / { verbs = verbs " " $1 }
-part == "methods" && line > 1 && NF { methods = methods " " $1 }
-part == "problems" && line > 1 && NF { problems = problems " " $1 }
+part == "methods" || part == "problems" {
+  name = $0
+  gsub(/"/, "", name)
+  sub(/,.*/, "", name)
+  if (line > 1 && part == "methods") methods = methods " " name
+  if (line > 1 && part == "problems") problems = problems " " name
+}
 part == "verb" && line == 1 {
   words[verb] = ($0 ~ /METHOD/ ? " $methods" : "") ($0 ~ /PROBLEM/ ? " $problems" : "")
-  if (verb == "list") words[verb] = " methods problems schemes codes $problems"
+  if (verb == "list") words[verb] = words[verb] " methods problems schemes codes"
 }
 part == "verb" && /^  --/ {
   options[verb] = options[verb] " " $1
@@ -19,6 +24,8 @@ part == "verb" && /^  --/ {
   }
 }
 
+BEGIN { OFS = "\n" }
+
 END {
   print (shell == "zsh" ? "#compdef steif" : "# Completion of steif for bash.")
   print "_steif() {"
@@ -28,12 +35,13 @@ END {
   if (shell == "zsh")
     print "  local place=$((CURRENT - 1)) verb=$words[2] before=$words[CURRENT-1] word=$words[CURRENT]"
   else
-    print "  local place=$COMP_CWORD verb=${COMP_WORDS[1]} word=${COMP_WORDS[COMP_CWORD]}" \
-          " before=${COMP_WORDS[COMP_CWORD-1]}"
+    print "  local line word cut", "  # bash cuts words at : and =, which names of methods hold\n" \
+          "  read -ra line <<<\"${COMP_LINE:0:COMP_POINT}.\"", "  local place=$((${#line[@]} - 1))" \
+          " verb=${line[1]%.} before=${line[${#line[@]}-2]}", "  word=${line[place]%.}" 
   print "  case $verb in"
-  count = split(verbs, name, " ")
+  count = split(verbs, each, " ")
   for (i = 1; i <= count; i++) {
-    v = name[i]
+    v = each[i]
     print "  " v ")\n    words_of=\"" substr(words[v], 2) "\"\n    options='" substr(options[v], 2) "'"
     if (choices[v]) print "    case $before in\n" choices[v] "    esac"
     print "    ;;"
@@ -51,6 +59,8 @@ END {
     print "  [ -n \"$choices\" ] && list=$choices"
     print "  case $word in -*) list=$options ;; esac"
     print "  COMPREPLY=($(compgen -W \"$list\" -- \"$word\"))"
+    print "  cut=${word%\"${word##*[:=]}\"}"
+    print "  COMPREPLY=(\"${COMPREPLY[@]#\"$cut\"}\")"
     print "  if [ \"$place\" -gt 1 ] && [ ${#COMPREPLY[@]} -eq 0 ]; then"
     print "    COMPREPLY=($(compgen -f -- \"$word\"))"
     print "  fi\n}\ncomplete -o filenames -F _steif steif"
