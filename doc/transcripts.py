@@ -30,6 +30,9 @@ COUNTS = re.compile(r"(stats\.\w+|steps|rejected|nfe|nje|nlu|nsolve|newton|nli|t
 DIGITS = re.compile(r"(scd|mescd|digits|order|cosine)$")
 
 
+COMMON = ("--json", "--csv", "--plot", "--quiet", "--help")  # explained once in the manual
+
+
 def fences(text):
     """(first line, last line, info, title) of every fenced block; title: of a line "`title`:" before it."""
     lines, start, title = text.split("\n"), None, ""
@@ -51,7 +54,8 @@ def run(command, folder, path):
     environment = dict(os.environ, PATH=path + os.pathsep + os.environ["PATH"], COLUMNS="100")
     done = subprocess.run(command, cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
-    lines = [line.rstrip() for line in done.stdout.rstrip("\n").split("\n")]
+    text = done.stdout.rstrip("\n")
+    lines = [line.rstrip() for line in text.split("\n")] if text else []
     return lines + ["[exit %d]" % done.returncode] * (done.returncode != 0)
 
 
@@ -80,10 +84,11 @@ def options(verb, folder, path):
             rows[-1][1] = line.strip()
         elif rows:
             break
+    own = [row for row in rows if row[0].split()[0] not in COMMON]
+    if not own:
+        return ["No options of its own."]
     table = ["| option | meaning | default |", "| --- | --- | --- |"]
-    for name, about in rows:
-        if name.split()[0] in ("--json", "--csv", "--plot", "--quiet", "--help"):
-            continue
+    for name, about in own:
         found = re.match(r"(.*?) \(default:? (.*)\)$", about)
         about, default = found.groups() if found else (about, "")
         cells = ("`%s`" % name, about, default)
@@ -105,7 +110,7 @@ def labelled(lines):
         numbers = [w for w in words if NUMBER.fullmatch(w) or w in ("-", "nan", "inf")]
         if blank and len(words) > 1 and not numbers:
             header = words  # perhaps: a row of as many words has these labels
-        blank = False
+        blank = blank and len(words) == 1  # the title of a table
         row = len(words) == len(header) and numbers
         if known and not row:
             key = known.group(1)
@@ -165,7 +170,7 @@ def renewed(lines, blocks, path):
                 if k + 1 < len(blocks) and blocks[k + 1][2] == "text":
                     a, b = blocks[k + 1][:2]
                     yield a + 1, b, lines[a + 1:b], printed
-                elif printed != [""]:
+                elif printed:
                     yield last + 1, last + 1, [], ["", "```text"] + printed + ["```"]
         for i, line in enumerate(lines):
             wanted = re.match(r"<!-- options (\w+) -->$", line)

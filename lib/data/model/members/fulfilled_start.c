@@ -48,6 +48,8 @@ static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *att
   char sentence[500];
   strncpy(sentence, steif_message(m->ctx), sizeof sentence - 1);
   sentence[sizeof sentence - 1] = 0;
+  char *name = strstr(sentence, " [STEIF_"); /* of the code, which is added again */
+  if (name) *name = 0;
   return STEIF_FAIL(m->ctx, STEIF_BAD_INPUT, "%s: %s", p->name, sentence);
 }
 
