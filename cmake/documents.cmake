@@ -38,8 +38,8 @@ foreach(name /usr/bin/python3 python3)
 endforeach()
 if(STEIF_MARKDOWN AND chapters)
   add_custom_command(OUTPUT ${documents}/html/index.html
-    COMMAND ${STEIF_MARKDOWN} ${generate}/html.py ${documents}/html ${chapters}
-    DEPENDS ${chapters} ${generate}/html.py VERBATIM)
+    COMMAND ${STEIF_MARKDOWN} ${generate}/to_html.py ${documents}/html ${chapters}
+    DEPENDS ${chapters} ${generate}/to_html.py VERBATIM)
   list(APPEND made ${documents}/html/index.html)
   install(DIRECTORY ${documents}/html DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endif()

@@ -125,6 +125,12 @@ if(pythons AND NOT STEIF_SANITIZE)
   add_test(NAME python COMMAND ${interpreter} -m unittest discover -s ${PROJECT_SOURCE_DIR}/tests/python)
   set_tests_properties(python PROPERTIES ENVIRONMENT
     "PYTHONPATH=${PROJECT_SOURCE_DIR}/python;STEIF_LIBRARY=$<TARGET_FILE:steif>;PYTHONDONTWRITEBYTECODE=1")
+  # What the manual prints is what the program prints.
+  file(GLOB chapters CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/doc/*.md)
+  add_test(NAME manual COMMAND ${interpreter} ${PROJECT_SOURCE_DIR}/doc/transcripts.py
+           $<TARGET_FILE:steif_program> ${chapters})
+  set_tests_properties(manual PROPERTIES ENVIRONMENT
+    "PYTHONPATH=${PROJECT_SOURCE_DIR}/python;STEIF_LIBRARY=$<TARGET_FILE:steif>;PYTHONDONTWRITEBYTECODE=1")
 else()
   message(STATUS "no python3 with NumPy: the test of the Python module is left out")
 endif()

@@ -1,4 +1,4 @@
-"""The chapters as HTML pages, by Debian's python3-markdown: html.py FOLDER CHAPTER.md ..."""
+"""The chapters as HTML pages, by Debian's python3-markdown: to_html.py FOLDER CHAPTER.md ..."""
 import os
 import re
 import sys
