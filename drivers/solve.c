@@ -1,8 +1,10 @@
 /* solve.c: one integration.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "descriptor.h"
 #include "problem.h"
 #include "saved_run.h"
 #include "solution.h"
+#include "solve_system.h"
 
 static int integrate_on(struct call *call, const steif_problem *p)
 {
@@ -23,7 +25,17 @@ static int integrate_on(struct call *call, const steif_problem *p)
   return code;
 }
 
-static int run(struct call *call) { return with_problem(call, integrate_on); }
+static int run(struct call *call)
+{
+  if (descriptor_is_file(call->word[0])) return solve_system(call, integrate_on);
+  const char *const own[] = {"--x0", "--f", "--forcing", "--input"};
+  for (int i = 0; i < 4; i++)
+    if (given(call, own[i]))
+      return bad_usage(call, "%s is for E.mtx A.mtx; a problem has its own", own[i]);
+  return call->words == 2 ? with_problem(call, integrate_on)
+                          : bad_usage(call, "\"%s\" is one word too many: steif solve %s",
+                                      call->word[2], call->verb->usage);
+}
 
 static const struct option options[] = {
   {"--rtol", POSITIVE, "R", "relative tolerance", "1e-6"},
@@ -35,21 +47,31 @@ static const struct option options[] = {
   {"--points", COUNT, "N", "the same at N equal distances from the start to the end", NULL},
   {"--events", FLAG, NULL, "a table of the events of the problem", NULL},
   {"--npz", OUTPUT, "FILE", "t, y and events as arrays for numpy.load", NULL},
+  {"--x0", WORD, "X.mtx", "of E x' = A x + f: x(0-), a column of as many rows as E", NULL},
+  {"--f", WORD, "TEXT", "f as expressions in t separated by ';' (default: 0)", NULL},
+  {"--forcing", WORD, "FILE", "f from a file: an expression per line, or samples in .csv",
+   NULL},
+  {"--input", WORD, "B.mtx", "B of f = B u: --forcing or --f are u (of a .mat file: its B)",
+   NULL},
   CHECKPOINT_OPTIONS,
   OPTIONS_END,
 };
 static const struct rule rules[] = {{"--h", EXCLUDES, "--rtol"},
                                     {"--h", EXCLUDES, "--atol"},
                                     {"--at", EXCLUDES, "--points"},
+                                    {"--forcing", EXCLUDES, "--f"},
+                                    {"--input", NEEDS, "--forcing|--f"},
                                     CHECKPOINT_RULE,
                                     RULES_END};
 
 const struct verb verb_solve = {
   .name = "solve",
   .about = "Integrate one problem with one method",
-  .usage = "PROBLEM METHOD [--rtol R --atol A | --h H] [--t1 T] [--events]",
+  .usage =
+    "PROBLEM METHOD [--rtol R --atol A | --h H] [--t1 T] [--events] | E.mtx A.mtx METHOD "
+    "--x0 X.mtx --t1 T",
   .least = 2,
-  .most = 2,
+  .most = 3,
   .picture = true,
   .option = options,
   .rule = rules,

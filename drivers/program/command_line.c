@@ -183,7 +183,7 @@ int call_parse(struct call *call, int argc, char **argv)
       call->help = true;
     else if (!only_words && argv[i][0] == '-' && argv[i][1] == '-')
       code = one_option(call, argc, argv, &i);
-    else if (!only_words && argv[i][0] == '-')
+    else if (!only_words && argv[i][0] == '-' && argv[i][1] && argv[i][1] != ':')
       code = bad_usage(call, "no option %s; options begin with two dashes", argv[i]);
     else if (call->words == WORDS)
       code = bad_usage(call, "more than %d words; leave some out", WORDS);

@@ -1,4 +1,4 @@
-/* steif/input.h: matrices and forcing functions from files.
+/* steif/input.h: matrices and forcing functions from files. The path "-" is standard input, up to 1 GB.
  *
  * Matrices: Matrix Market (coordinate or array; real, integer or pattern; general, symmetric or
  * skew-symmetric) and MATLAB version 5 files. Forcing: one expression in t per line,
@@ -30,8 +30,8 @@ STEIF_EXPORT int steif_matrix_write(steif_context *ctx, SUNMatrix M, const char 
 
 /* E and F of a system from files of users: path_E and path_F are Matrix Market files, of E and F, or
  * with state_space = 1 of E and A (F = -A); path_F NULL: path_E is a .mat file with E and F, or E and
- * A, or M, D, K and G of M q'' + D q' + K q + G^T l = f, G q = g, taken to first order. The
- * variables' names and sizes are checked. */
+ * A, or F or A alone (E = I), or M, D, K and G of M q'' + D q' + K q + G^T l = f, G q = g, taken to first
+ * order. The variables' names and sizes are checked. */
 STEIF_EXPORT int steif_system_read(steif_context *ctx, const char *path_E, const char *path_F,
                                    int state_space, SUNMatrix *E, SUNMatrix *F);
 /* B of f = B u, C and D of y = C x + D u beside them in a .mat file; *B, *C, *D NULL where there is

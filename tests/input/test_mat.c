@@ -207,7 +207,8 @@ static void sizes_beyond_the_file_are_rejected(void)
 static void E_with_F_or_A_is_a_system(void)
 {
   const variable E = {"E", 's', 2, 2, {1.5, 0, 0, 2.5}}, F = {"F", 'd', 2, 2, {1, 2, 3, 4.5}},
-                 A = {"A", 's', 2, 2, {0, -2, 0, 4.5}}, small = {"F", 'd', 1, 1, {1}};
+                 A = {"A", 's', 2, 2, {0, -2, 0, 4.5}}, small = {"F", 'd', 1, 1, {1}},
+                 other = {"H", 'd', 1, 1, {1}};
   steif_context *ctx = steif_context_new(NULL);
   SUNMatrix e, f;
   CHECK(!steif_system_read(ctx, mat_file(2, (const variable[]){E, F}), NULL, 0, &e, &f));
@@ -224,14 +225,34 @@ static void E_with_F_or_A_is_a_system(void)
     const char *words;
   } bad[] = {{{E, F, A}, 3, "has F and A; leave one out"},
              {{E}, 1, "has E and neither F nor A"},
-             {{F, A}, 2, "has neither E nor M"},
+             {{F, A}, 2, "has F and A; leave one out"},
+             {{other}, 1, "has neither E nor M, A or F"},
              {{E, small}, 2, "F is 1 x 1 and should be 2 x 2"}};
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < 5; i++) {
     CHECK(steif_system_read(ctx, mat_file(bad[i].count, bad[i].list), NULL, 0, &e, &f) ==
           STEIF_BAD_INPUT);
     SAYS(ctx, bad[i].words);
     CHECK(!e && !f);
   }
+  steif_context_free(&ctx);
+}
+
+static void A_or_F_alone_has_the_identity_as_E(void)
+{
+  const variable F = {"F", 'd', 2, 2, {1, 2, 3, 4.5}}, A = {"A", 's', 2, 2, {0, -2, 0, 4.5}},
+                 wide = {"A", 'd', 1, 2, {1, 2}};
+  steif_context *ctx = steif_context_new(NULL);
+  SUNMatrix e, f;
+  for (int k = 0; k < 2; k++) {
+    CHECK(!steif_system_read(ctx, mat_file(1, k ? &A : &F), NULL, 0, &e, &f));
+    CU_ASSERT_FATAL(e && f);
+    CHECK(at(e, 0, 0) == 1 && at(e, 1, 1) == 1 && at(e, 0, 1) == 0 && at(e, 1, 0) == 0);
+    CHECK(at(f, 1, 0) == 2 && at(f, 1, 1) == (k ? -4.5 : 4.5));
+    SUNMatDestroy(e), SUNMatDestroy(f);
+  }
+  CHECK(steif_system_read(ctx, mat_file(1, &wide), NULL, 0, &e, &f) == STEIF_BAD_INPUT);
+  SAYS(ctx, "A is 1 x 2");
+  CHECK(!e && !f);
   steif_context_free(&ctx);
 }
 
@@ -343,6 +364,7 @@ CU_TestInfo tests_of_mat[] = {
   {"files that are cut off give no matrix", cut_files_give_no_matrix},
   {"sizes beyond the file are rejected", sizes_beyond_the_file_are_rejected},
   {"E with F, or with A = -F, is a system", E_with_F_or_A_is_a_system},
+  {"A or F alone has E = I", A_or_F_alone_has_the_identity_as_E},
   {"second order systems become first order", second_order_systems_become_first_order},
   CU_TEST_INFO_NULL};
 

@@ -38,12 +38,33 @@ static int refuse(steif_context *ctx, const char *path)
                     strerror(errno));
 }
 
+/* A copy of standard input, in which one may go back; NULL with the message set. */
+static FILE *standard_input(steif_context *ctx)
+{
+  const long most = 1L << 30;
+  char chunk[STF_CHUNK];
+  FILE *copy = tmpfile();
+  long size = 0;
+  errno = 0;
+  for (size_t used = 1; copy && used && size <= most; size += (long)used) {
+    used = fread(chunk, 1, sizeof chunk, stdin);
+    if (ferror(stdin) || fwrite(chunk, 1, used, copy) != used) break;
+  }
+  if (copy && size <= most && !ferror(stdin) && !ferror(copy) && !fseek(copy, 0, SEEK_SET))
+    return copy;
+  STEIF_FAIL(ctx, STEIF_IO, "cannot read standard input: %s; name a file",
+             size > most ? "it holds more than 1 GB" : strerror(errno));
+  if (copy) fclose(copy);
+  return NULL;
+}
+
 FILE *stf_input_open(steif_context *ctx, const char *path)
 {
   if (!path || !*path) {
     STEIF_FAIL(ctx, STEIF_BAD_INPUT, "the path of a file to read is empty; name a file");
     return NULL;
   }
+  if (!strcmp(path, "-")) return standard_input(ctx);
   struct stat info;
   const int missing = stat(path, &info);
   if (!missing && !S_ISREG(info.st_mode)) {

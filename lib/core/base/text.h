@@ -17,7 +17,7 @@ typedef struct stf_plain {
 int stf_plain_begin(steif_context *ctx, stf_plain *plain);
 void stf_plain_end(stf_plain *plain);
 
-/* A regular file, open to be read; NULL with the message set. */
+/* A regular file, open to be read, or for "-" a copy of standard input; NULL with the message set. */
 FILE *stf_input_open(steif_context *ctx, const char *path);
 /* All of a file, ended by a zero byte; refuses zero bytes inside. stf_release it. */
 char *stf_input_text(steif_context *ctx, const char *path);

@@ -31,9 +31,11 @@ static int build(steif_context *ctx, const char *text, const steif_spec *spec, s
   return code;
 }
 
-/* "ball.steif" or "ball.steif:e=0.9,g=1.6": where the name of the file ends; NULL: this is no file. */
+/* "ball.steif", "ball.steif:e=0.9,g=1.6", or "-" for standard input: where the name of the file ends; NULL:
+ * this is no file. */
 static const char *end_of_file_name(const char *text)
 {
+  if (text[0] == '-' && (!text[1] || text[1] == ':')) return text + 1;
   static const char ending[] = ".steif";
   for (const char *at = strstr(text, ending); at; at = strstr(at + 1, ending)) {
     const char *end = at + sizeof ending - 1;

@@ -1,5 +1,5 @@
 /* system_file.c: E and F of a descriptor system from files: two Matrix Market files, or one MATLAB file
- * with E and F, with E and A = -F, or with M, D, K and G of a mechanical system
+ * with E and F, with E and A = -F, with F or A alone (E = I), or with M, D, K and G of a mechanical system
  *   M q'' + D q' + K q + G^T l = f,   G q = g,
  * which becomes, for x = (q, v, l),
  *   q' - v = 0,   M v' + D v + K q + G^T l = f,   G q = g.
@@ -170,6 +170,35 @@ static int first_order(steif_context *ctx, const char *path, SUNMatrix E, SUNMat
   return pair(ctx, path, path, negated ? "A" : "F", E, *F);
 }
 
+static SUNMatrix identity(steif_context *ctx, sunindextype n, bool dense)
+{
+  const SUNContext sun = steif_sundials(ctx);
+  SUNMatrix one = dense ? SUNDenseMatrix(n, n, sun) : SUNSparseMatrix(n, n, n, CSC_MAT, sun);
+  if (!one)
+    STEIF_FAIL(ctx, STEIF_NO_MEMORY, "no memory for E = I of %lld unknowns", (long long)n);
+  if (one && dense) SUNMatZero(one);
+  for (sunindextype j = 0; one && !dense && j <= n; j++) SM_INDEXPTRS_S(one)[j] = j;
+  for (sunindextype j = 0; one && j < n; j++) {
+    if (!dense) SM_INDEXVALS_S(one)[j] = j;
+    *(dense ? &SM_ELEMENT_D(one, j, j) : SM_DATA_S(one) + j) = 1;
+  }
+  return one;
+}
+
+/* x' + F x = f, or x' = A x + f. */
+static int without_E(steif_context *ctx, const char *path, SUNMatrix *E, SUNMatrix *F)
+{
+  SUNMatrix any = NULL;
+  STEIF_TRY(stf_input_variable(ctx, path, "A", &any));
+  if (!any) STEIF_TRY(stf_input_variable(ctx, path, "F", &any));
+  STEIF_CHECK(
+    any, ctx, STEIF_BAD_INPUT,
+    "'%s' has neither E nor M, A or F; save E and F, E and A, A alone, or M, D, K and G", path);
+  *E = identity(ctx, stf_input_rows(any), SUNMatGetID(any) == SUNMATRIX_DENSE);
+  SUNMatDestroy(any);
+  return *E ? first_order(ctx, path, *E, F) : STEIF_NO_MEMORY;
+}
+
 static int second_order(steif_context *ctx, const char *path, SUNMatrix *E, SUNMatrix *F)
 {
   static const char *const names[PARTS] = {"M", "D", "K", "G"};
@@ -178,12 +207,7 @@ static int second_order(steif_context *ctx, const char *path, SUNMatrix *E, SUNM
   for (int i = 0; i < PARTS && code == STEIF_OK; i++)
     code = stf_input_variable(ctx, path, names[i], part + i);
   if (code == STEIF_OK)
-    code = part[MASS]
-             ? mechanical(ctx, path, part, E, F)
-             : STEIF_FAIL(ctx, STEIF_BAD_INPUT,
-                          "'%s' has neither E nor M; save E and F, E and A, or M, D, K "
-                          "and G",
-                          path);
+    code = part[MASS] ? mechanical(ctx, path, part, E, F) : without_E(ctx, path, E, F);
   for (int i = 0; i < PARTS; i++)
     if (part[i]) SUNMatDestroy(part[i]);
   return code;

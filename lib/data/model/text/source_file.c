@@ -38,7 +38,8 @@ int stf_source_path(stf_sources *s, stf_pool *pool, uint32_t at, const char *nam
   memcpy(full + folder, name, length);
   const char *own = full + folder;
   *path = full;
-  if (*own && *own != '/' && strncmp(own, "..", 2) && !strstr(own, "/..")) return STEIF_OK;
+  if (*own && *own != '/' && strcmp(own, "-") && strncmp(own, "..", 2) && !strstr(own, "/.."))
+    return STEIF_OK;
   return stf_complain(s, at, STEIF_BAD_INPUT,
                       "'%.60s' leaves the directory of the model; copy the file beside it",
                       own);
