@@ -102,9 +102,24 @@ static bool about_table(const struct call *call, const char *message)
   return false;
 }
 
+/* Is a model file, "ball.steif:e=0.5" or "-", what it begins with? Another parameter is a matter of usage:
+ * "ball.steif has no parameter". */
+static bool about_model(const struct call *call, const char *message)
+{
+  for (int i = 0; i < call->words; i++) {
+    const char *word = call->word[i], *end = strstr(word, ".steif");
+    const size_t length = end ? (size_t)(end - word) + 6 : *word == '-';
+    if (length && !strncmp(message, word, length) && message[length] == ':') return true;
+  }
+  return false;
+}
+
 int exit_of_run(const struct call *call, int code, const char *message)
 {
-  return code == STEIF_BAD_INPUT && about_table(call, message) ? EXIT_FILE : exit_of(code);
+  const bool input = code == STEIF_BAD_INPUT || code == STEIF_UNKNOWN_NAME;
+  const bool file = (code == STEIF_BAD_INPUT && about_table(call, message)) ||
+                    (input && about_model(call, message));
+  return file ? EXIT_FILE : exit_of(code);
 }
 
 int fail(const struct call *call)
