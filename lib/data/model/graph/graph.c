@@ -41,8 +41,8 @@ static int widen(stf_graph *g)
 {
   stf_vector before = g->slots;
   g->slots = (stf_vector){0};
-  const int code =
-    stf_vector_resize(g->ctx, &g->slots, before.count ? 4 * before.count : 64, sizeof(uint64_t));
+  const int code = stf_vector_resize(g->ctx, &g->slots, before.count ? 4 * before.count : 64,
+                                     sizeof(uint64_t));
   if (code) {
     g->slots = before;
     return code;
