@@ -1,6 +1,7 @@
 /* solution.c: what one integration shows: the solution, digits, costs, events.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "solution.h"
+#include <stdlib.h>
 #include <string.h>
 
 /* What the invariants of the problem have lost or gained. */
@@ -11,6 +12,20 @@ static void fill_drift(steif_report *r, steif_solver *s)
   int count = SHOWN;
   if (s && steif_drift_now(s, &count, drift) == STEIF_OK && count > 0)
     steif_report_list(r, "drift", (size_t)count, drift);
+}
+
+/* What the model puts out at the end. */
+static void fill_outputs(steif_report *r, const outcome *o, steif_solver *s,
+                         const trajectory *tr)
+{
+  double *value = s && tr->outputs ? malloc(tr->outputs * sizeof *value) : NULL;
+  if (value && !steif_model_outputs(tr->problem, o->t, steif_solution(s), value))
+    for (size_t i = 0; i < tr->outputs; i++) {
+      char name[128];
+      snprintf(name, sizeof name, "outputs.%s", steif_model_output(tr->problem, i));
+      steif_report_real(r, name, value[i]);
+    }
+  free(value);
 }
 
 /* Constant steps that reached the end, with nothing on the way that begins steps of its own. */
@@ -44,6 +59,7 @@ static void fill(steif_report *r, const char *const *word, const outcome *o, ste
   steif_report_real(r, "t", o->t);
   fill_steps(r, o, tr);
   steif_report_list(r, "y", s ? tr->n : 0, s ? N_VGetArrayPointer(steif_solution(s)) : NULL);
+  fill_outputs(r, o, s, tr);
   report_digits(r, "", o);
   report_stats(r, "stats.", o);
   if (o->stats.rounding > 0) steif_report_real(r, "stats.rounding", o->stats.rounding);

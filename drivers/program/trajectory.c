@@ -40,6 +40,9 @@ static bool grow(trajectory *tr)
   double *y = t ? realloc(tr->y, room * tr->n * sizeof *y) : NULL;
   if (!y) return false;
   tr->y = y;
+  double *output = realloc(tr->output, (room * tr->outputs + 1) * sizeof *output);
+  if (!output) return false;
+  tr->output = output;
   tr->room = room;
   return true;
 }
@@ -52,6 +55,7 @@ int trajectory_keep(trajectory *tr, double t, N_Vector y)
   }
   tr->t[tr->count] = t;
   memcpy(tr->y + tr->count * tr->n, N_VGetArrayPointer(y), tr->n * sizeof *tr->y);
+  if (tr->outputs) steif_model_outputs(tr->problem, t, y, tr->output + tr->count * tr->outputs);
   tr->count++;
   return 0;
 }
@@ -157,6 +161,7 @@ int trajectory_open(struct call *call, const steif_problem *problem, steif_optio
     tr->checkpoint = word_of(call, "--checkpoint");
     tr->every = real_of(call, "--every");
   }
+  while (steif_model_output(problem, tr->outputs)) tr->outputs++;
   options->observe = observe;
   options->on_event = keep_event;
   options->jump = keep_jump;
@@ -171,6 +176,7 @@ void trajectory_free(trajectory *tr)
   if (tr->between) N_VDestroy(tr->between);
   free(tr->t);
   free(tr->y);
+  free(tr->output);
   free(tr->at);
   free(tr->event_t);
   free(tr->event_which);

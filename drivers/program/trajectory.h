@@ -10,6 +10,8 @@ typedef struct trajectory {
   const struct call *call;
   const steif_problem *problem;
   size_t n, count, room;
+  size_t outputs;        /* of a model, beside the unknowns */
+  double *output;        /* by rows, as many values each */
   double h;              /* constant step; 0: others */
   double t0, t1, *t, *y; /* y by rows, n values each */
   size_t asked, next;    /* times asked for, those kept already; 0: every step is kept */

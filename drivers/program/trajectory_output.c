@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "members.h"
 #include "trajectory.h"
+#include <stdlib.h>
+#include <string.h>
 
 /* Columns have the names of the unknowns, if there are any; names NULL: one list y. */
 static void rows(steif_report *r, const char *sheet, const trajectory *tr,
@@ -17,6 +19,13 @@ static void rows(steif_report *r, const char *sheet, const trajectory *tr,
     for (size_t j = 0; names && j < tr->n; j++) {
       snprintf(name, sizeof name, "%s.%s", sheet, names[j]);
       steif_report_real(r, name, tr->y[i * tr->n + j]);
+    }
+    snprintf(name, sizeof name, "%s.outputs", sheet);
+    if (!names && tr->outputs)
+      steif_report_list(r, name, tr->outputs, tr->output + i * tr->outputs);
+    for (size_t j = 0; names && j < tr->outputs; j++) {
+      snprintf(name, sizeof name, "%s.%s", sheet, steif_model_output(tr->problem, j));
+      steif_report_real(r, name, tr->output[i * tr->outputs + j]);
     }
   }
 }
@@ -46,12 +55,15 @@ void trajectory_fill(steif_report *r, const trajectory *tr)
 
 static int save_arrays(const struct call *call, const trajectory *tr)
 {
-  const steif_array array[] = {{"t", tr->count, 0, tr->t},
-                               {"y", tr->count, tr->n, tr->y},
-                               {"event_t", tr->events, 0, tr->event_t},
-                               {"event_which", tr->events, 0, tr->event_which},
-                               {"event_direction", tr->events, 0, tr->event_direction}};
-  const size_t count = tr->problem->events ? 5 : 2;
+  steif_array array[6] = {{"t", tr->count, 0, tr->t}, {"y", tr->count, tr->n, tr->y}};
+  size_t count = 2;
+  if (tr->outputs)
+    array[count++] = (steif_array){"outputs", tr->count, tr->outputs, tr->output};
+  if (tr->problem->events) {
+    array[count++] = (steif_array){"event_t", tr->events, 0, tr->event_t};
+    array[count++] = (steif_array){"event_which", tr->events, 0, tr->event_which};
+    array[count++] = (steif_array){"event_direction", tr->events, 0, tr->event_direction};
+  }
   if (!call->npz || steif_npz_save(call->ctx, call->npz, count, array) == STEIF_OK)
     return EXIT_OK;
   say(call, "%s", steif_message(call->ctx));
@@ -69,11 +81,27 @@ int trajectory_save(const struct call *call, const trajectory *tr)
   return code ? code : arrays;
 }
 
+/* Unknowns and outputs side by side. */
+static int plot(const struct call *call, const trajectory *tr, const char *title)
+{
+  const size_t columns = tr->n + tr->outputs;
+  if (!tr->outputs)
+    return steif_plot_components(call->ctx, title, tr->count, tr->n, tr->t, tr->y, call->plot);
+  double *all = malloc((tr->count * columns + 1) * sizeof *all);
+  if (!all) return no_memory(call, "the picture", "make fewer steps");
+  for (size_t i = 0; i < tr->count; i++) {
+    memcpy(all + i * columns, tr->y + i * tr->n, tr->n * sizeof *all);
+    memcpy(all + i * columns + tr->n, tr->output + i * tr->outputs, tr->outputs * sizeof *all);
+  }
+  const int code =
+    steif_plot_components(call->ctx, title, tr->count, columns, tr->t, all, call->plot);
+  free(all);
+  return code;
+}
+
 int trajectory_plot(const struct call *call, const trajectory *tr, const char *title)
 {
-  if (!call->plot || steif_plot_components(call->ctx, title, tr->count, tr->n, tr->t, tr->y,
-                                           call->plot) == STEIF_OK)
-    return EXIT_OK;
+  if (!call->plot || plot(call, tr, title) == STEIF_OK) return EXIT_OK;
   say(call, "%s", steif_message(call->ctx));
   return EXIT_FAILED;
 }

@@ -72,6 +72,9 @@ static const wrong models[] = {
    "m.steif:4:22: expected an expression, found the end of the line"},
   {"include \"../a\"\n", "",
    "m.steif:1:9: '../a' leaves the directory of the model; copy the file beside it"},
+  {"state x = 1\nx' = -x\noutput x = 2*x\ntime 0 to 1\n", "",
+   "m.steif:3:8: 'x' has this name already (line 1); an output or invariant needs one of its "
+   "own"},
   {"table f = \"/etc/x\" column 1 linear\nstate x = 1\nx' = f(t)\ntime 0 to 1\n", "",
    "m.steif:1:11: '/etc/x' leaves the directory of the model; copy the file beside it"},
   {"state x = -1\nx' = 1\nrequire x >= 0\ntime 0 to 1\n", "",

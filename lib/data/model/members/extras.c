@@ -105,6 +105,24 @@ static int invariant_values(sunrealtype t, N_Vector y, sunrealtype *value, void 
   return 0;
 }
 
+/* The name of an output or invariant is its own. */
+static int check_name(stf_model *m, int32_t statement)
+{
+  const stf_statement *s = stf_statement_at(m, statement);
+  const stf_symbol *symbol = stf_symbol_of(m, s->name);
+  int line = symbol ? (int)stf_statement_at(m, symbol->statement)->line : 0;
+  for (int32_t i = 0; i < statement && !line; i++) {
+    const stf_statement *before = stf_statement_at(m, i);
+    if (before->kind == s->kind && before->name == s->name) line = (int)before->line;
+  }
+  if (!line) return STEIF_OK;
+  return stf_complain(
+    &m->syntax.sources, s->at, STEIF_BAD_INPUT,
+    "'%s' has this name already (line %d); an output or invariant needs one of "
+    "its own",
+    stf_named(m, s->name), line);
+}
+
 /* The values of all statements of a kind, as one quantity. */
 static int collect(stf_model *m, int kind, stf_quantity *q, int32_t *count)
 {
@@ -119,6 +137,7 @@ static int collect(stf_model *m, int kind, stf_quantity *q, int32_t *count)
     if (s->dimensions)
       code = stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
                           "an output or invariant has no index");
+    if (!code) code = check_name(m, (int32_t)i);
     if (!code) code = stf_build(&b, &s->value, &node);
     stf_store *to = code ? NULL : stf_vector_push(m->ctx, &stores, sizeof *to);
     if (!code && !to) code = STEIF_NO_MEMORY;
