@@ -8,13 +8,13 @@ enum { A, B, C, D, E, FILES };
 
 static int read_files(struct call *call, struct matrix *m)
 {
-  int code = matrix_square(call, call->word[0], "A of x' = A x + B u", &m[A]);
+  int code = matrix_system(call, call->word[0], "A of x' = A x + B u", &m[A], &m[E]);
   const long n = m[A].rows;
   if (!code && call->words > 1) code = matrix_read(call, call->word[1], n, 0, &m[B]);
   if (!code && given(call, "--D") && !m[B].x) code = bad_usage(call, "--D needs B.mtx; add it");
   if (!code) code = matrix_option(call, "--C", 0, n, &m[C]);
   if (!code) code = matrix_option(call, "--D", m[C].rows, m[B].columns, &m[D]);
-  return code ? code : matrix_option(call, "--E", n, n, &m[E]);
+  return code || m[E].x ? code : matrix_option(call, "--E", n, n, &m[E]);
 }
 
 static void scheme_with_parameter(const struct call *call, char *text, size_t room)
@@ -72,7 +72,7 @@ static const struct rule rules[] = {{"--dt", REQUIRED, NULL},
 
 const struct verb verb_c2d = {.name = "c2d",
                               .about = "Discretise x' = A x + B u or E x' = A x + B u in time",
-                              .usage = "A.mtx [B.mtx] --dt H [--scheme S]",
+                              .usage = "A.mtx|MODEL.steif [B.mtx] --dt H [--scheme S]",
                               .least = 1,
                               .most = 2,
                               .option = options,

@@ -34,7 +34,7 @@ static void fill_examples(steif_report *r, const struct call *call, const void *
 static int from_file(struct call *call)
 {
   struct matrix A = {0};
-  int code = matrix_square(call, call->word[0], "A of x' = A x", &A);
+  int code = matrix_system(call, call->word[0], "A of x' = A x", &A, NULL);
   if (!code) code = find(call, (int)A.rows, A.x);
   free(A.x);
   return code;
@@ -66,7 +66,7 @@ static const struct option options[] = {
 const struct verb verb_hamiltonian = {.name = "hamiltonian",
                                       .about =
                                         "Find in which of four senses x' = A x is Hamiltonian",
-                                      .usage = "[A.mtx | EXAMPLE] [--tol R]",
+                                      .usage = "[A.mtx | MODEL.steif | EXAMPLE] [--tol R]",
                                       .most = 1,
                                       .option = options,
                                       .run = run};

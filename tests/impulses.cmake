@@ -657,4 +657,14 @@ endforeach()
 expect(1 bench impulse --problems vdpol ERR "form ode")
 expect(2 bench impulse --problems springz ERR "springs")
 
+# A linear model serves the same verbs: two capacitors that a switch joins, as in switchrlc.
+file(WRITE ${FOLDER}/switch.steif "param C1 = 2e-6, C2 = 3e-6\nstate v1 = 5, v2 = 1, k = 0\n"
+     "C1*v1' = -k\nC2*v2' = k\n0 = v1 - v2\ntime 0 to 1\n")
+expect(0 impulse switch.steif OUT "x_plus +2\\.6 2\\.6 .*impulses [^\n]* 4\\.8e-06\n")
+expect(0 pencil switch.steif --json)
+member(2 index)
+expect(0 layer be switch.steif --h 0.1 --json)
+member(2 index)
+expect(0 weak be switch.steif)
+expect(1 weak be rober ERR "form descriptor")
 file(REMOVE_RECURSE ${FOLDER})

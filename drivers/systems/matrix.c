@@ -3,6 +3,7 @@
 #include "matrix.h"
 #include <stdlib.h>
 #include <string.h>
+#include <nvector/nvector_serial.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
@@ -63,4 +64,61 @@ int matrix_square(struct call *call, const char *path, const char *what, struct 
   say(call, "'%s' is %ld x %ld; %s must be square [STEIF_BAD_INPUT]", path, M->rows, M->columns,
       what);
   return EXIT_FILE;
+}
+
+/* ---- models ---- */
+
+/* E or A of a linear problem, dense by columns. */
+static int fill_matrix(struct call *call, const steif_problem *p, bool of_E, struct matrix *M)
+{
+  SUNContext sun = steif_sundials(call->ctx);
+  const bool sparse = p->storage == STEIF_SPARSE;
+  N_Vector y = N_VNew_Serial(p->n, sun), yp = N_VNew_Serial(p->n, sun);
+  SUNMatrix S = sparse ? SUNSparseMatrix(p->n, p->n, of_E ? p->nnz_E : p->nnz, CSC_MAT, sun)
+                       : SUNDenseMatrix(p->n, p->n, sun);
+  *M = (struct matrix){(long)p->n, (long)p->n,
+                       calloc((size_t)p->n * (size_t)p->n, sizeof(double))};
+  int code = y && yp && S && M->x ? 0 : -1;
+  if (!code) N_VConst(0, y), N_VConst(0, yp);
+  if (!code)
+    code = of_E     ? p->E(p->t0, y, yp, S, p->user)
+           : p->jac ? p->jac(p->t0, y, yp, S, p->user, yp, yp, yp)
+                    : p->A(p->t0, y, yp, S, p->user);
+  if (!code && sparse) spread(S, M);
+  if (!code && !sparse)
+    memcpy(M->x, SUNDenseMatrix_Data(S), (size_t)p->n * (size_t)p->n * sizeof *M->x);
+  if (y) N_VDestroy(y);
+  if (yp) N_VDestroy(yp);
+  if (S) SUNMatDestroy(S);
+  return code ? no_memory(call, "the matrices of the model", "take fewer states") : EXIT_OK;
+}
+
+static int of_model(struct call *call, const char *path, struct matrix *A, struct matrix *E)
+{
+  steif_problem p;
+  if (steif_problem_find(call->ctx, path, &p)) return fail_file(call);
+  int code = EXIT_OK;
+  if (!p.linear || !(p.jac || p.A)) {
+    say(call,
+        "'%s' is not linear with constant coefficients: it has no matrix A [STEIF_BAD_INPUT]",
+        path);
+    code = EXIT_FILE;
+  } else if (p.E && !E) {
+    say(call,
+        "'%s' is E x' = A x with E not the identity; solve its equations for the derivatives "
+        "[STEIF_BAD_INPUT]",
+        path);
+    code = EXIT_FILE;
+  }
+  if (!code) code = fill_matrix(call, &p, false, A);
+  if (!code && p.E) code = fill_matrix(call, &p, true, E);
+  steif_problem_clear(call->ctx, &p);
+  return code;
+}
+
+int matrix_system(struct call *call, const char *path, const char *what, struct matrix *A,
+                  struct matrix *E)
+{
+  return strstr(path, ".steif") ? of_model(call, path, A, E)
+                                : matrix_square(call, path, what, A);
 }

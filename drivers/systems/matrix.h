@@ -18,5 +18,9 @@ int matrix_option(struct call *call, const char *option, long rows, long columns
                   struct matrix *M);
 /* The same for a square matrix, `what` it is in its sentence. */
 int matrix_square(struct call *call, const char *path, const char *what, struct matrix *M);
+/* The same, or of a model as text (.steif) that is linear: A, and E where it is not the identity; E NULL: it
+ * must be. */
+int matrix_system(struct call *call, const char *path, const char *what, struct matrix *A,
+                  struct matrix *E);
 
 #endif

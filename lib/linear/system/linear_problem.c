@@ -103,8 +103,10 @@ int steif_linear_of(steif_context *ctx, const steif_problem *p, steif_linear *l)
   const int form = steif_problem_form(ctx, p);
   if (!form) return steif_status(ctx);
   STEIF_CHECK(form == STEIF_DESCRIPTOR && p->E && p->A, ctx, STEIF_UNSUPPORTED,
-              "problem '%s' has form %s: only E x' = A x + g has a pencil of its own", p->name,
-              steif_form_name(form));
+              "problem '%s' has form %s: only E x' = A x + g has a pencil of its own "
+              "(a model as text has, with 'form descriptor', where it is linear with constant "
+              "coefficients)",
+              p->name, steif_form_name(form));
   STEIF_CHECK(
     p->storage == STEIF_DENSE || p->storage == STEIF_SPARSE, ctx, STEIF_UNSUPPORTED,
     "problem '%s' keeps its matrices in band or no storage: take storage=dense or sparse",

@@ -26,13 +26,11 @@ static int analyse(stf_subject *s)
 
 static int find(stf_subject *s, const char *spec)
 {
-  steif_spec parsed;
   STEIF_CHECK(spec, s->ctx, STEIF_BAD_INPUT,
               "no problem was named: give one such as \"jordan:k=3,case=H-inc\"");
-  STEIF_TRY(steif_spec_parse(s->ctx, spec, &parsed));
   STEIF_TRY(steif_problem_find(s->ctx, spec, &s->problem));
   s->named = true, s->n = (int)s->problem.n;
-  const bool block = !strcmp(parsed.name, "jordan"),
+  const bool block = !strncmp(spec, "jordan", 6) && (!spec[6] || spec[6] == ':'),
              matrices = s->problem.storage == STEIF_DENSE || s->problem.storage == STEIF_SPARSE;
   if (matrices || !block) STEIF_TRY(steif_linear_of(s->ctx, &s->problem, &s->linear));
   return block ? jordan(s) : analyse(s);
