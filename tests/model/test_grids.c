@@ -1,6 +1,8 @@
 /* test_grids.c: grids with fixed, reflecting and periodic borders, whose interior, faces and edges are loops
  * of their own, against the sums written here point by point; and compiled models against the interpreter.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "base.h"
+#include "base/failing.h"
 #include "fixture.h"
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -172,8 +174,59 @@ static void what_is_not_used(void)
   CHECK(system(command) == 0);
 }
 
+/* ---- memory ----------------------------------------------------------------------------------- */
+
+/* All that can be asked of a model. `in` the same vectors for all calls. */
+static int life(steif_context *ctx, steif_problem *p, N_Vector *in)
+{
+  double c[12] = {1, 0.5, 0.1}, F[8], by_p[2];
+  STEIF_TRY(
+    steif_model_parse(ctx,
+                      "param a = 1, b = 2\nstate x = a, y = b\nx' = -a*x*y\ny' = b*x - exp(y)\n"
+                      "output z = x + y\ninvariant w = x - y\ntime 0 to 1\n",
+                      "m.steif", NULL, p));
+  STEIF_TRY(steif_model_tangent(ctx, p, 0, in[0], in[1], in[2], NULL, NULL, in[3]));
+  STEIF_TRY(steif_model_adjoint(ctx, p, 0, in[0], in[1], in[2], in[3], NULL, by_p));
+  STEIF_TRY(steif_model_taylor(ctx, p, 0, 2, c, F));
+  STEIF_TRY(steif_parameter_slope(ctx, p, 1, 0, in[0], in[1], in[3]));
+  STEIF_TRY(steif_parameter_start(ctx, p, 1, in[3]));
+  STEIF_TRY(steif_parameter_pull(ctx, p, 0, in[0], in[1], in[2], by_p));
+  if (!steif_model_c(ctx, p)) return steif_status(ctx);
+  STEIF_TRY(steif_model_set(ctx, p, "a", 3));
+  return steif_model_compile(ctx, p, "/none", NULL) == STEIF_UNSUPPORTED ? STEIF_OK
+                                                                         : STEIF_NO_MEMORY;
+}
+
+static void memory_may_be_short_anywhere(void)
+{
+  steif_context *own = steif_context_new(NULL);
+  N_Vector in[4] = {N_VNew_Serial(2, steif_sundials(own))};
+  for (int i = 1; i < 4; i++) in[i] = N_VClone(in[0]);
+  for (int i = 0; i < 4; i++) N_VConst(0.3 + i, in[i]);
+  for (long k = 1;; k++) {
+    failing memory = {.refuse_at = k};
+    steif_setup setup = failing_setup(&memory);
+    setup.threads = 1;
+    steif_context *ctx = steif_context_new(&setup);
+    steif_problem p = {0};
+    const int code = ctx ? life(ctx, &p, in) : STEIF_NO_MEMORY;
+    if (ctx) steif_problem_clear(ctx, &p);
+    steif_context_free(&ctx);
+    CHECK(memory.alive == 0);
+    if (memory.served < k) {
+      CHECK(code == STEIF_OK && k > 100);
+      break;
+    }
+    if (code != STEIF_NO_MEMORY) printf("\n  k = %ld: %d", k, code);
+    CHECK(code == STEIF_NO_MEMORY);
+  }
+  for (int i = 0; i < 4; i++) N_VDestroy(in[i]);
+  steif_context_free(&own);
+}
+
 CU_TestInfo tests_of_grids[] = {{"three dimensions", three_dimensions},
                                 {"wide stencils and borders in parts", wide_stencils},
                                 {"compiled models give the same numbers", the_same_numbers},
                                 {"what is not used", what_is_not_used},
+                                {"memory may be short", memory_may_be_short_anywhere},
                                 CU_TEST_INFO_NULL};

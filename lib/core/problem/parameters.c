@@ -145,9 +145,11 @@ int steif_parameter_find(steif_context *ctx, const steif_problem *p, const char 
   return -1;
 }
 
-static int told(steif_context *ctx, const steif_problem *p, int returned, int k)
+/* A failure of the library in the callback, of which there have been more than `before`, is told by it. */
+static int told(steif_context *ctx, const steif_problem *p, int returned, int k, long before)
 {
   if (!returned) return STEIF_OK;
+  if (stf_failures(ctx) > before) return returned > 0 ? STEIF_RETRY : steif_status(ctx);
   if (returned > 0)
     return STEIF_RECOVER(
       ctx, STEIF_CALLBACK,
@@ -164,13 +166,14 @@ static int told(steif_context *ctx, const steif_problem *p, int returned, int k)
 static int by_differences(point *at, int k, int (*what)(const point *at, N_Vector out),
                           N_Vector out)
 {
+  const long before = stf_failures(at->ctx);
   stf_pool *pool = stf_pool_new(at->ctx);
   N_Vector other = pool ? stf_pool_vector(pool, out) : NULL;
   at->work = other ? stf_pool_vector(pool, out) : NULL;
   int code = at->work ? open_matrix(at, pool) : STEIF_NO_MEMORY;
   if (!code)
-    code =
-      told(at->ctx, at->problem, differ(at->problem->parameters, k, what, at, other, out), k);
+    code = told(at->ctx, at->problem, differ(at->problem->parameters, k, what, at, other, out),
+                k, before);
   stf_pool_free(&pool);
   return code;
 }
@@ -180,9 +183,10 @@ int steif_parameter_slope(steif_context *ctx, const steif_problem *p, int k, sun
 {
   STEIF_TRY(check(ctx, p, k));
   STEIF_CHECK(y && yp && out, ctx, STEIF_BAD_INPUT, "y, yp and out are needed, got NULL");
+  const long before = stf_failures(ctx);
   point at = {.ctx = ctx, .problem = p, .t = t, .y = y, .yp = yp};
   if (p->parameters->dFdp)
-    return told(ctx, p, p->parameters->dFdp(t, y, yp, k, out, p->user), k);
+    return told(ctx, p, p->parameters->dFdp(t, y, yp, k, out, p->user), k, before);
   at.form = steif_problem_form(ctx, p);
   return at.form ? by_differences(&at, k, residual, out) : steif_status(ctx);
 }
@@ -192,7 +196,9 @@ int steif_parameter_start(steif_context *ctx, const steif_problem *p, int k, N_V
   STEIF_TRY(check(ctx, p, k));
   STEIF_CHECK(out, ctx, STEIF_BAD_INPUT, "a vector for dy0/dp is needed, got NULL");
   N_VConst(0, out);
-  if (p->parameters->start) return told(ctx, p, p->parameters->start(k, out, p->user), k);
+  const long before = stf_failures(ctx);
+  if (p->parameters->start)
+    return told(ctx, p, p->parameters->start(k, out, p->user), k, before);
   point at = {.ctx = ctx, .problem = p, .form = STEIF_ODE};
   return p->start ? by_differences(&at, k, start_values, out) : STEIF_OK;
 }
@@ -203,9 +209,10 @@ int steif_parameter_pull(steif_context *ctx, const steif_problem *p, sunrealtype
   STEIF_TRY(check(ctx, p, 0));
   STEIF_CHECK(y && yp && w && out, ctx, STEIF_BAD_INPUT,
               "y, yp, w and out are needed, got NULL");
+  const long before = stf_failures(ctx);
   for (int k = 0; k < p->parameters->count; k++) out[k] = 0;
   if (p->parameters->dFdp_transposed)
-    return told(ctx, p, p->parameters->dFdp_transposed(t, y, yp, w, out, p->user), 0);
+    return told(ctx, p, p->parameters->dFdp_transposed(t, y, yp, w, out, p->user), 0, before);
   stf_pool *pool = stf_pool_new(ctx);
   N_Vector column = pool ? stf_pool_vector(pool, w) : NULL;
   int code = column ? STEIF_OK : STEIF_NO_MEMORY;
