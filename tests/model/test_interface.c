@@ -106,8 +106,8 @@ static void texts_in_other_clothes(void)
   static const char *const texts[] = {
     "param k = 2\nlet a = k*x\nstate x = 1\nx' = -a\ntime 0 to 1\n",
     "\xef\xbb\xbftime 0 to 1\r\nx' = -a\r\nlet a = k*x\r\nparam k = 2\r\nstate x = 1",
-    "x\xe2\x80\xb2 =\n  \xe2\x88\x92"
-    "a\nstate x = 1 # start\nlet a =\n k*\n x\nparam k = 2 {1/s} in [0, 3]\ntime 0 to 1 {s}",
+    ("x\xe2\x80\xb2 =\n  \xe2\x88\x92"
+     "a\nstate x = 1 # start\nlet a =\n k*\n x\nparam k = 2 {1/s} in [0, 3]\ntime 0 to 1 {s}"),
     "state \xce\xb1 = 1\n\xce\xb1' = -2\xc2\xb7\xce\xb1\ntime 0 to 1\n"};
   for (int i = 0; i < 4; i++) {
     fixture s;
