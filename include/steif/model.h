@@ -76,9 +76,10 @@ typedef struct steif_model_facts {
   int form;                           /* enum steif_form */
   const char *why;                    /* ... and what keeps it from a simpler one */
   sunindextype n, entries, entries_E; /* of dF/dy and dF/dy' */
-  int parameters, equations, loops;   /* equations as written; those kept as loops */
-  int relations, breaks;              /* events of relations and times; declared times */
-  long operations;                    /* of f in one evaluation */
+  int parameters, equations,
+    loops;               /* equations as written; rectangles of passes kept as loops */
+  int relations, breaks; /* events of relations and times; declared times */
+  long operations;       /* of f in one evaluation */
 } steif_model_facts;
 
 /* STEIF_BAD_INPUT: the problem was not made from a text. */
