@@ -10,7 +10,8 @@ static const struct {
                   {"workprec", bench_workprec}, {"success", bench_success},
                   {"impulse", bench_impulse},   {"phi", bench_phi},
                   {"lyapunov", bench_lyapunov}, {"model", bench_model},
-                  {"lorenz", bench_lorenz},     {"certificates", bench_certificates}};
+                  {"lorenz", bench_lorenz},     {"certificates", bench_certificates},
+                  {"verdicts", bench_verdicts}};
 enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
 static const char *name_at(const void *list, size_t i)
@@ -39,7 +40,8 @@ static const struct option options[] = {
    "a solve ends after S processor seconds (default: 2; phi: 10; --quick: 0.1)", NULL},
   {"--runs", FLAG, NULL,
    "workprec, success: every run as well, not the best, or the worst, alone", NULL},
-  {"--quick", FLAG, NULL, "success, certificates: a part of the campaign, in a minute", NULL},
+  {"--quick", FLAG, NULL,
+   "success, certificates, verdicts: a part of the campaign, in a minute", NULL},
   {"--seeds", COUNT, "N",
    "success: random problems of each kind (default: 12; --quick: 2); certificates: pencils of "
    "each "
@@ -51,7 +53,8 @@ const struct verb verb_bench = {
   .name = "bench",
   .about = "Measure steps against their kernels, solves against CVODE, IDA, ARKODE, and these "
            "against direct C programs",
-  .usage = "[step|books|workprec|success|impulse|phi|lyapunov|model|lorenz|certificates]",
+  .usage =
+    "[step|books|workprec|success|impulse|phi|lyapunov|model|lorenz|certificates|verdicts]",
   .most = 1,
   .picture = true,
   .option = options,

@@ -15,6 +15,7 @@ int bench_model(struct call *call);
 int bench_workprec(struct call *call);
 int bench_success(struct call *call);
 int bench_certificates(struct call *call);
+int bench_verdicts(struct call *call);
 int bench_impulse(struct call *call);
 int bench_phi(struct call *call);
 int bench_lorenz(struct call *call);

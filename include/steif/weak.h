@@ -51,11 +51,14 @@ typedef struct steif_weak_result {
   sunrealtype first; /* closed first-order constant of backward Euler (P, R), else NaN */
   /* "converges weakly, order 1.00", "does not converge weakly: ...", "undecided: ...". Only usable rows
    * have a say: at least three in a row, whose last two orders agree within 0.25 and do not move
-   * away from a whole number. "exact for every h" takes three rows with errors below 4 times and
+   * away from a whole number. "exact to rounding" takes three rows with errors below 4 times and
    * rounding below 1e-9 of the value. A test function with g^(q)(0) = 0 for a q below the index that
-   * matters sees nothing of those impulses and lets nothing converge. */
+   * matters sees nothing of those impulses and lets nothing converge. A run is linear in x(0-) and f:
+   * where there are impulses of several orders, or a smooth part, each is measured by itself, too.
+   * One that does not converge leaves the verdict open, one of lower order gives the order. */
   char verdict[256];
   int converges;        /* 1, 0, or -1: undecided */
+  sunrealtype order;    /* where it converges and shows one, else NAN */
   sunrealtype accuracy; /* of exact, as far as seen; 0: closed formulas */
   char source[160];     /* how exact was found */
   int index;            /* of the system */

@@ -27,7 +27,8 @@ static void verdicts_say_what_happens(void)
   expect("bdf:p=2", 3, "H-inc", STEIF_R, "constant", 1, "converges weakly, order 1.98");
   expect("bdf:p=3", 3, "N-inc", STEIF_C, "cq", 1, "converges weakly, order 2.97");
   expect("bdf:p=3,start=cq", 3, "N-inc", STEIF_C, NULL, 1, "converges weakly, order 2.97");
-  expect("lobatto3c:s=2", 2, "H-inc", STEIF_STAGE, NULL, 1, "exact for every h (to rounding)");
+  expect("lobatto3c:s=2", 2, "H-inc", STEIF_STAGE, NULL, 1,
+         "exact to rounding at every h measured");
   expect("radau:s=2", 2, "H-inc", STEIF_STAGE, NULL, 1, "converges weakly, order 1.9");
   expect("radau:s=2", 2, "H-inc", STEIF_R, NULL, 0,
          "does not converge weakly: error tends to -6");

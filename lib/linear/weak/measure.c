@@ -1,18 +1,12 @@
-/* measure.c: a run in double, paired, and beside it runs that tell its rounding: the same in long double,
- * once with the data of the run and once with f, t and what else is known to double only changed by
- * random parts of eps. Where a method has no such run, runs on multiples of the data differ by rounding
- * alone.
+/* measure.c: what is asked for, and whether it makes sense.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "measure.h"
-#include "longer.h"
+#include "prime_field.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
-/* Of differences between runs on multiples of the data, which see nothing of coefficients that are
- * rounded once and for all. */
-enum { DISTRUST = 16 };
-enum { LAYERS = 2, STEPS = 64, MOST_STEPS = 1 << 26, LOOKS = 500 };
+enum { LAYERS = 2, STEPS = 64, MOST_STEPS = 1 << 26, LOOKS = 500, LIMBS = 8 };
 
 /* The step of the first row. */
 static sunrealtype first_step(const steif_weak_query *q)
@@ -111,6 +105,20 @@ int stf_measure_longest(const stf_measure *w, sunrealtype *longest, const char *
   return STEIF_OK;
 }
 
+/* Have E and F as they are given, to the last bit, the structure that was found? */
+static int is_exact(const stf_subject *s, bool *yes)
+{
+  enum { MOST = STF_DERIVATIVES };
+  stf_field field;
+  sunindextype weyr[MOST], infinite = 0;
+  int count;
+  STEIF_TRY(stf_field_open(s->ctx, s->linear.E, s->linear.F, false, &field));
+  STEIF_TRY(stf_field_chains(s->ctx, &field, MOST, weyr, &count));
+  for (int i = 0; i < count; i++) infinite += weyr[i];
+  *yes = count == s->index && infinite == s->n - s->structure.finite;
+  return STEIF_OK;
+}
+
 int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_measure *w)
 {
   *w = (stf_measure){.ctx = ctx, .query = query};
@@ -122,10 +130,17 @@ int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_meas
   s->sides.count = query->break_count, s->sides.breaks = query->breaks;
   const size_t n = (size_t)s->n;
   if (s->linear.E) STEIF_TRY(stf_longer_serves(ctx, query->method, s->n, &w->longer));
-  w->exact = stf_allocate(ctx, 3 * n, sizeof *w->exact);
+  w->exact = stf_allocate(ctx, 4 * n, sizeof *w->exact);
   w->sum = stf_allocate(ctx, 4 * n, sizeof *w->sum);
   if (!w->exact || !w->sum) return STEIF_NO_MEMORY;
-  w->value = w->exact + n, w->level = w->value + n;
+  w->value = w->exact + n, w->level = w->value + n, w->away = w->level + n;
+  if (query->exact && s->apart.linear.E) STEIF_TRY(is_exact(s, &w->as_given));
+  for (int i = 0; i < STF_TURNS && s->apart.linear.E && !w->as_given; i++)
+    STEIF_TRY(stf_turned_open(ctx, &s->linear, &s->structure, s->problem.y0, i, w->turned + i));
+  if (query->g && w->longer) {
+    STEIF_TRY(stf_spline_open(&s->weight, stf_smooth(s->index), LIMBS, true, &w->smooth));
+    s->weight.smooth = &w->smooth;
+  }
   w->room = N_VNew_Serial(s->n, steif_sundials(ctx));
   STEIF_CHECK(w->room, ctx, STEIF_NO_MEMORY, "no memory for a vector");
   return STEIF_OK;
@@ -134,176 +149,9 @@ int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_meas
 void stf_measure_close(stf_measure *w)
 {
   if (w->room) N_VDestroy(w->room);
+  for (int i = 0; i < STF_TURNS; i++) stf_turned_close(w->turned + i);
+  stf_spline_close(w->ctx, &w->smooth);
   stf_release(w->ctx, w->exact);
   stf_release(w->ctx, w->sum);
   stf_subject_close(&w->subject);
-}
-
-/* x_m of z. */
-static long double component(const stf_measure *w, const stf_apart *apart, int m,
-                             const long double *z)
-{
-  const size_t n = (size_t)w->subject.n;
-  long double sum = 0;
-  if (!apart) return z[m];
-  for (size_t j = 0; j < n; j++) sum += apart->maps.back[j * n + (size_t)m] * z[j];
-  return sum;
-}
-
-static stf_pairing pairing_of(stf_measure *w, long double h, size_t steps, int which)
-{
-  const size_t n = (size_t)w->subject.n;
-  stf_pairing p = {.g = &w->subject.weight,
-                   .convention = w->query->convention,
-                   .solved = w->cq,
-                   .steps = steps,
-                   .h = h,
-                   .n = w->subject.n,
-                   .sum = w->sum + (size_t)which * n};
-  memset(p.sum, 0, n * sizeof *p.sum);
-  if (w->events) p.events = w->events + which, p.events->count = 0;
-  return p;
-}
-
-static int in_double(stf_measure *w, const steif_problem *problem, stf_apart *apart,
-                     sunrealtype h, size_t steps, int which)
-{
-  const steif_weak_query *q = w->query;
-  stf_pairing p = pairing_of(w, h, steps, which);
-  stf_trace trace = {.steps = steps, .apart = apart, .pairing = &p};
-  if (w->subject.sides.count) trace.sides = &w->subject.sides;
-  return stf_trace_run(w->ctx, problem, q->method, q->start, h, &trace);
-}
-
-static int in_long_double(stf_measure *w, stf_apart *apart, sunrealtype h, size_t steps,
-                          bool shaken, int which)
-{
-  stf_subject *s = &w->subject;
-  stf_pairing p = pairing_of(w, h, steps, which);
-  stf_longer run = {.ctx = w->ctx,
-                    .linear = apart ? &apart->linear : &s->linear,
-                    .sides = s->sides.count ? &s->sides : NULL,
-                    .closed = s->problem.exact ? &s->problem : NULL,
-                    .method = w->query->method,
-                    .start = w->query->start,
-                    .x0 = apart ? apart->z0 : s->problem.y0,
-                    .n = s->n,
-                    .h = h,
-                    .steps = steps,
-                    .shaken = shaken,
-                    .pairing = &p};
-  if (shaken) p.shaken = &run.random;
-  return stf_longer_run(&run);
-}
-
-/* ---- multiples of the data --------------------------------------------------------------------- */
-
-typedef struct multiple {
-  const steif_linear *linear;
-  sunrealtype factor;
-} multiple;
-
-static int multiplied(sunrealtype t, int derivative, N_Vector g, void *user)
-{
-  const multiple *m = user;
-  const int code = m->linear->f(t, derivative, g, m->linear->user);
-  if (!code) N_VScale(m->factor, g, g);
-  return code;
-}
-
-/* The run on factor times x(0-) and f, divided by it, added to the levels where it differs more. */
-static int again(stf_measure *w, stf_apart *apart, sunrealtype h, size_t steps,
-                 sunrealtype factor)
-{
-  stf_subject *s = &w->subject;
-  multiple m = {&s->linear, factor};
-  const steif_linear scaled = {s->linear.E, s->linear.F, s->linear.f ? multiplied : NULL, &m};
-  const steif_linear *kept = apart ? apart->from : NULL;
-  steif_problem problem;
-  sunrealtype *x0 = stf_allocate(w->ctx, (size_t)s->n, sizeof *x0);
-  if (!x0) return STEIF_NO_MEMORY;
-  for (int i = 0; i < s->n; i++) x0[i] = factor * s->problem.y0[i];
-  if (apart) apart->from = &scaled;
-  int code = steif_linear_problem(w->ctx, &scaled, x0, 0, 1, &problem);
-  if (!code) code = in_double(w, &problem, apart, h, steps, 1);
-  if (apart) apart->from = kept;
-  stf_release(w->ctx, x0);
-  for (int i = 0; !code && i < s->n; i++) {
-    const sunrealtype v = (sunrealtype)(component(w, apart, i, w->sum + s->n) / factor);
-    w->level[i] = fmax(w->level[i], DISTRUST * fabs(v - w->value[i]));
-  }
-  return code;
-}
-
-/* ---- a row -------------------------------------------------------------------------------------- */
-
-static int level_by_longer(stf_measure *w, stf_apart *apart, sunrealtype h, size_t steps)
-{
-  const size_t n = (size_t)w->subject.n;
-  STEIF_TRY(in_long_double(w, apart, h, steps, false, 1));
-  STEIF_TRY(in_long_double(w, apart, h, steps, true, 2));
-  for (size_t m = 0; m < n; m++) {
-    const long double v = component(w, apart, (int)m, w->sum + n),
-                      shaken = component(w, apart, (int)m, w->sum + 2 * n);
-    w->level[m] = (sunrealtype)(fabsl(w->value[m] - v) + 2 * fabsl(shaken - v));
-    if (!isfinite(w->level[m])) w->level[m] = INFINITY;
-  }
-  return STEIF_OK;
-}
-
-static int level_by_multiples(stf_measure *w, stf_apart *apart, sunrealtype h, size_t steps)
-{
-  static const sunrealtype factor[] = {1.0 / 3, 0.7, 1.3};
-  memset(w->level, 0, (size_t)w->subject.n * sizeof *w->level);
-  for (int i = 0; w->subject.linear.E && i < 3; i++)
-    STEIF_TRY(again(w, apart, h, steps, factor[i]));
-  return STEIF_OK;
-}
-
-/* Events in components of the problem. */
-static int leave(const stf_measure *w, const stf_apart *apart, const stf_events *events)
-{
-  const size_t n = (size_t)w->subject.n;
-  long double *x = stf_allocate(w->ctx, n, sizeof *x);
-  if (!x) return STEIF_NO_MEMORY;
-  for (size_t i = 0; i < events->count; i++) {
-    long double *z = events->value + i * n;
-    for (size_t m = 0; m < n; m++) x[m] = component(w, apart, (int)m, z);
-    memcpy(z, x, n * sizeof *x);
-  }
-  stf_release(w->ctx, x);
-  return STEIF_OK;
-}
-
-/* Rounding is that of f, and of what else is known to double only. */
-static int in_many_digits(stf_measure *w, stf_apart *apart, sunrealtype h, size_t steps)
-{
-  const stf_subject *s = &w->subject;
-  const size_t n = (size_t)s->n;
-  long double defect;
-  STEIF_TRY(stf_exact_sums(w, apart, h, steps, &defect));
-  const sunrealtype of_g =
-    (sunrealtype)(defect * s->weight.t1) * stf_subject_rounding(s) / STF_EPS;
-  for (size_t m = 0; m < n; m++) {
-    const long double v = component(w, apart, (int)m, w->sum),
-                      shaken = component(w, apart, (int)m, w->sum + n);
-    w->value[m] = (sunrealtype)v;
-    w->level[m] = (sunrealtype)(2 * fabsl(shaken - v)) + of_g;
-    if (!isfinite(w->level[m])) w->level[m] = INFINITY;
-  }
-  return STEIF_OK;
-}
-
-int stf_measure_run(stf_measure *w, sunrealtype h, size_t steps)
-{
-  stf_subject *s = &w->subject;
-  if (stf_is_cobb(w->query->method)) return stf_cobb_run(w, h);
-  stf_apart *apart = stf_subject_apart(s, w->query->method, w->query->start);
-  if (w->query->exact) return in_many_digits(w, apart, h, steps);
-  STEIF_TRY(in_double(w, &s->problem, apart, h, steps, 0));
-  for (int m = 0; m < s->n; m++) w->value[m] = (sunrealtype)component(w, apart, m, w->sum);
-  STEIF_TRY(w->longer ? level_by_longer(w, apart, h, steps)
-                      : level_by_multiples(w, apart, h, steps));
-  for (int i = 0; w->events && apart && i < 3; i++) STEIF_TRY(leave(w, apart, w->events + i));
-  return STEIF_OK;
 }

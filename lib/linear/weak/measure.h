@@ -3,21 +3,27 @@
 #ifndef STF_MEASURE_H
 #define STF_MEASURE_H
 
+#include "longer.h"
 #include "subject.h"
+#include "turned.h"
+#include "spline.h"
 
 typedef struct stf_measure {
   steif_context *ctx;
   const steif_weak_query *query;
   stf_subject subject;
-  sunrealtype *exact, *value,
-    *level;           /* n each: of every component; of the last run; its rounding */
-  long double *sum;   /* 4 x n: work, in the coordinates of the run */
+  sunrealtype *exact, *value, *level,
+    *away;            /* n each: of every component; of the last run; its rounding; work */
+  long double *sum;   /* 4 x n: work, in the coordinates of runs */
   N_Vector room;      /* n */
   stf_events *events; /* 3: of the run in double, in long double, shaken; NULL: not wanted */
   sunrealtype h;      /* first step */
-  int first, count;   /* components paired */
+  stf_turned turned[STF_TURNS]; /* where the run has coordinates of its own */
+  stf_spline smooth;            /* the test function, where it is given */
+  int first, count;             /* components paired */
   bool cq;
-  bool longer; /* there is a second run in long double */
+  bool as_given; /* a run in many digits takes E and F as they are */
+  bool longer;   /* there is a second run in long double */
 } stf_measure;
 
 /* Does the query make sense, as far as it can be seen without the system? */
@@ -31,12 +37,30 @@ int stf_measure_longest(const stf_measure *measure, sunrealtype *longest, const 
 /* A run with so many steps h: value and level. */
 int stf_measure_run(stf_measure *measure, sunrealtype h, size_t steps);
 
-/* The same run in many digits, unshaken and shaken: sums 0 and 1; defect: of the test function, relative. */
-int stf_exact_sums(stf_measure *measure, stf_apart *apart, sunrealtype h, size_t steps,
-                   long double *defect);
+/* Where a run is made: the system, coordinates of it (NULL: its own), its unknowns in another order. */
+typedef struct stf_frame {
+  const steif_linear *linear;
+  const sunrealtype *x0;
+  const stf_apart *apart;
+  const stf_turned *turned;
+} stf_frame;
+stf_frame stf_measure_frame(stf_measure *measure);
+stf_frame stf_measure_turn(const stf_measure *measure, int i);
+/* x_m of z. */
+long double stf_frame_component(const stf_frame *frame, int m, const long double *z);
+/* The run there, without its pairing. */
+stf_longer stf_measure_longer(const stf_measure *measure, const stf_frame *frame, sunrealtype h,
+                              size_t steps, bool shaken);
+/* The same in many digits: a row of sums, and the defect of the test function. */
+int stf_exact_sums(stf_measure *measure, const stf_frame *frame, sunrealtype h, size_t steps,
+                   bool shaken, int row);
 
-/* Takes back `converges` where impulses too small to be seen do not. */
-int stf_measure_orders(const stf_measure *measure, steif_weak_result *result);
+/* Looks at impulses of every order, and at the smooth part, by themselves: takes a verdict back that they
+ * contradict, and lowers its order to theirs. */
+int stf_measure_parts(stf_measure *measure, steif_weak_result *result);
+/* A measure by its rows alone. */
+int stf_weak_rows(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,
+                  steif_weak_result *result);
 
 /* The method "cobb": value and level of (E + eps F) x' + F x = f. */
 bool stf_is_cobb(const char *method);

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "pairing.h"
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 /* Of a weight, in units of long double: a power and a sum of eight. */
@@ -11,11 +12,18 @@
 
 static void add(stf_pairing *p, long double weight, const long double *x)
 {
-  if (p->shaken) {
-    const long double part = p->g->given ? p->g->given->rounding : 0;
-    weight *= 1 + (part + ROUNDING * LDBL_EPSILON) * stf_random_in(p->shaken, -1, 1);
+  for (int m = 0; m < p->n && weight != 0; m++) {
+    const long double term = weight * x[m];
+    p->sum[m] += term;
+    if (p->square) p->square[m] += term * term;
   }
-  for (int m = 0; m < p->n && weight != 0; m++) p->sum[m] += weight * x[m];
+}
+
+/* What is given is a bound; the deviation of such errors is a quarter of it. */
+long double stf_weight_noise(const stf_weight *g, long double square)
+{
+  const long double part = g->given && !g->smooth ? (long double)g->given->rounding : 0;
+  return 2 * (part + ROUNDING * LDBL_EPSILON) / 4 * sqrtl(square);
 }
 
 /* In order of time: nodes of a table need not ascend. */

@@ -3,7 +3,7 @@
 #ifndef STF_PAIRING_H
 #define STF_PAIRING_H
 
-#include "random.h"
+#include "base.h"
 #include <steif/weak.h>
 
 enum { STF_BOX = 8, STF_DERIVATIVES = 64 }; /* points of Gauss's rule on a step */
@@ -13,6 +13,8 @@ typedef struct stf_weight {
   steif_context *ctx;
   const steif_weight *given;
   long double t1, node[STF_BOX], weight[STF_BOX];
+  int parts;                       /* of a step, each with its rule */
+  const struct stf_spline *smooth; /* for values; NULL: from `given` */
 } stf_weight;
 stf_weight stf_weight_of(steif_context *ctx, const steif_weight *given);
 /* Derivatives 0 .. order at t, 0 at t1 and beyond. */
@@ -21,6 +23,8 @@ int stf_weight_at(const stf_weight *g, long double t, int order, long double *de
 int stf_weight_end(const stf_weight *g, int order, long double *derivative);
 /* int_a^b g by Gauss's rule, which ends at t1. */
 int stf_weight_box(const stf_weight *g, long double a, long double b, long double *value);
+/* As many parts as boxes of long steps h take: more than one where g is rough for its rule. */
+int stf_weight_resolve(stf_weight *g, long double h);
 /* The largest |g| of a few hundred places on [0, t1], and the largest rate at which it changes, 1/time:
  * |g'| and sqrt |g''| in units of it. */
 int stf_weight_scale(const stf_weight *g, long double *most, long double *rate);
@@ -42,11 +46,12 @@ typedef struct stf_pairing {
   size_t steps;
   long double h;
   int n;
-  stf_events *events; /* all of it, too; NULL: not wanted */
-  long double *sum;   /* n */
-  stf_random
-    *shaken; /* weights are changed by random parts of their rounding; NULL: they are not */
+  stf_events *events;  /* all of it, too; NULL: not wanted */
+  long double *sum;    /* n */
+  long double *square; /* n: sums of squares of all terms; NULL: not wanted */
 } stf_pairing;
+/* What rounding of weights makes of a sum of terms with this sum of squares: two standard deviations. */
+long double stf_weight_noise(const stf_weight *g, long double square);
 int stf_pairing_node(stf_pairing *p, size_t i, const long double *x);
 /* Stage X at (i + c) h with weight b. */
 int stf_pairing_stage(stf_pairing *p, size_t i, long double c, long double b,

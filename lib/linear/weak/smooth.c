@@ -176,11 +176,11 @@ static sunrealtype apart(int n, const sunrealtype *a, const sunrealtype *b, sunr
   return most;
 }
 
-/* Halve the panels until two sums agree, or get no closer. */
+/* Halve the panels until two sums agree, or get no closer; every step of a run adds an eps. */
 static int refine(stf_subject *s, sums *sum, sunrealtype *value, sunrealtype *finer,
                   sunrealtype *accuracy)
 {
-  sunrealtype size;
+  sunrealtype size = 0;
   *accuracy = INFINITY;
   STEIF_TRY(integrate(s, FIRST, sum, value));
   for (int parts = 2 * FIRST; parts <= PANELS_MOST; parts *= 2) {
@@ -191,6 +191,8 @@ static int refine(stf_subject *s, sums *sum, sunrealtype *value, sunrealtype *fi
     memcpy(value, finer, (size_t)s->n * sizeof *value);
     if (d <= agreed * size) break;
   }
+  if (s->structure.finite > 0 && !s->problem.exact)
+    *accuracy = fmax(*accuracy, 4 * STF_EPS * (double)sum->panels.count * size);
   return STEIF_OK;
 }
 

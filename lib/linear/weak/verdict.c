@@ -13,6 +13,9 @@
 /* Zero to rounding: below TIMES the level, which is known to be below TINY of the value. */
 #define TIMES 4
 #define TINY 1e-9
+/* Changes of an error that comes to a limit: so much of the one before, or of the error itself. */
+#define HALVED 0.65
+#define STILL 0.02
 enum { LEAST = 3 }; /* rows */
 
 static bool zero(const stf_judged *j, size_t i)
@@ -39,6 +42,16 @@ static sunrealtype limit(const steif_weak_row *last)
   return regular ? c - (c - b) * (c - b) / ((c - b) - (b - a)) : 2 * c - b;
 }
 
+/* Do the last errors come to a limit other than 0? Their distances to it should be halved at least, from row
+ * to row, and be small beside it. */
+static bool steady(const steif_weak_row *last)
+{
+  const sunrealtype change = fabs(last->error - last[-1].error),
+                    before = fabs(last[-1].error - last[-2].error);
+  if (change <= STILL * fabs(last->error)) return true;
+  return change <= HALVED * before && fabs(limit(last)) >= fabs(last->error) / 2;
+}
+
 static int undecided(steif_weak_result *r) { return r->converges = -1; }
 
 /* By the orders of the last three usable rows. */
@@ -59,9 +72,13 @@ static int by_orders(const steif_weak_row *last, steif_weak_result *r)
                     "one; ask for more rows",
                     before, order);
   if (whole > 0) {
-    r->converges = 1;
+    r->converges = 1, r->order = order;
     return snprintf(text, room, "converges weakly, order %.2f", order);
   }
+  if (whole == 0 && !steady(last))
+    return snprintf(
+      text, room, "undecided: the errors fall slowly, orders %.2f and %.2f; ask for more rows",
+      before, order);
   r->converges = 0;
   return whole == 0
            ? snprintf(text, room, "does not converge weakly: error tends to %.3g", limit(last))
@@ -84,7 +101,7 @@ static int too_few(const stf_judged *j, size_t from, size_t usable, steif_weak_r
     r->converges = 1;
     return usable ? snprintf(text, room, "converges weakly, below rounding from h = %.3g on",
                              j->row[from + usable].h)
-                  : snprintf(text, room, "exact for every h (to rounding)");
+                  : snprintf(text, room, "exact to rounding at every h measured");
   }
   if (j->rows - from < LEAST)
     return snprintf(text, room, "undecided: %s; ask for more (--halvings)",

@@ -108,7 +108,7 @@ static int conclude(const stf_measure *w, steif_weak_row *row, steif_weak_result
   for (size_t i = 0; i < j.rows; i++)
     if (row[i].h > j.longest) row[i].usable = 0;
   stf_weak_judge(&j, result);
-  return result->converges == 1 ? stf_measure_orders(w, result) : STEIF_OK;
+  return STEIF_OK;
 }
 
 /* ---- the measure -------------------------------------------------------------------------- */
@@ -153,16 +153,29 @@ static int measure_rows(stf_measure *w, steif_weak_row *row, steif_weak_result *
   return conclude(w, row, result);
 }
 
-int steif_weak_measure(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,
-                       steif_weak_result *result)
+static int measure(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,
+                   bool parts, steif_weak_result *result)
 {
-  *result = (steif_weak_result){.first = NAN, .exact = NAN, .converges = -1};
+  *result = (steif_weak_result){.first = NAN, .exact = NAN, .converges = -1, .order = NAN};
   STEIF_TRY(stf_measure_check(ctx, query));
   stf_measure w;
   int code = stf_measure_open(ctx, query, &w);
   if (!code) code = measure_rows(&w, row, result);
+  if (!code && parts && result->converges >= 0) code = stf_measure_parts(&w, result);
   stf_measure_close(&w);
   return code;
+}
+
+int stf_weak_rows(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,
+                  steif_weak_result *result)
+{
+  return measure(ctx, query, row, false, result);
+}
+
+int steif_weak_measure(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,
+                       steif_weak_result *result)
+{
+  return measure(ctx, query, row, true, result);
 }
 
 /* ---- conventions ------------------------------------------------------------------------- */

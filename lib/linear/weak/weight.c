@@ -1,14 +1,17 @@
 /* weight.c: test functions: values, derivatives and integrals over steps.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "pairing.h"
+#include "spline.h"
 #include "table.h"
 #include <math.h>
 
-enum { POWER = 8, PLACES = 400 };
+/* Steps beyond this number are short for any g; boxes are halved until they agree so far. */
+enum { POWER = 8, PLACES = 400, LONG_STEPS = 256, MOST_PARTS = 64 };
+#define BOX_AGREED 1e-18L
 
 stf_weight stf_weight_of(steif_context *ctx, const steif_weight *given)
 {
-  stf_weight g = {.ctx = ctx, .given = given, .t1 = given ? (long double)given->t1 : 1};
+  stf_weight g = {
+    .ctx = ctx, .given = given, .t1 = given ? (long double)given->t1 : 1, .parts = 1};
   stf_gauss(STF_BOX, g.node, g.weight);
   return g;
 }
@@ -55,6 +58,10 @@ static int evaluate(const stf_weight *g, long double t, int order, long double *
 
 int stf_weight_at(const stf_weight *g, long double t, int order, long double *derivative)
 {
+  if (g->smooth && order == 0) {
+    *derivative = stf_spline_value(g->smooth, t);
+    return STEIF_OK;
+  }
   for (int q = 0; q <= order; q++) derivative[q] = 0;
   return t < g->t1 ? evaluate(g, t, order, derivative) : STEIF_OK;
 }
@@ -68,14 +75,46 @@ int stf_weight_box(const stf_weight *g, long double a, long double b, long doubl
 {
   *value = 0;
   if (b > g->t1) b = g->t1;
-  for (int i = 0; i < STF_BOX && a < b; i++) {
-    long double at;
-    STEIF_TRY(stf_weight_at(g, a + (b - a) * g->node[i], 0, &at));
-    *value += g->weight[i] * at;
-  }
-  *value *= b - a;
-  if (a >= b) *value = 0;
+  if (a >= b) return STEIF_OK;
+  const long double width = (b - a) / g->parts;
+  for (int p = 0; p < g->parts; p++)
+    for (int i = 0; i < STF_BOX; i++) {
+      long double at;
+      STEIF_TRY(stf_weight_at(g, a + width * (p + g->node[i]), 0, &at));
+      *value += width * g->weight[i] * at;
+    }
   return STEIF_OK;
+}
+
+/* The sum of |int g| over all steps, and of what twice as many parts change of it. */
+static int compare(const stf_weight *g, long double h, int steps, long double *apart,
+                   long double *size)
+{
+  stf_weight finer = *g;
+  finer.parts = 2 * g->parts;
+  *apart = *size = 0;
+  for (int i = 0; i < steps; i++) {
+    long double one, other;
+    STEIF_TRY(stf_weight_box(g, i * h, (i + 1) * h, &one));
+    STEIF_TRY(stf_weight_box(&finer, i * h, (i + 1) * h, &other));
+    *apart += fabsl(other - one);
+    *size += fabsl(other);
+  }
+  return STEIF_OK;
+}
+
+int stf_weight_resolve(stf_weight *g, long double h)
+{
+  const long double steps = ceill(g->t1 / h);
+  long double apart, size;
+  g->parts = 1;
+  if (!g->given || steps > LONG_STEPS) return STEIF_OK;
+  const long double wanted = fmaxl(BOX_AGREED, (long double)g->given->rounding);
+  for (;;) {
+    STEIF_TRY(compare(g, h, (int)steps, &apart, &size));
+    if (apart <= wanted * size || g->parts >= MOST_PARTS) return STEIF_OK;
+    g->parts *= 2;
+  }
 }
 
 int stf_weight_scale(const stf_weight *g, long double *most, long double *rate)

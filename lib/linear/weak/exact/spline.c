@@ -8,7 +8,7 @@
 
 enum { MOST_CELLS = 1024, POWER = 8, LOOKS = 3, MOST = 2 * STF_DERIVATIVES + 2 };
 /* Of the largest |g|, in units of its rounding. */
-#define AGREED 16
+#define AGREED 2
 
 typedef struct knot {
   stf_real c[STF_DERIVATIVES]; /* g^(q) width^q / q! */
@@ -26,6 +26,7 @@ static int claim(steif_context *ctx, stf_spline *s)
 void stf_spline_close(steif_context *ctx, stf_spline *spline)
 {
   stf_release(ctx, spline->p);
+  stf_release(ctx, spline->rounded);
   *spline = (stf_spline){0};
 }
 
@@ -154,7 +155,16 @@ static int power(const stf_weight *g, stf_spline *s)
   return STEIF_OK;
 }
 
-int stf_spline_open(const stf_weight *g, int smooth, int limbs, stf_spline *s)
+static int round_all(steif_context *ctx, stf_spline *s)
+{
+  const size_t count = (size_t)s->cells * (size_t)(s->degree + 1);
+  s->rounded = stf_allocate(ctx, count, sizeof *s->rounded);
+  if (!s->rounded) return STEIF_NO_MEMORY;
+  for (size_t i = 0; i < count; i++) s->rounded[i] = stf_real_value(s->p + i);
+  return STEIF_OK;
+}
+
+static int open(const stf_weight *g, int smooth, int limbs, stf_spline *s)
 {
   long double most, rate;
   *s = (stf_spline){.limbs = limbs};
@@ -178,6 +188,23 @@ int stf_spline_open(const stf_weight *g, int smooth, int limbs, stf_spline *s)
   s->defect /= most;
   integrate(s);
   return STEIF_OK;
+}
+
+int stf_spline_open(const stf_weight *g, int smooth, int limbs, bool rounded, stf_spline *s)
+{
+  STEIF_TRY(open(g, smooth, limbs, s));
+  return rounded ? round_all(g->ctx, s) : STEIF_OK;
+}
+
+long double stf_spline_value(const stf_spline *s, long double t)
+{
+  const long double at = t * s->cells / stf_real_value(&s->t1);
+  if (!(at < s->cells)) return 0;
+  const int cell = at > 0 ? (int)at : 0;
+  const long double *p = s->rounded + cell * (s->degree + 1), u = at - cell;
+  long double sum = p[s->degree];
+  for (int q = s->degree - 1; q >= 0; q--) sum = sum * u + p[q];
+  return sum;
 }
 
 /* The cell of t and its place there. */
