@@ -182,7 +182,23 @@ static void nothing_has_no_order(void)
   steif_context_free(&ctx);
 }
 
+/* Nothing but multiples of the data tells the rounding of these. */
+static void without_a_second_run_nothing_is_decided(void)
+{
+  static const char *const method[] = {"glm:bdf,p=3", "auto"};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int i = 0; i < 2; i++) {
+    steif_weak_row row[4];
+    steif_weak_result result;
+    CHECK(!weak_rows(ctx, method[i], 2, "N-inc", STEIF_R, NULL, 1.0 / 64, 4, row, &result));
+    CHECK(result.converges == -1 && isnan(result.order));
+    CHECK(strstr(result.verdict, "no second run") != NULL);
+  }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_rounding[] = {
+  {"without a second run nothing is decided", without_a_second_run_nothing_is_decided},
   {"rounding levels are the differences to closed values", levels_are_those_of_closed_values},
   {"errors are right within their levels", errors_are_right_within_their_levels},
   {"no verdict is wrong", no_verdict_is_wrong},

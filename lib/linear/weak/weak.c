@@ -153,6 +153,21 @@ static int measure_rows(stf_measure *w, steif_weak_row *row, steif_weak_result *
   return conclude(w, row, result);
 }
 
+/* Rounding that is only estimated decides nothing. */
+static void doubt(const stf_measure *w, steif_weak_result *result)
+{
+  const char *method = w->query->method;
+  char seen[sizeof result->verdict];
+  if (w->longer || w->query->exact || stf_is_cobb(method)) return;
+  memcpy(seen, result->verdict, sizeof seen);
+  result->converges = -1, result->order = NAN;
+  snprintf(
+    result->verdict, sizeof result->verdict,
+    "undecided: no second run of '%.40s' with %d unknowns tells its rounding, only runs on "
+    "multiples of the data; by these: %.90s",
+    method, w->subject.n, seen);
+}
+
 static int measure(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,
                    bool parts, steif_weak_result *result)
 {
@@ -162,6 +177,7 @@ static int measure(steif_context *ctx, const steif_weak_query *query, steif_weak
   int code = stf_measure_open(ctx, query, &w);
   if (!code) code = measure_rows(&w, row, result);
   if (!code && parts && result->converges >= 0) code = stf_measure_parts(&w, result);
+  if (!code && result->converges >= 0) doubt(&w, result);
   stf_measure_close(&w);
   return code;
 }
