@@ -93,6 +93,7 @@ static void breaks_are_hit_exactly(void)
         seen x = {0};
         const steif_problem p = kicked(&j);
         steif_options o = steif_defaults();
+        o.rtol = 1e-5; /* what order 1 keeps */
         o.observe = look, o.observer = &x;
         o.storage = (enum steif_storage)storage, o.force_storage = 1;
         steif_solver *s = smooth_open(ctx, &p, methods[m], &o);
@@ -113,7 +114,8 @@ static void steps_see_one_side_only(void)
       steif_context *ctx = steif_context_new(NULL);
       jumps j = {.late = late};
       const steif_problem p = kicked(&j);
-      steif_solver *s = smooth_open(ctx, &p, methods[m], NULL);
+      const steif_options o = {.rtol = 1e-5};
+      steif_solver *s = smooth_open(ctx, &p, methods[m], &o);
       j.s = s;
       CHECK(!steif_solve_to(s, 2));
       if (j.strange) printf("\n  %s, late = %d: %d", methods[m], late, j.strange);
@@ -171,7 +173,8 @@ static void odd_breaks_do_no_harm(void)
     jumps j = {0};
     steif_problem p = kicked(&j);
     p.breaks = odd, p.break_count = 8;
-    steif_solver *s = smooth_open(ctx, &p, methods[m], NULL);
+    const steif_options o = {.rtol = 1e-5};
+    steif_solver *s = smooth_open(ctx, &p, methods[m], &o);
     const int code = steif_solve_to(s, 2);
     if (code) printf("\n  %s: %s", methods[m], steif_message(ctx));
     CHECK(!code && steif_time(s) == 2);

@@ -220,17 +220,33 @@ static int attempt(steif_solver *s, sunrealtype h, int tries, sunrealtype *e)
   return *e <= 1 && s->problem->constraint ? stf_constraint_keep(s, h, tries) : STEIF_OK;
 }
 
-/* Errors that add up, each as small as rounding lets it be, are no success; what has grown since is not
- * in the sum. */
+/* Estimate of the error of a run that is a success, in tolerances; and of errors that will not come back to
+ * that, which end it early. */
+static const sunrealtype most_errors = 4, hopeless = 40;
+
+/* Errors that add up, each as small as rounding or a million steps let it be, are no success; what has
+ * grown since is not in the sum, and may shrink again. */
 static int check_sum(const steif_solver *s)
 {
-  const sunrealtype most = 4, sum = s->step.control.accumulated, rtol = s->options.rtol;
+  const sunrealtype sum = s->step.control.accumulated, rtol = s->options.rtol;
   STEIF_CHECK(
-    !(sum > most), s->ctx, STEIF_NOT_CERTIFIED,
+    !(sum > hopeless), s->ctx, STEIF_NOT_CERTIFIED,
     "the errors of %ld steps of '%s' add up to about %.2g times the tolerance at t = %.12g: "
     "about %.1f digits are right there, and its order does not allow smaller ones at "
     "rtol = %g; take radau:s=5 or auto, or a larger rtol",
     s->step.count, s->method, sum, s->step.t, -log10(sum * rtol), rtol);
+  return STEIF_OK;
+}
+
+int stf_check_reached(const steif_solver *s)
+{
+  const sunrealtype error = s->step.control.reached, rtol = s->options.rtol;
+  STEIF_CHECK(
+    !(error > most_errors), s->ctx, STEIF_NOT_CERTIFIED,
+    "the errors of %ld steps of '%s' have become about %.2g times the tolerance at "
+    "t = %.12g: about %.1f digits are right there; take radau:s=5 or auto, or a smaller "
+    "rtol",
+    s->step.count, s->method, error, s->step.t, -log10(error * rtol));
   return STEIF_OK;
 }
 
@@ -269,5 +285,6 @@ sunrealtype stf_first_step(const steif_solver *s)
   const sunrealtype h = slope > 0 && step->yp_known ? 0.01 * size / slope : 1e-6 * span;
   const sunrealtype clock =
     1e3 * STF_EPS * fabs(step->t); /* what t can tell apart, with room */
-  return clamp(h, fmin(fmax(1e-14 * span, clock), 1e-3 * span), 1e-3 * span);
+  const sunrealtype most = fmin(span, fmax(1e-3 * span, clock));
+  return clamp(h, fmin(fmax(1e-14 * span, clock), most), most);
 }

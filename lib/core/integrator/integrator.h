@@ -88,6 +88,9 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
  * looks at limits and breaks, and control.c, which decides on step sizes. */
 int stf_advance(steif_solver *s, sunrealtype t_stop);
 int stf_adaptive_step(steif_solver *s, sunrealtype t_stop);
+/* Where a run is asked for its solution: STEIF_NOT_CERTIFIED if the errors of low orders have grown since they
+ * were made. The run may go on. */
+int stf_check_reached(const steif_solver *s);
 int stf_fixed_step(steif_solver *s);
 /* sliding.c, when step.count has come to pace.steps: STEIF_STEP_SIZE where most steps are rejected, the run would
  * not end within max_steps, and a corner of f or F lies within the tolerance. */

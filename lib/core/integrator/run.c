@@ -213,6 +213,7 @@ int steif_solve_to(steif_solver *s, sunrealtype t)
     s->shown = stf_last(s), s->t_shown = s->end;
   stop_clock(s);
   if (!code && s->end < t) return ended(s);
+  if (!code) code = stf_check_reached(s);
   if (!code) steif_forget(s->ctx);
   return code;
 }

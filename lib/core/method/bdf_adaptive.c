@@ -17,7 +17,12 @@
 #include <math.h>
 #include <string.h>
 
-enum { HIGHEST = 5, POINTS = HIGHEST + 2, AGE = 50 }; /* AGE: steps a Jacobian may serve */
+enum {
+  HIGHEST = 5,
+  POINTS = HIGHEST + 2,
+  AGE = 50,
+  YOUNG = 10
+}; /* steps a Jacobian may serve; where it carries errors on */
 
 /* Beginnings late on the clock cannot be made of steps as short as they should be: the few of less than so
  * many rounding errors of t may have this part of the tolerance. */
@@ -36,7 +41,9 @@ typedef struct state {
   long omega_of;     /* Jacobians made when omega was found */
   N_Vector y[POINTS + 1];
   sunrealtype t[POINTS + 1];
-  sunrealtype alpha[HIGHEST + 1], allowed[HIGHEST + 1]; /* allowed: of the error of order k */
+  sunrealtype alpha[HIGHEST + 1];
+  sunrealtype wanted[HIGHEST + 1], allowed[HIGHEST + 1]; /* of the error of order k */
+  stf_carried carried;
   N_Vector base, offset, Z, other;
 } state;
 
@@ -121,6 +128,17 @@ static int find_oscillation(stf_step *s)
 
 static bool oscillates(const state *e, sunrealtype h) { return e->omega * h > 1; }
 
+/* What errors may be, by those before this step. */
+static int share(stf_step *s)
+{
+  state *e = s->state;
+  STEIF_TRY(stf_carried_retry(s, &e->carried));
+  for (int k = 1; k <= HIGHEST; k++)
+    e->allowed[k] = stf_carried_share(&e->carried, e->wanted[k]);
+  s->control.order = e->k, s->control.tolerance = e->allowed[e->k];
+  return STEIF_OK;
+}
+
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
@@ -129,8 +147,8 @@ static int attempt(stf_step *s, sunrealtype h)
   if (++e->refusals > 4) e->k = 1; /* the history is not to be trusted */
   if (e->k > e->points) e->k = e->points;
   if (s->system.nje != e->seen) e->seen = s->system.nje, e->since = s->count;
-  if (s->count - e->since >= AGE) s->newton.jacobian_wanted = true;
-  s->control.order = e->k, s->control.tolerance = e->allowed[e->k];
+  if (s->count - e->since >= (e->carried.exact ? YOUNG : AGE)) s->newton.jacobian_wanted = true;
+  STEIF_TRY(share(s));
   if (e->k <= 2 && h < CLOCK * STF_EPS * fabs(s->t))
     s->control.tolerance = fmax(s->control.tolerance, first);
   stf_share_newton(s, rounding);
@@ -193,6 +211,9 @@ static void commit(stf_step *s)
 {
   state *e = s->state;
   e->last = e->k;
+  const sunrealtype own = e->alpha[0] / s->h_try; /* which operators follow */
+  stf_carried_add(s, &e->carried, s->system.krylov ? own : s->newton.shift, s->error);
+  stf_carried_tell(&e->carried, e->wanted[e->p], &s->control);
   choose(s);
   N_Vector oldest = e->y[POINTS];
   for (int j = POINTS; j > 0; j--) e->y[j] = e->y[j - 1], e->t[j] = e->t[j - 1];
@@ -227,14 +248,40 @@ static void keep(stf_step *s, stf_image *m)
   STF_KEEP(m, e->since);
   STF_KEEP(m, e->omega_of);
   STF_KEEP(m, e->alpha);
+  STF_KEEP(m, e->allowed);
+  stf_carried_keep(&e->carried, m);
 }
 
-/* Order 1 serves beginnings, whose few errors do not add up. Highest orders 1 and 2 would need a million
- * steps for six digits: they keep a tenth of the tolerance in each step, and less at the end. */
-static sunrealtype share(const stf_step *s, int p, int k)
+/* What the errors remembered may come to, in tolerances. */
+static sunrealtype together(const stf_step *s, bool low)
+{
+  if (!low) return 0.3;
+  return s->problem->dae_index > 1 ? 0.1 : 0.2;
+}
+
+/* What an error of order k may be where all of them add. Order 1 serves beginnings, whose few errors do not. */
+static sunrealtype alone(const stf_step *s, int k, sunrealtype least)
 {
   const int order = k > 1 ? k : 2;
-  return p > 2 ? stf_share(s, order, order, rounding) : 0.1;
+  return stf_share(s, order, order, least);
+}
+
+/* Highest orders 1 and 2 would need a million steps for few digits if all errors added: the tolerance is
+ * shared among those that are remembered, down to what makes a million steps, and they say what has come
+ * of it. Tolerances above 2e-3 and weights of the caller mean the error of one step. Errors of index above
+ * 1 are not carried on. */
+static int open_shares(stf_step *s)
+{
+  state *e = s->state;
+  const bool low = e->p <= 2, given = s->options->rtol > 2e-3 || s->options->ewt;
+  const bool followed = low ? !given : s->problem->dae_index < 2;
+  const sunrealtype least = e->p == 1 ? 1e-9 : rounding;
+  for (int k = 1; k <= HIGHEST; k++)
+    e->wanted[k] = !low ? alone(s, k, followed ? 0 : rounding) : given ? first : 0;
+  if (!followed) return STEIF_OK;
+  e->carried.always = low;
+  const bool rough = 2 * e->wanted[e->p] < least / s->options->rtol;
+  return stf_carried_open(s, least, together(s, low), low || rough, &e->carried);
 }
 
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
@@ -242,7 +289,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   (void)table;
   state *e = s->state;
   stf_transform transform;
-  const bool be = !strcmp(spec->name, "be");
+  const bool be = s->table || !strcmp(spec->name, "be"); /* a table: radau:s=1 */
   const char *start = s->options->start ? s->options->start : stf_spec_word(spec, "start");
   STEIF_CHECK(!start || !strcmp(start, "ramp"), s->ctx, STEIF_UNSUPPORTED,
               "start=%s is for prescribed steps: set h", start);
@@ -261,9 +308,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->points = 1, e->k = 1, e->wait = 2;
   for (int j = 1; j <= POINTS; j++)
     if (!(e->y[j] = stf_pool_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
-  for (int k = 1; k <= HIGHEST; k++) e->allowed[k] = share(s, e->p, k);
   s->control.bias = 6;
-  return STEIF_OK;
+  return open_shares(s);
 }
 
 const steif_method steif_method_bdf_adaptive = {

@@ -1,13 +1,15 @@
 /* carried_error.c: what has become of the errors of all steps so far.
  *
  * Every step adds its estimate to what the steps before have left, which the linearised problem carries on:
- *   e <- R e + estimates,   R = (1 - sqrt(2) x)/(1 - x)^2 at x = A/sigma, E e' = A e,
- * two solves with the factors at hand, whose shift is sigma. R damps what is stiff, keeps oscillations,
- * |R(iy)|^2 = 1 - y^4/(1 + y^2)^2, and lets grow what grows. Two steps are carried on together. The
- * lengths of e before and after tell how much of the past is remembered.
+ *   e <- R e + estimates,   R = (1 + (tau - 2) x)/(1 - x)^2 at x = A/sigma, tau = sigma H, E e' = A e,
+ * two solves with the factors at hand, whose shift is sigma, for the steps of a time H. R agrees with
+ * e^(tau x) to first order, at tau = 2 +- sqrt(2) to second; it damps what is stiff, no oscillation grows for
+ * tau between these, |1 + (tau - 2) i y|^2 <= (1 + y^2)^2, and what grows does so. The lengths of e
+ * before and after tell how much of the past is remembered; for this alone longer times H are
+ * carried on as if they were shorter.
  *
  * The errors of a problem that forgets them need not be kept small enough for all steps to add up: each may
- * be half a tolerance over the number of steps remembered. Motions without friction never
+ * be a part of the tolerance over the number of steps remembered. Motions without friction never
  * forget, and some magnify errors later by much: for them the share stays what stf_share makes it.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -15,13 +17,17 @@
 #include "pencil.h"
 #include <math.h>
 
-enum { EVERY = 2, FIRST = 20 };
-static const sunrealtype ROOT = 1.41421356237309505, MOST = 0.1;
+enum { FIRST = 20, MOST_PARTS = 4 }; /* of a time before a step that became far shorter */
+static const sunrealtype LONGEST = 3.41421356237309505, MOST = 0.1; /* LONGEST: of tau */
 
-int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, stf_carried *c)
+int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool exact,
+                     stf_carried *c)
 {
   if (!s->adaptive) return STEIF_OK;
   c->all = all;
+  c->exact = exact;
+  c->loose = c->always ? MOST : 0;
+  c->growth = 1;
   c->least = fmin(MOST, rounding / s->options->rtol);
   c->e = stf_pool_vector(s->pool, s->y);
   c->work = stf_pool_vector(s->pool, s->y);
@@ -31,23 +37,51 @@ int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, stf_car
   return STEIF_OK;
 }
 
-/* Solutions have about the length 1: iterative solvers know what is small by the weights. */
-static int carry(stf_step *s, stf_carried *c, sunrealtype sigma)
+/* Largest component, in tolerances. */
+static sunrealtype largest(stf_step *s, const stf_carried *c, N_Vector x)
+{
+  if (!s->system.space.serial) {
+    N_VProd(x, s->weights, c->work);
+    return N_VMaxNorm(c->work);
+  }
+  const sunrealtype *a = STF_ARRAY(x), *w = STF_ARRAY(s->weights);
+  sunrealtype most = 0;
+  for (sunindextype i = 0; i < s->system.space.n; i++) most = fmax(most, fabs(a[i]) * w[i]);
+  return most;
+}
+
+/* e <- R e for tau <= LONGEST. Iterative solvers know what is small by Newton's tolerance: solutions have many
+ * times its length. */
+static int apply(stf_step *s, stf_carried *c, sunrealtype sigma, sunrealtype tau)
 {
   const stf_space *space = &s->system.space;
-  const sunrealtype before = stf_norm(space, c->e, s->weights);
+  const sunrealtype before = stf_norm(space, c->e, s->weights), bend = tau - 2, many = 20;
   if (!(before > 0)) return STEIF_OK;
-  stf_scale(space, sigma / before, c->e, c->e);
+  const sunrealtype unit = before / (many * s->newton.tolerance);
+  stf_scale(space, sigma / unit, c->e, c->e);
   STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', c->e, c->work));
   STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &c->work, NULL));
   stf_scale(space, sigma, c->work, c->e);
   STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', c->e, c->other));
   STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &c->other, NULL));
-  stf_sum(space, before * ROOT, c->work, before * (1 - ROOT), c->other, c->e);
-  const sunrealtype ratio = stf_norm(space, c->e, s->weights) / before;
-  if (!isfinite(ratio)) return STEIF_NOT_FINITE;
-  c->remembered *= ratio;
-  c->size = s->problem->dae_index == 1 ? ratio * before : ratio * c->size;
+  stf_sum(space, -unit * bend, c->work, unit * (1 + bend), c->other, c->e);
+  c->growth *= stf_norm(space, c->e, s->weights) / before;
+  return isfinite(c->growth) ? STEIF_OK : STEIF_NOT_FINITE;
+}
+
+static int carry(stf_step *s, stf_carried *c, sunrealtype sigma)
+{
+  const sunrealtype tau = c->time * sigma,
+                    parts = c->exact ? fmin(ceil(tau / LONGEST), MOST_PARTS) : 1;
+  c->time = 0;
+  for (int k = 0; k < parts; k++) STEIF_TRY(apply(s, c, sigma, fmin(tau / parts, LONGEST)));
+  if (c->growth < 1) {
+    c->remembered *= c->growth;
+    c->sum *= c->growth;
+    c->growth = 1;
+  }
+  c->size = largest(s, c, c->e);
+  c->peak = fmax(c->peak, c->size);
   return STEIF_OK;
 }
 
@@ -55,16 +89,36 @@ static int carry(stf_step *s, stf_carried *c, sunrealtype sigma)
 static sunrealtype share(stf_carried *c)
 {
   const sunrealtype times = 4;
+  if (c->always) return fmin(MOST, c->all / c->remembered);
   if (c->steps < FIRST) return 0;
   if ((sunrealtype)c->steps > times * c->remembered) c->forgets = true;
   return c->forgets ? fmin(MOST, c->all / c->remembered) : 0;
 }
 
+/* Of e, in parts that are carried on exactly: the longer, the less there is to know. */
+static sunrealtype pause(const stf_carried *c)
+{
+  const sunrealtype most = 0.5;
+  if (c->exact) return 1;
+  return c->steps > FIRST && c->remembered > most * (sunrealtype)c->steps ? 8 : 2;
+}
+
+/* Steps on problems of index above 1, whose hidden constraints R does not carry on, are all remembered. */
 void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector estimate)
 {
   const stf_space *space = &s->system.space;
   if (!c->e) return;
-  if (c->steps % EVERY == EVERY - 1) {
+  c->time += s->h_try;
+  c->steps++;
+  c->remembered++;
+  c->sum += largest(s, c, estimate);
+  if (s->problem->dae_index > 1) {
+    c->size = c->sum;
+    c->loose = c->always ? share(c) : 0;
+    return;
+  }
+  stf_axpy(space, 1, estimate, c->e);
+  if ((c->time + s->h_try) * sigma > pause(c) * LONGEST) {
     const int code = carry(s, c, sigma);
     if (code == STEIF_CALLBACK) c->failure = code;
     if (code) {
@@ -73,15 +127,7 @@ void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector es
       return;
     }
   }
-  stf_axpy(space, 1, estimate, c->e);
-  const sunrealtype one = stf_norm(space, estimate, s->weights);
-  c->steps++;
-  c->remembered++;
-  c->sum += one;
-  if (s->problem->dae_index != 1) c->size += one; /* algebraic components hand nothing on */
-  c->loose = s->problem->dae_index < 2 ? share(c) : 0;
-  if (s->problem->dae_index > 1)
-    c->size = c->sum; /* a step of R does not carry hidden constraints on */
+  c->loose = share(c);
 }
 
 int stf_carried_retry(const stf_step *s, stf_carried *c)
@@ -96,7 +142,14 @@ sunrealtype stf_carried_share(const stf_carried *c, sunrealtype wanted)
   return fmax(wanted, fmax(c->least, c->loose));
 }
 
-sunrealtype stf_carried_excess(const stf_carried *c, sunrealtype wanted)
+/* What is left of e after it has shrunk by much again, as in relaxation oscillations, is what low orders have
+ * lost of it: half the sum, which has no signs, is nearer. */
+void stf_carried_tell(const stf_carried *c, sunrealtype wanted, stf_control *control)
 {
-  return 2 * wanted < c->least ? fmin(c->size, c->sum) : 0;
+  const sunrealtype lost = 0.03, half = 0.5;
+  const bool rough = c->exact || 2 * wanted < c->least;
+  control->accumulated = rough ? fmin(c->size, c->sum) : 0;
+  control->reached = !c->exact                  ? control->accumulated
+                     : c->size > lost * c->peak ? c->size
+                                                : half * control->accumulated;
 }

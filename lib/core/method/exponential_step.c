@@ -40,7 +40,7 @@ int stf_exponential_step_open(stf_step *s, const stf_exponential *x, bool renews
   STEIF_TRY(stf_phis_open(s->pool, &s->system, highest(e, s->problem), x->nodes, x->node,
                           !renews && s->h_equal > 0, &e->phis));
   s->control.order = x->embedded;
-  s->control.tolerance = 1;
+  s->control.tolerance = !e->renews ? 1 : x->embedded > 2 ? 0.1 : 0.05;
   return claim(s);
 }
 

@@ -53,7 +53,8 @@ typedef struct stf_control {
   sunrealtype next;  /* > 0: factor of h for the next step, instead of all these */
   sunrealtype retry; /* > 0: factor of h after STEIF_RETRY, for one attempt */
   sunrealtype
-    accumulated; /* what is remembered of the errors of all steps, in tolerances; 0: not known */
+    accumulated; /* what is remembered of the errors of all steps, growth taken out, in tolerances; 0: not known */
+  sunrealtype reached; /* the same with growth: the error at the end of the last step */
 } stf_control;
 /* The usual one, but for tolerance and order. */
 extern const stf_control stf_control_usual;
@@ -145,16 +146,23 @@ int stf_share_open(stf_step *s, const char *name, int q, int p);
 typedef struct stf_carried {
   N_Vector e, work, other; /* e NULL: not followed */
   long steps;
-  sunrealtype remembered; /* steps; more than were made where errors grow */
-  sunrealtype size, sum;  /* of the errors remembered, and of all, in tolerances */
+  bool exact;             /* all that e has lived through is carried on, and trusted */
+  bool always;            /* the share of a step is that of all remembered from the start */
+  sunrealtype time;       /* since e was carried on */
+  sunrealtype growth;     /* of e, 1 where what it had grown is gone */
+  sunrealtype remembered; /* steps, growth taken out */
+  sunrealtype size,
+    sum;            /* of e in its largest component; of the errors remembered; in tolerances */
+  sunrealtype peak; /* largest size so far */
   sunrealtype all, least; /* estimates below `least` tolerances are rounding */
   sunrealtype loose; /* what an estimate may be, for all that is remembered; 0: not known */
   int failure;
   bool forgets; /* the errors of few steps were remembered at some time */
 } stf_carried;
 /* Estimates below `rounding`, relative to y, are noise; `all`: what those remembered may come to, in
- * tolerances. */
-int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, stf_carried *c);
+ * tolerances. `exact`: at twice the cost. */
+int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool exact,
+                     stf_carried *c);
 /* After a step with the shift sigma in the factors. */
 void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector estimate);
 /* At an attempt: where shorter steps do not help, rounding is larger than thought. STEIF_CALLBACK: a
@@ -162,9 +170,8 @@ void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector es
 int stf_carried_retry(const stf_step *s, stf_carried *c);
 /* What an estimate may be, of which `wanted` would do if the errors of all steps added. */
 sunrealtype stf_carried_share(const stf_carried *c, sunrealtype wanted);
-/* What is left of the errors of all steps, growth taken out, where rounding does not let them be as wanted;
- * else 0. */
-sunrealtype stf_carried_excess(const stf_carried *c, sunrealtype wanted);
+/* What has become of the errors of all steps, where e is exact or rounding does not let them be as wanted. */
+void stf_carried_tell(const stf_carried *c, sunrealtype wanted, stf_control *control);
 
 /* How far the estimate of collocation, of order s, may exceed the tolerance because the method has
  * order p. On y' = lambda y, omega = h |lambda|, the error is the estimate times

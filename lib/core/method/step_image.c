@@ -54,9 +54,12 @@ void stf_carried_keep(stf_carried *c, stf_image *m)
   if (!followed) c->e = NULL;
   if (c->e) stf_keep_vector(m, c->e);
   STF_KEEP(m, c->steps);
+  STF_KEEP(m, c->time);
+  STF_KEEP(m, c->growth);
   STF_KEEP(m, c->remembered);
   STF_KEEP(m, c->size);
   STF_KEEP(m, c->sum);
+  STF_KEEP(m, c->peak);
   STF_KEEP(m, c->least);
   STF_KEEP(m, c->loose);
   STF_KEEP(m, c->failure);

@@ -62,7 +62,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(stf_system_mass(s->pool, &s->system, &e->M));
   if (!(e->L = stf_interleaved_new(s->pool, &transform, e->n, e->M))) return STEIF_NO_MEMORY;
   STEIF_TRY(claim(s, e));
-  e->L->whole = !e->accurate;
+  e->L->whole = true;
   for (int j = 0; j < e->s; j++) stf_irk_interleaved_basis(e, j);
   e->itmax =
     s->options->iterations ? s->options->iterations : 7 + (e->s > 3 ? 5 * (e->s - 3) / 2 : 0);

@@ -97,7 +97,8 @@ static int open_share(stf_step *s)
   }
   s->control.order = e->p;
   e->wanted = part * stf_share(s, e->p, e->p, 0);
-  if (s->problem->dae_index == 0) return stf_carried_open(s, rounding, 0.05, &e->carried);
+  if (s->problem->dae_index == 0)
+    return stf_carried_open(s, rounding, 0.05, false, &e->carried);
   e->wanted = fmax(e->wanted, algebraic);
   return STEIF_OK;
 }
@@ -263,7 +264,7 @@ static void commit(stf_step *s)
   state *e = s->state;
   if (e->wanted > 0) {
     stf_carried_add(s, &e->carried, 1 / (e->chain.gamma * s->h_try), s->error);
-    s->control.accumulated = stf_carried_excess(&e->carried, e->wanted);
+    stf_carried_tell(&e->carried, e->wanted, &s->control);
   }
   N_Vector *free1 = e->past, *free2 = e->x == e->at ? e->from : e->at, *F = e->slopes,
            y = e->before;

@@ -138,10 +138,8 @@ static int filtered(stf_step *s, sunrealtype h, sunrealtype t, N_Vector y)
   STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, real ? NULL : &e->imaginary));
   if (blended)
     stf_scale(space, -e->filter * s->newton.shift * h, s->error, s->error);
-  else if (real || !e->u.accurate)
-    stf_scale(space, -1, s->error, s->error);
   else
-    stf_scale(space, transform->re[0] / transform->im[0], e->imaginary, s->error);
+    stf_scale(space, -1, s->error, s->error);
   return STEIF_OK;
 }
 
@@ -325,6 +323,8 @@ static stf_example example(size_t i)
 
 static const steif_method *variant(const stf_step *s)
 {
+  const steif_table *T = s->table;
+  if (s->adaptive && T->s == 1 && T->c[0] == 1) return &steif_method_bdf_adaptive;
   return stf_interleaved_serves(s) ? &steif_method_irk_interleaved : NULL;
 }
 

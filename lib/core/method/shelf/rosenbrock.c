@@ -53,7 +53,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   s->newton.jacobian_new = false;
   STEIF_TRY(stf_share_open(s, spec->name, e->r->order - 1, e->r->order));
   s->control.tolerance =
-    fmin(0.1, 10 * s->control.tolerance); /* the estimate of Rodas is generous */
+    fmin(0.1, 8 * s->control.tolerance); /* the estimate of Rodas is generous */
   return STEIF_OK;
 }
 
