@@ -1,6 +1,7 @@
 /* solution.c: what one integration shows: the solution, digits, costs, events.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "solution.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -43,6 +44,23 @@ static void fill_steps(steif_report *r, const outcome *o, const trajectory *tr)
   report_steps(r, &made);
 }
 
+/* What "ok" does not promise. */
+static void fill_hidden(steif_report *r, const outcome *o, steif_solver *s)
+{
+  const double promised = 10;
+  sunrealtype error;
+  char text[200];
+  if (!s || o->code != STEIF_OK || steif_hidden_error(s, &error) || !isfinite(error)) return;
+  steif_report_real(r, "hidden_error", error);
+  if (!(error > promised)) return;
+  snprintf(
+    text, sizeof text,
+    "components of index 2 and 3, controlled through h^(index - 1), are off by about %.2g "
+    "tolerances",
+    error);
+  steif_report_text(r, "hidden", text);
+}
+
 static void fill(steif_report *r, const char *const *word, const outcome *o, steif_solver *s,
                  const trajectory *tr)
 {
@@ -63,6 +81,7 @@ static void fill(steif_report *r, const char *const *word, const outcome *o, ste
   report_digits(r, "", o);
   report_stats(r, "stats.", o);
   if (o->stats.rounding > 0) steif_report_real(r, "stats.rounding", o->stats.rounding);
+  fill_hidden(r, o, s);
   fill_drift(r, s);
   trajectory_fill(r, tr);
 }

@@ -139,6 +139,15 @@ STEIF_EXPORT N_Vector steif_solution(steif_solver *s); /* at the time last asked
 STEIF_EXPORT sunrealtype steif_time(const steif_solver *s);
 STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);
 
+/* Components of index 2 and 3 (velocities, multipliers) are controlled through h^(index - 1) only: *error is
+ * an estimate of their error at the end of the last step, the largest in tolerances rtol |y_i| + atol_i, as
+ * their distance from the values that the equations and their hidden derivatives give them beside the
+ * components of index 1 (consistent.h). Where these are stiff it may be tens of times too large; what they
+ * are off comes on top, as the problem hands it on.
+ * NaN: not known, or there are no such components. Of nonlinear DAEs with at most STEIF_DIAGNOSE_LARGEST
+ * unknowns, adaptive steps and steif's own methods; costs as much as a start does. */
+STEIF_EXPORT int steif_hidden_error(steif_solver *s, sunrealtype *error);
+
 /* The solution inside the last step. STEIF_BAD_INPUT outside of it. */
 STEIF_EXPORT int steif_dense(steif_solver *s, sunrealtype t, N_Vector y);
 

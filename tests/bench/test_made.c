@@ -1,8 +1,12 @@
 /* test_made.c: random problems have the solution that they say, and its Jacobian.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
+#include "base/failing.h"
 #include "made.h"
 #include <nvector/nvector_serial.h>
+#include <steif/collection.h>
+#include <steif/solver.h>
+#include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 enum { TIMES = 5, SEEDS = 6 };
@@ -67,5 +71,112 @@ static void made_problems_have_their_solution(void)
   steif_context_free(&ctx);
 }
 
+/* Largest error of components of index above 1, in tolerances. */
+static double hidden(const steif_problem *p, double rtol, N_Vector y, N_Vector known)
+{
+  double most = 0;
+  p->exact(p->t1, known, NULL, p->user);
+  for (sunindextype i = 0; i < p->n; i++) {
+    const double value = NV_Ith_S(y, i), error = fabs(value - NV_Ith_S(known, i));
+    if (p->index[i] > 1) most = fmax(most, error / (rtol * (1 + fabs(value))));
+  }
+  return most;
+}
+
+static void judge(steif_context *ctx, const steif_problem *p, const char *method, double rtol)
+{
+  const steif_options o = {.rtol = rtol};
+  steif_solver *s = steif_solver_new(ctx, p, method, &o);
+  CU_ASSERT_FATAL(s && steif_solve_to(s, p->t1) == STEIF_OK);
+  N_Vector known = N_VClone(steif_solution(s));
+  sunrealtype said;
+  CHECK(steif_hidden_error(s, &said) == STEIF_OK);
+  const double right = hidden(p, rtol, steif_solution(s), known);
+  const double above =
+    p->dae_index > 2 ? 1.5 : 60; /* the stiff terms of index 2 magnify movements */
+  const int good = said < above * right + 2 && right < 1.5 * said + 1;
+  if (!good) printf("\n  %s, %s, %g: %.3g, said %.3g", p->name, method, rtol, right, said);
+  CHECK(good);
+  N_VDestroy(known);
+  steif_solver_free(&s);
+}
+
+/* Errors of multipliers and velocities are told, from a thousandth of a tolerance to thousands of them. */
+static void hidden_errors_are_told(void)
+{
+  static const char *const methods[] = {"radau:s=3", "radau:s=5", "bdf"};
+  static const enum made_kind kinds[] = {MADE_CONSTRAINED, MADE_MECHANICAL};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int i = 0; i < 3; i++)
+    for (double rtol = 1e-3; rtol > 0.5e-7; rtol *= 1e-2) {
+      for (int k = 0; k < 2; k++)
+        for (long seed = 1; seed <= SEEDS; seed++) {
+          made m;
+          made_new(&m, kinds[k], seed);
+          judge(ctx, &m.problem, methods[i], rtol);
+        }
+      steif_problem p;
+      CU_ASSERT_FATAL(!steif_problem_find(ctx, "pendulum3", &p));
+      judge(ctx, &p, methods[i], rtol);
+      steif_problem_clear(ctx, &p);
+    }
+  steif_context_free(&ctx);
+}
+
+/* Every allocation fails once: a code and a sentence, or nothing is said; the run goes on. */
+static void hidden_errors_without_memory(void)
+{
+  failing memory = {0};
+  steif_setup setup = failing_setup(&memory);
+  steif_context *ctx = steif_context_new(&setup);
+  sunrealtype said = 0;
+  made m;
+  made_new(&m, MADE_MECHANICAL, 1);
+  steif_solver *s = steif_solver_new(ctx, &m.problem, "radau:s=3", NULL);
+  CU_ASSERT_FATAL(s && !steif_solve_to(s, m.problem.t1 / 2));
+  const long before = memory.served, alive = memory.alive;
+  CHECK(!steif_hidden_error(s, &said) && said > 0);
+  const long count = memory.served - before;
+  int refused = 0;
+  for (long k = 1; k <= count; k++) {
+    memory.refuse_at = memory.served + k;
+    const int code = steif_hidden_error(s, &said);
+    CHECK(code == STEIF_OK || (code == STEIF_NO_MEMORY && strlen(steif_message(ctx)) > 10));
+    CHECK(code == STEIF_OK || isnan(said));
+    CHECK(memory.alive == alive);
+    refused += code == STEIF_NO_MEMORY;
+  }
+  memory.refuse_at = 0;
+  CHECK(refused > 0);
+  CHECK(!steif_solve_to(s, m.problem.t1));
+  steif_solver_free(&s);
+  steif_context_free(&ctx);
+  CHECK(memory.alive == 0);
+}
+
+/* NaN where nothing is hidden: index 1, and before the first step. */
+static void without_hidden_components_nothing_is_said(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  sunrealtype said = 0;
+  made m;
+  made_new(&m, MADE_ALGEBRAIC, 1);
+  steif_solver *s = steif_solver_new(ctx, &m.problem, "radau:s=3", NULL);
+  CHECK(s && !steif_solve_to(s, m.problem.t1) && !steif_hidden_error(s, &said) && isnan(said));
+  steif_solver_free(&s);
+  made_new(&m, MADE_MECHANICAL, 1);
+  s = steif_solver_new(ctx, &m.problem, "radau:s=3", NULL);
+  said = 0;
+  CHECK(s && !steif_hidden_error(s, &said) && isnan(said));
+  steif_solver_free(&s);
+  said = 0;
+  CHECK(!steif_hidden_error(NULL, &said) && isnan(said));
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_made[] = {
-  {"made problems have their solution", made_problems_have_their_solution}, CU_TEST_INFO_NULL};
+  {"hidden errors are told", hidden_errors_are_told},
+  {"hidden errors without memory", hidden_errors_without_memory},
+  {"without hidden components nothing is said", without_hidden_components_nothing_is_said},
+  {"made problems have their solution", made_problems_have_their_solution},
+  CU_TEST_INFO_NULL};

@@ -81,6 +81,7 @@ static void solve(struct call *call, const steif_problem *p, const char *method,
     run->told = steif_statistics(s)->rounding > 1;
     run->error = worst(p, rtol, steif_solution(s), known, false);
     run->levels = worst(p, rtol, steif_solution(s), known, true);
+    if (steif_hidden_error(s, &run->promised)) run->promised = NAN;
   }
   if (known) N_VDestroy(known);
   steif_solver_free(&s);

@@ -33,6 +33,7 @@ static void one_run(steif_report *r, const char *method, const success_run *run)
   steif_report_whole(r, "runs.steps", run->steps);
   steif_report_real(r, "runs.error", run->error);
   steif_report_real(r, "runs.levels", run->levels);
+  steif_report_real(r, "runs.promised", run->promised);
   steif_report_real(r, "runs.cpu_s", run->cpu_s);
 }
 
