@@ -141,7 +141,7 @@ function(steif_library name)
   add_library(${name} SHARED ${objects})
   add_library(${name}_static STATIC ${objects})
   set_target_properties(${name}_static PROPERTIES OUTPUT_NAME ${name})
-  set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0)
+  set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 1)
   foreach(library ${name} ${name}_static)
     target_include_directories(${library} PUBLIC
       $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

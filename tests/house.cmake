@@ -61,6 +61,8 @@ if(TARGET steif_program)
              -DFOLDER=${PROJECT_BINARY_DIR}/experiments)
   house_test(hamiltonians -DPROGRAM=$<TARGET_FILE:steif_program>
              -DFOLDER=${PROJECT_BINARY_DIR}/hamiltonians)
+  add_test(NAME kills COMMAND sh ${PROJECT_SOURCE_DIR}/tests/kills.sh $<TARGET_FILE:steif_program>
+           ${PROJECT_BINARY_DIR}/kills ${PROJECT_SOURCE_DIR}/examples/models)
   house_test(commands -DPROGRAM=$<TARGET_FILE:steif_program> -DREADME=${PROJECT_SOURCE_DIR}/README.md)
 endif()
 
@@ -89,6 +91,25 @@ if(TARGET steif_program)
   add_test(NAME in_c COMMAND test_in_c)
 endif()
 
+# A program compiled with the headers of tests/abi, and with these before their last two members came.
+function(earlier_program name headers)
+  add_executable(${name} ${PROJECT_SOURCE_DIR}/tests/abi/earlier_program.c)
+  target_include_directories(${name} PRIVATE ${headers})
+  target_link_libraries(${name} PRIVATE $<TARGET_FILE:steif> steif::sundials m)
+  add_dependencies(${name} steif)
+  add_test(NAME ${name} COMMAND ${name} ${PROJECT_BINARY_DIR}/${name}.ck)
+endfunction()
+file(GLOB kept CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/abi/steif/*.h)
+foreach(header ${kept})
+  get_filename_component(file ${header} NAME)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+  file(READ ${header} text)
+  string(REPLACE "reserved[16]" "reserved[14]" text "${text}")
+  file(CONFIGURE OUTPUT abi/steif/${file} CONTENT "${text}" @ONLY)
+endforeach()
+earlier_program(abi_same ${PROJECT_SOURCE_DIR}/tests/abi)
+earlier_program(abi_shorter ${PROJECT_BINARY_DIR}/abi)
+
 # The first C program of README.md, as printed.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/README.md)
 file(READ README.md text)
@@ -102,10 +123,6 @@ endif()
 file(CONFIGURE OUTPUT readme.c CONTENT "${program}" @ONLY)
 add_executable(readme_program ${PROJECT_BINARY_DIR}/readme.c)
 target_link_libraries(readme_program PRIVATE steif)
-# Killed 50 times and still the same bits.
-add_test(NAME kills COMMAND sh ${PROJECT_SOURCE_DIR}/tests/kills.sh $<TARGET_FILE:steif_program>
-         ${PROJECT_BINARY_DIR}/kills ${PROJECT_SOURCE_DIR}/examples/models)
-
 add_test(NAME readme COMMAND readme_program)
 # y_1 of Robertson's problem: 0.98517 at 0.4 and 5.2083e-8 at 4e10 (Hairer and Wanner, 1996, IV.10;
 # cvRoberts of SUNDIALS), both reached, and "ok" at the end.

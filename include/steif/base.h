@@ -4,7 +4,9 @@
  * (the caller may try a smaller step), a negative value is final. Constructors return NULL on
  * failure. In both cases the context keeps the code and one sentence with the values, the place
  * and the remedy: read it with steif_message(). The library never prints, exits or aborts, and
- * it has no global state; one context must not be used by two threads at the same time.
+ * it has no global state; one context must not be used by two threads at the same time. Many runs side by
+ * side: a context of its own, with setup.threads = 1, for each thread, and solvers made from it; problems may
+ * be shared where their callbacks allow that. Every run has the bits that it has alone.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_BASE_H

@@ -50,6 +50,12 @@ STEIF_EXPORT int steif_checkpoint_save(steif_solver *s, const char *path, const 
 STEIF_EXPORT steif_solver *steif_checkpoint_load(steif_context *ctx, const char *path,
                                                  const steif_problem *problem,
                                                  const steif_options *options);
+STEIF_EXPORT steif_solver *steif_checkpoint_load_sized(size_t problem_bytes,
+                                                       size_t options_bytes, steif_context *ctx,
+                                                       const char *path,
+                                                       const steif_problem *problem,
+                                                       const steif_options *options);
+#define steif_checkpoint_load(...) steif_checkpoint_load_sized(STEIF_SIZES, __VA_ARGS__)
 
 /* Facts and note of a file, whole and unharmed; NULL with the message set. */
 STEIF_EXPORT steif_checkpoint *steif_checkpoint_read(steif_context *ctx, const char *path);
@@ -65,6 +71,9 @@ STEIF_EXPORT int steif_solver_extend(steif_solver *s, sunrealtype t1);
 /* A second solver that goes on as the first would, to the same bits. NULL with the message set.
  * problem NULL: the same; callbacks that remember something (begin) need a problem with memory of its own. */
 STEIF_EXPORT steif_solver *steif_solver_copy(steif_solver *s, const steif_problem *problem);
+STEIF_EXPORT steif_solver *steif_solver_copy_sized(size_t problem_bytes, steif_solver *s,
+                                                   const steif_problem *problem);
+#define steif_solver_copy(...) steif_solver_copy_sized(sizeof(steif_problem), __VA_ARGS__)
 
 /* Begin again at (t, y), with slopes yp where they are known (else NULL), counts from zero. Memory, matrices and the
  * analysis of their pattern stay. problem NULL: the same, whose parameters may have changed; else another one of
@@ -76,6 +85,11 @@ STEIF_EXPORT steif_solver *steif_solver_copy(steif_solver *s, const steif_proble
 STEIF_EXPORT int steif_solver_restart(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp,
                                       const steif_problem *problem,
                                       const steif_options *options);
+STEIF_EXPORT int steif_solver_restart_sized(size_t problem_bytes, size_t options_bytes,
+                                            steif_solver *s, sunrealtype t, N_Vector y,
+                                            N_Vector yp, const steif_problem *problem,
+                                            const steif_options *options);
+#define steif_solver_restart(...) steif_solver_restart_sized(STEIF_SIZES, __VA_ARGS__)
 
 #ifdef __cplusplus
 }

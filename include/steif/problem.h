@@ -13,7 +13,7 @@
  * unchanged; the three scratch vectors of a Jacobian callback are given.
  *
  * A problem is a value: the library copies nothing from it and frees nothing in it; every pointer
- * must outlive the solver. Members left 0 have the default stated.
+ * must outlive the solver. Members left 0 have the default stated, also those of later versions.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_PROBLEM_H
@@ -184,6 +184,7 @@ struct steif_problem {
   int (*build)(steif_context *ctx, const steif_spec *spec, steif_problem *self);
   void (*destroy)(steif_context *ctx, steif_problem *self);
   const steif_parameters *parameters; /* numbers that it depends on; NULL: none */
+  void *reserved[16]; /* 0; members to come take their place, and later ones stand after them */
 };
 
 /* The form, or 0 with the message set: complete, consistent, finite start values. */

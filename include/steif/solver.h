@@ -98,6 +98,7 @@ typedef struct steif_options {
   sunrealtype max_seconds; /* limit on the wall-clock time of a call; 0: none */
   const volatile int *stop; /* set to nonzero, by a signal handler for example, it lets
                                          the call return STEIF_STOPPED after the step at hand */
+  void *reserved[16];       /* 0, as in steif_problem */
 } steif_options;
 
 /* What a run has cost. nli: iterations of GMRES, and then nlu is how often a preconditioner was made.
@@ -111,12 +112,31 @@ typedef struct steif_stats {
                            tolerance is out of reach in double precision. */
 } steif_stats;
 
+/* Programs compiled with these headers run with later libraries of the same SOVERSION: structs grow at their end
+ * only, first in the room reserved there, and the functions that keep a problem or options are told by macros
+ * how long these were in the caller's header. Through a pointer to the function, or from
+ * another language: as in the header of the library (layout.h), which 0 bytes stand for. */
 STEIF_EXPORT steif_options steif_defaults(void);
+STEIF_EXPORT void steif_defaults_sized(size_t bytes, steif_options *options);
+static inline steif_options steif_defaults_here(void)
+{
+  steif_options options;
+  steif_defaults_sized(sizeof options, &options);
+  return options;
+}
+#define steif_defaults() steif_defaults_here()
 
 /* NULL with the message set: unknown method (the nearest is named), form not accepted, bad values,
  * start values that are not finite. options NULL: defaults. */
 STEIF_EXPORT steif_solver *steif_solver_new(steif_context *ctx, const steif_problem *problem,
                                             const char *method, const steif_options *options);
+STEIF_EXPORT steif_solver *steif_solver_new_sized(size_t problem_bytes, size_t options_bytes,
+                                                  steif_context *ctx,
+                                                  const steif_problem *problem,
+                                                  const char *method,
+                                                  const steif_options *options);
+#define STEIF_SIZES sizeof(steif_problem), sizeof(steif_options)
+#define steif_solver_new(...) steif_solver_new_sized(STEIF_SIZES, __VA_ARGS__)
 STEIF_EXPORT void steif_solver_free(steif_solver **s);
 
 /* What the solver did about its start; never NULL for a solver. */

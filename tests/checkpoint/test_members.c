@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "oscillator.h"
 #include "suite.h"
+#include <stddef.h>
 #include <string.h>
 
 /* A thermostat: heats while `on`, below 21 degrees until 23; hysteresis is state of the callbacks. */
@@ -150,7 +151,42 @@ static void observers_may_save(void)
   remove(path), steif_context_free(&ctx);
 }
 
-CU_TestInfo tests_of_members[] = {{"memories are restored", memories_are_restored},
-                                  {"members that fail are told", members_that_fail_are_told},
-                                  {"observers may save", observers_may_save},
-                                  CU_TEST_INFO_NULL};
+/* Structs as a caller with another header has them: shorter, longer, not initialised. */
+static void structs_may_have_other_sizes(void)
+{
+  static struct {
+    steif_problem p;
+    unsigned char more[64];
+  } later;
+  steif_context *ctx = steif_context_new(NULL);
+  later.p = oscillator();
+  steif_options o = steif_defaults();
+  const size_t same = sizeof o, longer = sizeof later,
+               shorter = offsetof(steif_problem, reserved);
+  steif_solver *s = steif_solver_new_sized(longer, same, ctx, &later.p, "bdf", &o);
+  CHECK(s && !steif_solve_to(s, 1));
+  steif_solver_free(&s);
+  later.more[40] = 1; /* a member that the library does not know */
+  CHECK(!steif_solver_new_sized(longer, same, ctx, &later.p, "bdf", &o));
+  CHECK(steif_status(ctx) == STEIF_UNSUPPORTED);
+  memset(later.p.reserved, 0xa5, sizeof later.p.reserved);
+  CHECK(!steif_solver_new(ctx, &later.p, "bdf", &o) && steif_status(ctx) == STEIF_BAD_INPUT);
+  s = steif_solver_new_sized(shorter, 0, ctx, &later.p, "bdf", &o);
+  memset(&later, 0xa5, sizeof later); /* it has been copied */
+  CHECK(s && !steif_solve_to(s, 1));
+  steif_solver *copy = s ? steif_solver_copy(s, NULL) : NULL;
+  steif_solver_free(&s); /* the copy stands alone */
+  CHECK(copy && !steif_solve_to(copy, 3));
+  steif_solver_free(&copy);
+  o.reserved[15] = &o;
+  const steif_problem p = oscillator();
+  CHECK(!steif_solver_new(ctx, &p, "bdf", &o) && strstr(steif_message(ctx), "reserved[15]"));
+  steif_context_free(&ctx);
+}
+
+CU_TestInfo tests_of_members[] = {
+  {"memories are restored", memories_are_restored},
+  {"members that fail are told", members_that_fail_are_told},
+  {"observers may save", observers_may_save},
+  {"structs may have other sizes", structs_may_have_other_sizes},
+  CU_TEST_INFO_NULL};

@@ -1,6 +1,7 @@
 /* checkpoint.c: save, load and look.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "checkpoint_file.h"
+#include <stddef.h>
 #include <string.h>
 
 int steif_checkpoint_save(steif_solver *s, const char *path, const void *note,
@@ -63,29 +64,41 @@ static int fill(steif_solver *s, stf_opened *file)
   return m->code;
 }
 
-static steif_solver *load(steif_context *ctx, const steif_problem *problem,
+static steif_solver *load(steif_context *ctx, const steif_problem *problem, size_t bytes,
                           const steif_options *options, stf_opened *file)
 {
-  steif_options o = options ? *options : steif_defaults();
+  steif_options o = *options;
   if (check_problem(ctx, problem, &file->identity)) return NULL;
   const stf_identity *id = &file->identity;
   o.t1 = problem->t0 + (id->t1_opened - id->t0);
   if (id->t0 == problem->t0) o.t1 = id->t1_opened;
-  steif_solver *s = steif_solver_new(ctx, problem, file->identity.spec, &o);
+  steif_solver *s = steif_solver_new_sized(bytes, 0, ctx, problem, id->spec, &o);
   if (s && fill(s, file)) steif_solver_free(&s);
   return s;
 }
 
-steif_solver *steif_checkpoint_load(steif_context *ctx, const char *path,
-                                    const steif_problem *problem, const steif_options *options)
+steif_solver *steif_checkpoint_load_sized(size_t problem_bytes, size_t options_bytes,
+                                          steif_context *ctx, const char *path,
+                                          const steif_problem *problem,
+                                          const steif_options *options)
 {
   stf_opened file;
+  steif_options o = steif_defaults();
   if (!ctx) return NULL;
   steif_forget(ctx);
+  if (options && stf_whole(ctx, "steif_options", options, options_bytes, sizeof o, &o))
+    return NULL;
   if (open_file(ctx, path, &file)) return NULL;
-  steif_solver *s = load(ctx, problem, options, &file);
+  steif_solver *s = load(ctx, problem, problem_bytes, &o, &file);
   stf_checkpoint_close(ctx, &file);
   return s;
+}
+
+steif_solver *(steif_checkpoint_load)(steif_context *ctx, const char *path,
+                                      const steif_problem *problem,
+                                      const steif_options *options)
+{
+  return steif_checkpoint_load_sized(0, 0, ctx, path, problem, options);
 }
 
 /* -- copy ------------------------------------------------------------------------------------ */
@@ -100,20 +113,35 @@ static int check_copied(steif_solver *s, const steif_problem *problem)
   return STEIF_OK;
 }
 
-steif_solver *steif_solver_copy(steif_solver *s, const steif_problem *problem)
+/* A problem that the first solver holds is held by the second, too: it is handed on as a short one. */
+static size_t bytes_of(const steif_solver *s, const steif_problem *problem)
+{
+  return problem == &s->whole ? offsetof(steif_problem, reserved) : 0;
+}
+
+steif_solver *steif_solver_copy_sized(size_t problem_bytes, steif_solver *s,
+                                      const steif_problem *problem)
 {
   unsigned char *bytes = NULL;
   size_t count = 0;
   stf_opened file;
   if (!s) return NULL;
   steif_forget(s->ctx);
-  if (!problem) problem = s->given;
+  if (!problem) {
+    problem = s->given;
+    problem_bytes = bytes_of(s, problem);
+  }
   if (check_copied(s, problem) || stf_checkpoint_bytes(s, NULL, 0, &bytes, &count) ||
       stf_checkpoint_open(s->ctx, "copy", bytes, count, &file))
     return NULL;
-  steif_solver *copy = load(s->ctx, problem, &s->options, &file);
+  steif_solver *copy = load(s->ctx, problem, problem_bytes, &s->options, &file);
   stf_checkpoint_close(s->ctx, &file);
   return copy;
+}
+
+steif_solver *(steif_solver_copy)(steif_solver *s, const steif_problem *problem)
+{
+  return steif_solver_copy_sized(0, s, problem);
 }
 
 /* -- look ------------------------------------------------------------------------------------ */

@@ -70,6 +70,8 @@ static int check(steif_solver *s, start *a)
   STEIF_CHECK(isfinite(a->t) && stf_finite(space, a->y) && (!a->yp || stf_finite(space, a->yp)),
               s->ctx, STEIF_NOT_FINITE,
               "the start at t = %g has components that are not finite", a->t);
+  STEIF_TRY(stf_reserved_check(s->ctx, "steif_problem", a->problem.reserved));
+  STEIF_TRY(stf_reserved_check(s->ctx, "steif_options", a->options.reserved));
   STEIF_TRY(check_problem(s, &a->problem));
   STEIF_TRY(check_options(s, &a->options));
   a->problem.t0 = a->t;
@@ -186,26 +188,42 @@ static int begin(steif_solver *s)
   return stf_run_begin(s);
 }
 
-int steif_solver_restart(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp,
-                         const steif_problem *problem, const steif_options *options)
+static int restart(steif_solver *s, start *a)
 {
-  if (!s) return STEIF_BAD_INPUT;
-  start a = {.t = t,
-             .y = y,
-             .yp = yp,
-             .problem = problem ? *problem : *s->given,
-             .options = options ? *options : s->options};
-  STEIF_TRY(check(s, &a));
-  if (problem) s->given = problem;
-  set_aside(s, &a);
+  set_aside(s, a);
   clear_step(s);
   clear_run(s);
-  take_start(s, &a);
-  take_problem(s, &a);
+  take_start(s, a);
+  take_problem(s, a);
   s->shown = s->step.y;
   const int code = begin(s);
   if (!code) return STEIF_OK;
   s->failed = true, s->failure = code;
   strncpy(s->why, steif_message(s->ctx), sizeof s->why - 1);
   return code;
+}
+
+int steif_solver_restart_sized(size_t problem_bytes, size_t options_bytes, steif_solver *s,
+                               sunrealtype t, N_Vector y, N_Vector yp,
+                               const steif_problem *problem, const steif_options *options)
+{
+  if (!s) return STEIF_BAD_INPUT;
+  start a = {.t = t, .y = y, .yp = yp, .problem = *s->given, .options = s->options};
+  steif_problem room;
+  const steif_problem *given = s->given;
+  if (problem) STEIF_TRY(stf_whole_problem(s->ctx, problem, problem_bytes, &room, &given));
+  a.problem = *given;
+  if (options)
+    STEIF_TRY(
+      stf_whole(s->ctx, "steif_options", options, options_bytes, sizeof a.options, &a.options));
+  STEIF_TRY(check(s, &a));
+  if (given == &room) s->whole = room;
+  s->given = given == &room ? &s->whole : given;
+  return restart(s, &a);
+}
+
+int(steif_solver_restart)(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp,
+                          const steif_problem *problem, const steif_options *options)
+{
+  return steif_solver_restart_sized(0, 0, s, t, y, yp, problem, options);
 }

@@ -30,6 +30,7 @@ struct steif_solver {
   steif_context *ctx;
   stf_pool *pool;
   const steif_problem *problem, *given; /* given: before the start was repaired */
+  steif_problem whole;                  /* the caller's, where his header had a shorter one */
   const char *spec;                     /* as the caller wrote it */
   sunrealtype t1_opened;                /* t1 at first: it may have been extended */
   steif_spec parsed;          /* that of the method in use; of auto its first choice ... */
@@ -80,6 +81,16 @@ struct steif_solver {
   steif_stats stats;
   char method[240]; /* spec in use; for auto with the reason */
 };
+
+/* sizes.c: the caller's struct of so many bytes as one of ours, `own` bytes, in `room`; 0: as in our header.
+ * STEIF_UNSUPPORTED: members that we do not know are set. */
+int stf_whole(steif_context *ctx, const char *name, const void *given, size_t bytes, size_t own,
+              void *room);
+/* The same, *whole being the caller's where it is as long as ours, else `room`; NULL stays. */
+int stf_whole_problem(steif_context *ctx, const steif_problem *given, size_t bytes,
+                      steif_problem *room, const steif_problem **whole);
+/* STEIF_BAD_INPUT where one of them is not 0. */
+int stf_reserved_check(steif_context *ctx, const char *name, void *const *reserved);
 
 /* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. */
 int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o);

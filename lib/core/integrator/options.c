@@ -2,12 +2,22 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "integrator.h"
 #include <math.h>
+#include <string.h>
 
 static const sunrealtype SPAN_LEAST = 1e-280; /* of time: first steps are 1e10 times smaller */
 
-steif_options steif_defaults(void)
+steif_options(steif_defaults)(void)
 {
   return (steif_options){.rtol = 1e-6, .max_steps = 1000000};
+}
+
+void steif_defaults_sized(size_t bytes, steif_options *options)
+{
+  const steif_options ours = (steif_defaults)();
+  if (!options) return;
+  if (!bytes) bytes = sizeof ours;
+  memset(options, 0, bytes);
+  memcpy(options, &ours, bytes < sizeof ours ? bytes : sizeof ours);
 }
 
 static int check_mesh(steif_context *ctx, const steif_options *o, sunrealtype t0)

@@ -328,8 +328,24 @@ int stf_run_begin(steif_solver *s)
   return STEIF_OK;
 }
 
-steif_solver *steif_solver_new(steif_context *ctx, const steif_problem *problem,
-                               const char *method, const steif_options *options)
+/* The structs of the caller, in the solver where his are shorter or longer than ours. */
+static int take_given(steif_solver *s, const steif_problem *problem, size_t problem_bytes,
+                      const steif_options *options, size_t options_bytes)
+{
+  STEIF_TRY(stf_whole_problem(s->ctx, problem, problem_bytes, &s->whole, &s->problem));
+  s->given = s->problem;
+  s->options = steif_defaults();
+  if (options)
+    STEIF_TRY(stf_whole(s->ctx, "steif_options", options, options_bytes, sizeof s->options,
+                        &s->options));
+  STEIF_TRY(stf_reserved_check(s->ctx, "steif_options", s->options.reserved));
+  return s->problem ? stf_reserved_check(s->ctx, "steif_problem", s->problem->reserved)
+                    : STEIF_OK;
+}
+
+steif_solver *steif_solver_new_sized(size_t problem_bytes, size_t options_bytes,
+                                     steif_context *ctx, const steif_problem *problem,
+                                     const char *method, const steif_options *options)
 {
   if (!ctx) return NULL;
   if (!method) {
@@ -339,11 +355,18 @@ steif_solver *steif_solver_new(steif_context *ctx, const steif_problem *problem,
   steif_forget(ctx);
   steif_solver *s = stf_allocate(ctx, 1, sizeof *s);
   if (!s) return NULL;
-  s->ctx = ctx, s->problem = s->given = problem;
-  s->options = options ? *options : steif_defaults();
+  s->ctx = ctx;
   s->pool = stf_pool_new(ctx);
-  if (!s->pool || open(s, method)) steif_solver_free(&s);
+  if (!s->pool || take_given(s, problem, problem_bytes, options, options_bytes) ||
+      open(s, method))
+    steif_solver_free(&s);
   return s;
+}
+
+steif_solver *(steif_solver_new)(steif_context *ctx, const steif_problem *problem,
+                                 const char *method, const steif_options *options)
+{
+  return steif_solver_new_sized(0, 0, ctx, problem, method, options);
 }
 
 void steif_solver_free(steif_solver **s)
