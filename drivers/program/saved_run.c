@@ -60,6 +60,9 @@ int saved_run_load(struct call *call, const steif_problem *p, const steif_option
   steif_checkpoint *c = steif_checkpoint_read(call->ctx, call->continues);
   if (!c) return fail_file(call);
   const double before = c->t1;
+  if (c->repeats)
+    say(call, "%s keeps its history to itself: its %ld steps to t = %.6g are repeated, %.3g s",
+        c->method, c->steps, c->t, c->cpu_s);
   const int code = note_read(tr, c->note, c->note_bytes);
   steif_checkpoint_free(call->ctx, &c);
   if (code) return no_memory(call, "the rows of the run", "give the process more");

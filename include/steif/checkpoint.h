@@ -13,9 +13,10 @@
  * A file is written beside `path`, as path.part, and takes its name when it is complete and on the disk: whatever
  * happens, `path` is a whole checkpoint, the new or the last. Two runs need two paths. Refused, with the reason, and nothing is changed:
  *   STEIF_IO            cannot be read or written, no checkpoint, cut short, damaged (a checksum tells)
- *   STEIF_UNSUPPORTED   of another version or kind of machine; CVODE, IDA and ARKODE, whose history cannot be
- *                       had: repeat such a run from its start; methods of auto that are engines
+ *   STEIF_UNSUPPORTED   of another version or kind of machine; a repeated run that does not come to the same bits
  *   STEIF_BAD_INPUT     of another problem (name, size, form, values at the start), other options
+ * CVODE, IDA, ARKODE and descriptor keep their history to themselves: loading such a run repeats it from t0, at the
+ * cost that steif_checkpoint_read tells, without calls of options.observe and on_event; it must come to the same bits.
  * A file is trusted as far as its checksum: take none from strangers.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -34,8 +35,10 @@ typedef struct steif_checkpoint {
   sunindextype n;
   sunrealtype t, t1; /* reached, end of the run */
   long steps;
-  int finished;     /* t1, or an event that ends the run, is reached */
-  const void *note; /* the bytes of the caller of steif_checkpoint_save */
+  int finished;      /* t1, or an event that ends the run, is reached */
+  int repeats;       /* loading repeats the run from t0, in about ... */
+  sunrealtype cpu_s; /* ... as many processor seconds as it has taken so far */
+  const void *note;  /* the bytes of the caller of steif_checkpoint_save */
   size_t note_bytes;
 } steif_checkpoint;
 

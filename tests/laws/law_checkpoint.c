@@ -193,7 +193,28 @@ static void other_kinds_go_on(void)
   steif_context_free(&ctx);
 }
 
+/* Engines come to the same point by repeating their steps. */
+static void engines_are_repeated(void)
+{
+  static const struct {
+    const char *problem, *method;
+  } row[] = {{"hires", "cvode"},   {"chemakzo", "ida"},   {"hires", "arkode"},
+             {"bounce", "cvode"},  {"switchrlc", "auto"}, {"rectifier", "ida"},
+             {"bus", "descriptor"}};
+  steif_context *ctx = steif_context_new(NULL);
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    steif_problem p;
+    steif_options o = steif_defaults();
+    CU_ASSERT_FATAL(!steif_problem_find(ctx, row[i].problem, &p));
+    o.rtol = 1e-5;
+    at_several_steps(ctx, &p, row[i].method, &o);
+    steif_problem_clear(ctx, &p);
+  }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_law_checkpoint[] = {{"every method goes on", every_method_goes_on},
                                          {"every problem goes on", every_problem_goes_on},
                                          {"other kinds go on", other_kinds_go_on},
+                                         {"engines are repeated", engines_are_repeated},
                                          CU_TEST_INFO_NULL};

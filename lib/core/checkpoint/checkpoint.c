@@ -170,6 +170,8 @@ steif_checkpoint *steif_checkpoint_read(steif_context *ctx, const char *path)
                                .t1 = id->t1,
                                .steps = id->steps,
                                .finished = id->finished,
+                               .repeats = id->repeats,
+                               .cpu_s = id->cpu_s,
                                .note = r->file.note,
                                .note_bytes = r->file.note_bytes};
   return &r->face;

@@ -43,11 +43,6 @@ static void walk(steif_solver *s, const stf_identity *id, const void *note, size
 static int check_savable(steif_solver *s)
 {
   const steif_problem *p = s->problem;
-  STEIF_CHECK(
-    !s->engine, s->ctx, STEIF_UNSUPPORTED,
-    "'%s' keeps its history to itself: a run by it cannot be saved; repeat it from t0, "
-    "or take a method of steif",
-    s->spec);
   STEIF_CHECK(!s->failed, s->ctx, STEIF_BAD_INPUT, "the run has failed (%s): save it before",
               s->why);
   STEIF_CHECK(!s->inside, s->ctx, STEIF_BAD_INPUT,
@@ -56,7 +51,7 @@ static int check_savable(steif_solver *s)
               "problem '%s' has %s without %s", p->name, p->save ? "save" : "restore",
               p->save ? "restore" : "save");
   STEIF_CHECK(
-    !p->begin || p->save, s->ctx, STEIF_UNSUPPORTED,
+    s->engine || !p->begin || p->save, s->ctx, STEIF_UNSUPPORTED,
     "callbacks of problem '%s' remember something, as its member begin says: set save "
     "and restore, too",
     p->name);

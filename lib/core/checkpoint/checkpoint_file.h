@@ -21,7 +21,8 @@ typedef struct stf_identity {
   int form;
   sunrealtype t0, t1_opened, t, t1;
   long steps;
-  bool finished;
+  bool finished, repeats;
+  sunrealtype cpu_s;
   sunrealtype real[STF_REALS];      /* options that decide on steps ... */
   int choice[STF_CHOICES];          /* ... switches ... */
   unsigned long long sum[STF_SUMS]; /* ... and arrays, by checksums */

@@ -38,12 +38,14 @@ void stf_identity_of(steif_solver *s, stf_identity *id)
   snprintf(id->problem, sizeof id->problem, "%s", p->name ? p->name : "");
   snprintf(id->spec, sizeof id->spec, "%s", s->spec);
   id->n = p->n;
-  id->form = s->step.system.form;
+  id->form = s->engine ? s->run.form : s->step.system.form;
   id->t0 = p->t0;
   id->t1_opened = s->t1_opened;
   id->t = s->end;
   id->t1 = s->t1;
-  id->steps = s->step.count;
+  id->steps = s->engine ? s->run.stats.steps : s->step.count;
+  id->repeats = s->engine != NULL;
+  id->cpu_s = stf_cpu_seconds(s);
   id->finished = s->finished || !(s->end < s->t1);
   id->fingerprint = s->fingerprint;
   options_of(&s->options, (size_t)p->n, id);

@@ -98,7 +98,52 @@ static void keep_final(steif_solver *s, stf_image *m)
   if (s->final) stf_keep_vector(m, s->final);
 }
 
-void stf_solver_keep(steif_solver *s, stf_image *m)
+/* The steps of an engine once more, seen by nobody. */
+static int repeat(steif_solver *s, long steps)
+{
+  const steif_options with = s->options;
+  int code = STEIF_OK;
+  s->options.observe = NULL, s->options.on_event = NULL;
+  while (!code && s->run.stats.steps < steps) code = steif_solve_step(s);
+  s->options.observe = with.observe, s->options.on_event = with.on_event;
+  return code;
+}
+
+/* Has it come to y, which is in s->dense, at t? */
+static int check_repeated(steif_solver *s, long steps, sunrealtype t)
+{
+  N_VLinearSum(1, s->run.y, -1, s->dense, s->dense);
+  const bool same = s->run.t == t && s->run.stats.steps == steps && N_VMaxNorm(s->dense) == 0;
+  STEIF_CHECK(
+    same, s->ctx, STEIF_UNSUPPORTED,
+    "'%s' keeps its history to itself, and its %ld steps to t = %.12g, repeated, did not "
+    "come to the same bits: repeat the run as a whole",
+    s->spec, steps, t);
+  return STEIF_OK;
+}
+
+/* Of engines, which keep their history to themselves, there is the point that they had come to. */
+static void keep_engine(steif_solver *s, stf_image *m)
+{
+  long steps = s->run.stats.steps;
+  sunrealtype t = s->run.t, t1 = s->t1, shown = s->t_shown;
+  STF_KEEP(m, steps);
+  STF_KEEP(m, t);
+  STF_KEEP(m, t1);
+  STF_KEEP(m, shown);
+  stf_keep_vector(m, m->reads ? s->dense : s->run.y);
+  if (!m->reads || m->code) return;
+  int code = repeat(s, steps);
+  if (!code) code = check_repeated(s, steps, t);
+  s->t1 = s->options.t1 = t1;
+  if (!code && shown < s->end) code = steif_dense(s, shown, s->dense);
+  if (!code && shown < s->end) s->shown = s->dense;
+  s->t_shown = shown;
+  if (code) stf_image_stop(m, code);
+}
+
+/* A method of ours. */
+static void keep_run(steif_solver *s, stf_image *m)
 {
   const int count = s->invariants ? s->problem->invariants : 0;
   keep_progress(s, m);
@@ -114,4 +159,9 @@ void stf_solver_keep(steif_solver *s, stf_image *m)
   if (s->events && !m->code) keep_events(s, m);
   keep_callbacks(s, m);
   keep_shown(s, m);
+}
+
+void stf_solver_keep(steif_solver *s, stf_image *m)
+{
+  (s->engine ? keep_engine : keep_run)(s, m);
 }

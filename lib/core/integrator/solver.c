@@ -239,10 +239,9 @@ static int check_ewt(steif_solver *s, N_Vector y)
 static void take_fingerprint(steif_solver *s)
 {
   stf_image m = {.ctx = s->ctx};
-  if (s->engine) return;
-  stf_keep_vector(&m, s->step.y);
-  stf_keep_vector(&m, s->step.yp);
-  stf_matrices_keep(&s->step.system, &m);
+  stf_keep_vector(&m, s->engine ? s->run.y : s->step.y);
+  stf_keep_vector(&m, s->engine ? s->run.yp : s->step.yp);
+  if (!s->engine) stf_matrices_keep(&s->step.system, &m);
   s->fingerprint = m.code ? 0 : m.sum;
   if (m.code) steif_forget(s->ctx);
 }
