@@ -17,8 +17,8 @@
  *     with a given Jacobian
  *       whose LU costs a few solves               Rosenbrock down to rtol 1e-6, 1e-3 if constant
  *       whose LU costs more, constant             Rosenbrock down to rtol 1e-7
- *     others                                      radau:s=3 down to rtol 1e-5, radau:s=5 below and for
- *                                                 linear systems
+ *     others                                      radau:s=3 down to rtol 1e-4, 1e-5 where an LU costs a
+ *                                                 few solves, radau:s=5 below and for linear systems
  *   large dense systems, operators                bdf down to rtol 1e-8, radau:s=5 below
  * Beside it y' = f(t, y) has an explicit method, which begins where that is cheaper, and the two change
  * places when stiffness comes or goes (switching.c).
@@ -118,7 +118,8 @@ static choice on_grids(const steif_problem *p, const steif_options *o, int form)
   if (o->rtol >= 0.9 * linearly_to(p, o, form))
     return (choice){rosenbrock(p, o),
                     "an LU costs a few solves, or little beside complex ones: no iteration"};
-  return (choice){o->rtol >= 0.9e-5 && !p->linear ? STF_AUTO_RADAU5 : STF_AUTO_RADAU9,
+  const sunrealtype low = cheap(p, o) ? 0.9e-5 : 0.9e-4;
+  return (choice){o->rtol >= low && !p->linear ? STF_AUTO_RADAU5 : STF_AUTO_RADAU9,
                   "sparse: one real matrix, kept for many steps"};
 }
 
