@@ -29,6 +29,25 @@ static void fill_outputs(steif_report *r, const outcome *o, steif_solver *s,
   free(value);
 }
 
+/* The last solution on all constraints, where unknowns of index 2 and 3 were less accurate than the tolerance by
+ * themselves. */
+static void fill_constrained(steif_report *r, const outcome *o, steif_solver *s,
+                             const trajectory *tr)
+{
+  enum { MOST = 300 };
+  const bool high = o->code == STEIF_OK && s &&
+                    (tr->problem->dae_index > 1 || steif_initial_used(s)->index > 1);
+  sunrealtype drift, corrected;
+  if (!high || tr->n > MOST || tr->problem->linear) return;
+  N_Vector y = N_VClone(steif_solution(s));
+  if (y && steif_recompute(s, y, &drift, &corrected) == STEIF_OK) {
+    steif_report_list(r, "recomputed.y", tr->n, N_VGetArrayPointer(y));
+    steif_report_real(r, "recomputed.drift", drift);
+    steif_report_real(r, "recomputed.corrected", corrected);
+  }
+  if (y) N_VDestroy(y);
+}
+
 /* Constant steps that reached the end, with nothing on the way that begins steps of its own. */
 static void fill_steps(steif_report *r, const outcome *o, const trajectory *tr)
 {
@@ -83,6 +102,7 @@ static void fill(steif_report *r, const char *const *word, const outcome *o, ste
   if (o->stats.rounding > 0) steif_report_real(r, "stats.rounding", o->stats.rounding);
   fill_hidden(r, o, s);
   fill_drift(r, s);
+  fill_constrained(r, o, s, tr);
   trajectory_fill(r, tr);
 }
 

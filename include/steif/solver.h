@@ -175,6 +175,15 @@ STEIF_EXPORT int steif_dense(steif_solver *s, sunrealtype t, N_Vector y);
  * *count becomes how many these are. */
 STEIF_EXPORT int steif_drift_now(steif_solver *s, int *count, sunrealtype *drift);
 
+/* The solution shown on all constraints of a DAE, hidden ones too: components of index 1 move as little as
+ * possible, in tolerances, and unknowns of index 2 and 3 are computed from them. Methods have lower orders for
+ * the latter; computed so they are as good as the former: the multiplier of a pendulum by radau:s=3 has order 5
+ * instead of 2. *drift: the largest movement of a component of index 1 (problem.index, or as found at the
+ * start), *corrected: that of the others, both in tolerances, NULL: not wanted. y may be the vector shown. Codes
+ * of steif_consistent (consistent.h); a diagnosis, and some thousand evaluations. */
+STEIF_EXPORT int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift,
+                                 sunrealtype *corrected);
+
 /* Stage values of the last step of a Runge-Kutta method: vectors X_i at t_n + c_i h with quadrature
  * weights b_i (b = NULL: a general linear method, which has none); *count = 0 for methods without
  * stages. The vectors are the solver's. */

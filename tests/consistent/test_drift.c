@@ -81,6 +81,36 @@ static void orders_fall_with_the_index(void)
   }
 }
 
+/* The same by the solver itself: what it says it has corrected is the error that there was. */
+static void multipliers_are_recomputed(void)
+{
+  double exact[N], error[2];
+  run("pendulum3:index=1", "radau:s=7", &(steif_options){.rtol = 1e-13, .t1 = end}, exact);
+  settle(exact);
+  for (int k = 0; k < 2; k++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_problem p;
+    CU_ASSERT_FATAL(!steif_problem_find(ctx, "pendulum3", &p));
+    const steif_options o = {.h = k ? 0.025 : 0.05, .rtol = 1e-6, .atol = 1e-6, .t1 = end};
+    steif_solver *s = steif_solver_new(ctx, &p, "radau:s=3", &o);
+    CU_ASSERT_FATAL(s && !steif_solve_to(s, end));
+    N_Vector y = steif_solution(s);
+    const double before = fabs(NV_Ith_S(y, 4) - exact[4]), lambda = NV_Ith_S(y, 4);
+    double drift, corrected;
+    CHECK(steif_recompute(s, y, &drift, &corrected) == STEIF_OK);
+    error[k] = fabs(NV_Ith_S(y, 4) - exact[4]);
+    CHECK(error[k] < before / 10);
+    CLOSE(corrected, fabs(NV_Ith_S(y, 4) - lambda) / (1e-6 * fabs(lambda) + 1e-6), 1e-6);
+    CHECK(drift < corrected);
+    CHECK(steif_recompute(s, NULL, NULL, NULL) == STEIF_BAD_INPUT);
+    steif_solver_free(&s);
+    steif_problem_clear(ctx, &p);
+    steif_context_free(&ctx);
+  }
+  CLOSE_FLOOR(log2(error[0] / error[1]), 5, 0.4, 1);
+  CHECK(steif_recompute(NULL, NULL, NULL, NULL) == STEIF_BAD_INPUT);
+}
+
 /* One step of backward Euler of 1e-6 and 1e-8 seconds, index 3: rounding in the accelerations and
  * multipliers is of the size 1e-16 / h^2, which the weights of the index leave out; two corrections do. */
 static void tiny_steps_at_index_three_converge(void)
@@ -130,6 +160,7 @@ static void the_amplifier_has_its_slopes(void)
 
 CU_TestInfo tests_of_drift[] = {
   {"orders fall with the index", orders_fall_with_the_index},
+  {"multipliers are recomputed", multipliers_are_recomputed},
   {"tiny steps at index three converge", tiny_steps_at_index_three_converge},
   {"the amplifier has its slopes", the_amplifier_has_its_slopes},
   CU_TEST_INFO_NULL};

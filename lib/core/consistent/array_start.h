@@ -12,4 +12,11 @@ int stf_start_array(stf_start_task *task, const stf_derivative_array *a, const i
 int stf_start_from(stf_evidence *evidence, const steif_diagnosis *diagnosis,
                    const steif_request *request, steif_start *start);
 
+/* Weights of least movement in the norm of E: with masses on its diagonal M (v(t+) - v(t-)) = -G^T Lambda, as
+ * after an impact. */
+void stf_start_inertia(const stf_view *view, sunrealtype *weight);
+/* steif_consistent with these weights. */
+int stf_start_project(steif_context *ctx, const steif_problem *problem, const steif_point *at,
+                      steif_start *start);
+
 #endif

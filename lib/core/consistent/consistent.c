@@ -123,14 +123,45 @@ int stf_start_from(stf_evidence *e, const steif_diagnosis *d, const steif_reques
   return code;
 }
 
+void stf_start_inertia(const stf_view *v, sunrealtype *weight)
+{
+  for (size_t j = 0; j < v->n; j++) {
+    sunrealtype top = 0;
+    for (sunindextype k = v->column[j]; k < v->column[j + 1]; k++)
+      top = fmax(top, fabs(v->e[k]));
+    weight[j] = top > 0 ? sqrt(top) : 1;
+  }
+}
+
+/* request NULL: weights by inertia. */
 static int find(stf_point *s, const steif_request *request, steif_start *start)
 {
   stf_evidence evidence;
   steif_diagnosis d = {.index = -1};
+  steif_request inertia = {0};
+  sunrealtype *weight = stf_pool_array(s->pool, s->n, sizeof *weight);
+  if (!weight) return STEIF_NO_MEMORY;
   int code = stf_diagnose(s, &evidence, &d);
+  if (!code && !request) {
+    stf_start_inertia(&evidence.view, weight);
+    inertia.weight = weight;
+    request = &inertia;
+  }
   if (!code) code = stf_start_from(&evidence, &d, request, start);
   stf_evidence_free(&evidence);
   steif_diagnosis_clear(&d);
+  return code;
+}
+
+int stf_start_project(steif_context *ctx, const steif_problem *problem, const steif_point *at,
+                      steif_start *start)
+{
+  stf_point point;
+  *start = (steif_start){0};
+  STEIF_TRY(stf_point_open(ctx, problem, at, &point));
+  const int code = find(&point, NULL, start);
+  stf_point_close(&point);
+  if (!code) steif_forget(ctx);
   return code;
 }
 
@@ -152,7 +183,8 @@ int steif_consistent(steif_context *ctx, const steif_problem *problem,
   *start = (steif_start){0};
   STEIF_TRY(stf_point_open(ctx, problem, inquiry, &point));
   int code = check_request(ctx, problem, request);
-  if (!code) code = find(&point, request, start);
+  static const steif_request none = {0};
+  if (!code) code = find(&point, request ? request : &none, start);
   stf_point_close(&point);
   if (!code) steif_forget(ctx);
   return code;

@@ -231,19 +231,6 @@ static int check_positions(stf_repair *r, const steif_diagnosis *d, const steif_
   return STEIF_OK;
 }
 
-/* Least movement in the norm of E: with masses on its diagonal M (v(t+) - v(t-)) = -G^T Lambda, as after an
- * impact. */
-static void weigh(const stf_repair *r, sunrealtype *weight)
-{
-  const stf_view *v = &r->view;
-  for (size_t j = 0; j < v->n; j++) {
-    sunrealtype top = 0;
-    for (sunindextype k = v->column[j]; k < v->column[j + 1]; k++)
-      top = fmax(top, fabs(v->e[k]));
-    weight[j] = top > 0 ? sqrt(top) : 1;
-  }
-}
-
 static int by_stages(stf_repair *r, stf_evidence *e, const steif_diagnosis *d)
 {
   const size_t n = r->point.n;
@@ -251,7 +238,7 @@ static int by_stages(stf_repair *r, stf_evidence *e, const steif_diagnosis *d)
   sunrealtype *weight = stf_pool_array(r->pool, n, sizeof *weight);
   enum steif_attribute *attribute = stf_pool_array(r->pool, n, sizeof *attribute);
   if (!weight || !attribute) return STEIF_NO_MEMORY;
-  weigh(r, weight);
+  stf_start_inertia(&r->view, weight);
   for (size_t j = 0; j < n; j++)
     attribute[j] = r->attribute ? (enum steif_attribute)r->attribute[j] : STEIF_GUESS;
   const steif_request request = {.attribute = attribute, .weight = weight};
