@@ -2,9 +2,11 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_chain[], tests_of_drift[], tests_of_repair[], tests_of_starts[];
+extern CU_TestInfo tests_of_chain[], tests_of_newcomers[], tests_of_drift[], tests_of_repair[],
+  tests_of_starts[];
 
-SUITE_MAIN({.pName = "chain", .pTests = tests_of_chain},
+SUITE_MAIN({.pName = "newcomers", .pTests = tests_of_newcomers},
+           {.pName = "chain", .pTests = tests_of_chain},
            {.pName = "drift", .pTests = tests_of_drift},
            {.pName = "repair", .pTests = tests_of_repair},
            {.pName = "starts", .pTests = tests_of_starts})
