@@ -184,10 +184,36 @@ static void odd_breaks_do_no_harm(void)
   }
 }
 
+/* The run ends at a break, where f has its new value: no step sees it, adaptive steps and baselines alike. */
+static void a_break_may_be_the_end(void)
+{
+  static const char *const solvers[] = {"auto",    "radau:s=3", "bdf",   "rodas4",
+                                        "dopri87", "cvode",     "arkode"};
+  for (int m = 0; m < 7; m++) {
+    steif_context *ctx = steif_context_new(NULL);
+    jumps j = {0};
+    steif_problem p = kicked(&j);
+    p.t1 = breaks[0];
+    steif_options o = steif_defaults();
+    o.rtol = 1e-8;
+    steif_solver *s = smooth_open(ctx, &p, solvers[m], &o);
+    j.s = s;
+    j.strange = 0;
+    CHECK(steif_solve_to(s, breaks[0]) == STEIF_OK && steif_time(s) == breaks[0]);
+    CLOSE(NV_Ith_S(steif_solution(s), 0), exact(breaks[0]), 1e-6);
+    if (j.strange) printf("\n  %s: %d", solvers[m], j.strange);
+    CHECK(j.strange == 0);
+    j.s = NULL;
+    steif_solver_free(&s);
+    steif_context_free(&ctx);
+  }
+}
+
 CU_TestInfo tests_of_breaks[] = {
   {"breaks are hit exactly", breaks_are_hit_exactly},
   {"steps see one side of a break only", steps_see_one_side_only},
   {"declared breaks pay", breaks_pay},
   {"dense output beside a break", dense_output_beside_a_break},
+  {"a break may be the end", a_break_may_be_the_end},
   {"odd breaks do no harm", odd_breaks_do_no_harm},
   CU_TEST_INFO_NULL};

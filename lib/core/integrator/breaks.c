@@ -57,7 +57,7 @@ static int step_to_break(steif_solver *s, sunrealtype t_stop)
   const steif_problem *p = s->problem;
   stf_step *step = &s->step;
   while (s->next_break < p->break_count && passed(s, p->breaks[s->next_break])) s->next_break++;
-  const bool breaks = s->next_break < p->break_count && p->breaks[s->next_break] < t_stop;
+  const bool breaks = s->next_break < p->break_count && p->breaks[s->next_break] <= t_stop;
   if (!breaks) return stf_adaptive_step(s, t_stop);
   const sunrealtype at = p->breaks[s->next_break];
   STEIF_TRY(stf_adaptive_step(s, before(at)));
