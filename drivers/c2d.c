@@ -62,8 +62,7 @@ static const struct option options[] = {
   {"--alpha", REAL, "A", "parameter of gbt, from 0 (forward) to 1 (backward)", NULL},
   {"--C", WORD, "C.mtx", "y = C x + D u: gives Cd and Dd as well", NULL},
   {"--D", WORD, "D.mtx", "D of y = C x + D u (default: 0)", NULL},
-  {"--E", WORD, "E.mtx", "E x' = A x + B u, on its finite part; outputs are x without --C",
-   NULL},
+  {"--E", WORD, "E.mtx", "E x' = A x + B u, on its finite part (without --C: y = x)", NULL},
   OPTIONS_END};
 static const struct rule rules[] = {{"--dt", REQUIRED, NULL},
                                     {"--prewarp", EXCLUDES, "--alpha"},
@@ -77,4 +76,5 @@ const struct verb verb_c2d = {.name = "c2d",
                               .most = 2,
                               .option = options,
                               .rule = rules,
+                              .matrices = true,
                               .run = run};

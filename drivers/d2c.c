@@ -54,4 +54,5 @@ const struct verb verb_d2c = {
   .most = 2,
   .option = options,
   .rule = rules,
+  .matrices = true,
   .run = run};

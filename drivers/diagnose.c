@@ -52,5 +52,6 @@ const struct verb verb_diagnose = {
   .least = 1,
   .most = 1,
   .option = options,
+  .matrices = true,
   .run = run,
 };

@@ -69,4 +69,5 @@ const struct verb verb_hamiltonian = {.name = "hamiltonian",
                                       .usage = "[A.mtx | MODEL.steif | EXAMPLE] [--tol R]",
                                       .most = 1,
                                       .option = options,
+                                      .matrices = true,
                                       .run = run};

@@ -66,5 +66,6 @@ const struct verb verb_lyapunov = {
   .picture = true,
   .option = options,
   .rule = rules,
+  .matrices = true,
   .run = run,
 };

@@ -56,5 +56,6 @@ const struct verb verb_pencil = {
   .most = 2,
   .picture = true,
   .option = options,
+  .matrices = true,
   .run = run,
 };

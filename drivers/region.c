@@ -44,5 +44,6 @@ const struct verb verb_region = {
   .picture = true,
   .option = options,
   .rule = rules,
+  .matrices = true,
   .run = run,
 };

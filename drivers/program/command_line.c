@@ -9,6 +9,8 @@ const struct option common_options[] = {
   {"--json", FLAG, NULL, "one JSON object on stdout", NULL},
   {"--csv", OUTPUT, "FILE", "the rows as comma-separated values", NULL},
   {"--plot", OUTPUT, "FILE", "a picture, .svg or .png", NULL},
+  {"--npz", OUTPUT, "FILE", "the matrices and lists as arrays for numpy.load", NULL},
+  {"--mtx", WORD, "PREFIX", "each of them as a Matrix Market file PREFIXname.mtx", NULL},
   {"--quiet", FLAG, NULL, "no progress line", NULL},
   {"--help", FLAG, NULL, "this text", NULL},
   OPTIONS_END,
@@ -52,6 +54,8 @@ static void set_common(struct call *call, const char *name, const char *text)
     call->plot = text;
   else if (!strcmp(name, "--npz"))
     call->npz = text;
+  else if (!strcmp(name, "--mtx"))
+    call->mtx = text;
 }
 
 static int keep(struct call *call, const struct option *o, const char *text)
@@ -144,6 +148,14 @@ static int check_rule(const struct call *call, const struct rule *rule)
   }
 }
 
+/* Is it in the table of the verb itself? */
+static bool own_option(const struct verb *verb, const char *name)
+{
+  for (const struct option *o = verb->option; o && o->name; o++)
+    if (!strcmp(o->name, name)) return true;
+  return false;
+}
+
 static int check_words(const struct call *call)
 {
   const struct verb *verb = call->verb;
@@ -154,6 +166,9 @@ static int check_words(const struct call *call)
                      verb->name, verb->usage);
   if (call->plot && !verb->picture)
     return bad_usage(call, "%s has no picture; leave --plot out", verb->name);
+  if (!verb->matrices && (call->mtx || (call->npz && !own_option(verb, "--npz"))))
+    return bad_usage(call, "%s makes no matrices; leave %s out", verb->name,
+                     call->mtx ? "--mtx" : "--npz");
   return EXIT_OK;
 }
 

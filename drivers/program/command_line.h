@@ -55,9 +55,10 @@ struct verb {
   const char *name, *about, *usage; /* usage: the words after the verb */
   int least, most;                  /* how many words */
   bool picture;                     /* can it draw one? */
-  const struct option *option;   /* besides --json, --csv, --plot, --quiet, --help; or NULL */
-  const struct rule *rule;       /* or NULL */
-  int (*run)(struct call *call); /* returns an exit code */
+  bool matrices;                    /* does it make some, for --npz and --mtx? */
+  const struct option *option;      /* besides the common ones; or NULL */
+  const struct rule *rule;          /* or NULL */
+  int (*run)(struct call *call);    /* returns an exit code */
 };
 
 /* One run of the program, parsed. */
@@ -72,7 +73,7 @@ struct call {
     const char *text;
   } given[GIVEN];
   bool json, quiet, help;
-  const char *csv, *plot, *npz;
+  const char *csv, *plot, *npz, *mtx;
   const char *continues; /* the checkpoint that a run goes on from; NULL: it begins */
 };
 

@@ -35,12 +35,22 @@ static const char exit_help[] =
   "Exit codes: 0 ok, 1 the computation or the output failed, 2 usage, 3 bad input file,\n"
   "4 singular pencil, 5 not certified, 130 or 143 interrupted.\n";
 
+/* Common options that the verb has no use for are left out. */
+static bool shown(const struct verb *verb, size_t i, const struct option *o)
+{
+  size_t own = 0;
+  while (verb->option && verb->option[own].name) own++;
+  if (i < own) return true;
+  if (!strcmp(o->name, "--plot")) return verb->picture;
+  return verb->matrices || (strcmp(o->name, "--npz") && strcmp(o->name, "--mtx"));
+}
+
 void call_help(const struct verb *verb)
 {
   const struct option *o;
   printf("steif %s %s\n\n%s.\n\n", verb->name, verb->usage, verb->about);
   for (size_t i = 0; (o = option_at(verb, i)); i++)
-    if (verb->picture || strcmp(o->name, "--plot")) line(o);
+    if (shown(verb, i, o)) line(o);
   if (strstr(verb->usage, "METHOD")) fputs(method_help, stdout);
   fputs(exit_help, stdout);
 }

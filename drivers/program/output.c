@@ -12,7 +12,7 @@ int show(const struct call *call, steif_report *report)
   progress(call, NULL);
   if (steif_report_write(report, call->json ? STEIF_JSON : STEIF_TABLE, stdout) == STEIF_OK) {
     fflush(stdout);
-    return EXIT_OK;
+    return save_report_arrays(call, report);
   }
   say(call, "%s", steif_message(call->ctx));
   return EXIT_FAILED;

@@ -11,6 +11,8 @@
 int check_outputs(const struct call *call);
 /* The report on stdout in the form asked for. */
 int show(const struct call *call, steif_report *report);
+/* --npz and --mtx of a verb that makes matrices: done by show. */
+int save_report_arrays(const struct call *call, const steif_report *report);
 /* As --csv. */
 int save_csv(const struct call *call, steif_report *report);
 /* Both. */

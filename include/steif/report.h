@@ -53,6 +53,12 @@ STEIF_EXPORT int steif_report_write(steif_report *r, enum steif_format format, F
 /* The same into a file; an unwritable path leaves no file. */
 STEIF_EXPORT int steif_report_save(steif_report *r, enum steif_format format, const char *path);
 
+/* List or matrix i of the fields, in their order: its name, rows, columns (0: a list) and, where value is not
+ * NULL, its numbers by rows; NULL past the end. Empty ones are left out, members of objects have their own
+ * names. */
+STEIF_EXPORT const char *steif_report_array_at(const steif_report *r, size_t i, size_t *rows,
+                                               size_t *columns, sunrealtype *value);
+
 /* An array of a file for numpy: rows numbers, or rows x columns by rows. */
 typedef struct steif_array {
   const char *name;

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
 #include "folder.h"
+#include <math.h>
 #include <stdint.h>
 #include <unistd.h>
 
@@ -103,6 +104,33 @@ static void too_much_is_rejected(void)
   steif_context_free(&ctx);
 }
 
-CU_TestInfo tests_of_arrays[] = {{"arrays come back", arrays_come_back},
-                                 {"too much is rejected", too_much_is_rejected},
-                                 CU_TEST_INFO_NULL};
+static void fields_of_a_report_are_arrays(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_report *r = steif_report_new(ctx);
+  const sunrealtype list[] = {1.5, NAN, -INFINITY}, matrix[] = {1, 2, 3, 4, 5, 6.25};
+  size_t rows, columns;
+  sunrealtype value[6] = {0};
+  steif_report_text(r, "title", "no array");
+  steif_report_list(r, "x", 3, list);
+  steif_report_list(r, "empty", 0, list);
+  steif_report_row(r, "sheet");
+  steif_report_real(r, "sheet.h", 0.5);
+  steif_report_matrix(r, "part.A", 3, 2, matrix);
+  const char *name = steif_report_array_at(r, 0, &rows, &columns, value);
+  CHECK(name && !strcmp(name, "x") && rows == 3 && columns == 0);
+  CHECK(value[0] == 1.5 && isnan(value[1]) && value[2] == -INFINITY);
+  name = steif_report_array_at(r, 1, &rows, &columns, NULL);
+  CHECK(name && !strcmp(name, "A") && rows == 3 && columns == 2);
+  steif_report_array_at(r, 1, &rows, &columns, value);
+  CHECK(!memcmp(value, matrix, sizeof matrix));
+  CHECK(!steif_report_array_at(r, 2, &rows, &columns, NULL));
+  steif_report_free(&r);
+  steif_context_free(&ctx);
+}
+
+CU_TestInfo tests_of_arrays[] = {
+  {"arrays come back", arrays_come_back},
+  {"fields of a report are arrays", fields_of_a_report_are_arrays},
+  {"too much is rejected", too_much_is_rejected},
+  CU_TEST_INFO_NULL};
