@@ -15,8 +15,8 @@ static int ask(struct call *call, trajectory *tr)
   double at[REALS_MOST];
   const size_t given_times = reals_of(call, "--at", at);
   tr->asked = given_times ? given_times : (size_t)whole_of(call, "--points");
-  if (tr->asked == 0) return EXIT_OK;
-  tr->at = malloc(tr->asked * sizeof *tr->at);
+  if (tr->asked == 0 && !call->plot) return EXIT_OK;
+  tr->at = malloc((tr->asked + 1) * sizeof *tr->at);
   tr->between = tr->at ? N_VNew_Serial(tr->problem->n, steif_sundials(call->ctx)) : NULL;
   if (!tr->between) return no_memory(call, "the times asked for", "ask for fewer");
   const double width = tr->asked > 1 ? (tr->t1 - tr->t0) / (double)(tr->asked - 1) : 0;
@@ -74,8 +74,11 @@ static void tell(trajectory *tr, double t)
 
 static int keep(trajectory *tr, steif_solver *s, sunrealtype t, N_Vector y)
 {
+  const struct call *c = tr->call;
+  const bool saved = c->continues || given(c, "--checkpoint"); /* which holds the steps alone */
+  if (c->plot && !saved && trajectory_draw(tr, s, t, y)) return -1;
   if (tr->asked == 0)
-    return tr->call->csv || tr->call->plot || tr->call->npz ? trajectory_keep(tr, t, y) : 0;
+    return c->csv || c->npz || (c->plot && saved) ? trajectory_keep(tr, t, y) : 0;
   for (; tr->next < tr->asked && tr->at[tr->next] <= t; tr->next++) {
     const bool here = tr->at[tr->next] >= t;
     if (!here && steif_dense(s, tr->at[tr->next], tr->between) != STEIF_OK) return -1;
@@ -152,6 +155,7 @@ int trajectory_open(struct call *call, const steif_problem *problem, steif_optio
 {
   *tr = (trajectory){.call = call,
                      .problem = problem,
+                     .names = problem->names,
                      .n = (size_t)problem->n,
                      .h = options->mesh ? 0 : options->h,
                      .t0 = problem->t0,
@@ -177,6 +181,8 @@ void trajectory_free(trajectory *tr)
   free(tr->t);
   free(tr->y);
   free(tr->output);
+  free(tr->drawn.t);
+  free(tr->drawn.y);
   free(tr->at);
   free(tr->event_t);
   free(tr->event_which);

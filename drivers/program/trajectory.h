@@ -6,9 +6,18 @@
 
 #include "program.h"
 
+/* The first components as a picture shows them, between the steps, too. */
+enum { DRAWN = 8 };
+struct drawn {
+  size_t n, count, room; /* components; points */
+  double *t, *y;
+};
+
 typedef struct trajectory {
   const struct call *call;
   const steif_problem *problem;
+  const steif_names *names; /* of the components; NULL: none */
+  struct drawn drawn;       /* count 0: the steps kept are drawn */
   size_t n, count, room;
   size_t outputs;        /* of a model, beside the unknowns */
   double *output;        /* by rows, as many values each */
@@ -37,6 +46,8 @@ int trajectory_open(struct call *call, const steif_problem *problem, steif_optio
 int trajectory_keep(trajectory *tr, double t, N_Vector y);
 /* Room for so many rows and events; nonzero when memory is short. */
 int trajectory_room(trajectory *tr, size_t rows, size_t events);
+/* The step just made to the points of the picture; nonzero when memory is short. */
+int trajectory_draw(trajectory *tr, steif_solver *s, double t, N_Vector y);
 void trajectory_free(trajectory *tr);
 /* Sheets "output" (times asked for) and "events" (--events); jumps are there already. */
 void trajectory_fill(steif_report *r, const trajectory *tr);

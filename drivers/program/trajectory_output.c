@@ -81,22 +81,35 @@ int trajectory_save(const struct call *call, const trajectory *tr)
   return code ? code : arrays;
 }
 
-/* Unknowns and outputs side by side. */
-static int plot(const struct call *call, const trajectory *tr, const char *title)
+/* Unknowns and outputs side by side, at the steps. */
+static int plot_outputs(const struct call *call, const trajectory *tr, const char *title)
 {
   const size_t columns = tr->n + tr->outputs;
-  if (!tr->outputs)
-    return steif_plot_components(call->ctx, title, tr->count, tr->n, tr->t, tr->y, call->plot);
+  const char **names = calloc(columns, sizeof *names);
   double *all = malloc((tr->count * columns + 1) * sizeof *all);
-  if (!all) return no_memory(call, "the picture", "make fewer steps");
-  for (size_t i = 0; i < tr->count; i++) {
+  for (size_t i = 0; names && i < columns; i++)
+    names[i] = i < tr->n ? tr->names ? tr->names->unknown[i] : NULL
+                         : steif_model_output(tr->problem, i - tr->n);
+  for (size_t i = 0; all && i < tr->count; i++) {
     memcpy(all + i * columns, tr->y + i * tr->n, tr->n * sizeof *all);
     memcpy(all + i * columns + tr->n, tr->output + i * tr->outputs, tr->outputs * sizeof *all);
   }
-  const int code =
-    steif_plot_components(call->ctx, title, tr->count, columns, tr->t, all, call->plot);
+  const int code = all && names
+                     ? steif_plot_components(call->ctx, title, tr->count, columns,
+                                             tr->names ? names : NULL, tr->t, all, call->plot)
+                     : no_memory(call, "the picture", "make fewer steps");
   free(all);
+  free(names);
   return code;
+}
+
+static int plot(const struct call *call, const trajectory *tr, const char *title)
+{
+  const struct drawn steps = {tr->n, tr->count, tr->count, tr->t, tr->y},
+                     *d = tr->drawn.count ? &tr->drawn : &steps;
+  const char *const *names = tr->names ? tr->names->unknown : NULL;
+  if (tr->outputs) return plot_outputs(call, tr, title);
+  return steif_plot_components(call->ctx, title, d->count, d->n, names, d->t, d->y, call->plot);
 }
 
 int trajectory_plot(const struct call *call, const trajectory *tr, const char *title)

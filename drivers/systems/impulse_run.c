@@ -179,13 +179,14 @@ static int through_layers(struct call *call, const struct descriptor *l, struct 
 
 int impulse_run(struct call *call, const struct descriptor *l)
 {
-  struct record k = {.call = call,
-                     .linear = l,
-                     .column = impulse_columns(l),
-                     .shown = steif_report_new(call->ctx),
-                     .sheet = steif_report_new(call->ctx),
-                     .n = (size_t)l->n,
-                     .path = {.call = call, .n = (size_t)l->n, .t1 = real_of(call, "--t1")}};
+  struct record k = {
+    .call = call,
+    .linear = l,
+    .column = impulse_columns(l),
+    .shown = steif_report_new(call->ctx),
+    .sheet = steif_report_new(call->ctx),
+    .n = (size_t)l->n,
+    .path = {.call = call, .names = l->names, .n = (size_t)l->n, .t1 = real_of(call, "--t1")}};
   const int code = !k.shown || !k.sheet      ? fail(call)
                    : given(call, "--layers") ? through_layers(call, l, &k)
                                              : integrate_on(call, l, &k);

@@ -88,12 +88,16 @@ typedef struct steif_plot {
  * the ending of the path decides. An unwritable path leaves no file. */
 STEIF_EXPORT int steif_plot_save(steif_context *ctx, const steif_plot *plot, const char *path);
 
-/* The first 8 components of a solution over t: rows y(t_0), y(t_1), ... of n numbers. Components whose
- * largest values differ by more than a factor of 100 are drawn as parts of these; t beyond 1e4 has a
- * logarithmic axis. */
+/* Panels one below another, with the title of the first and the x label of the last; up to 8. */
+STEIF_EXPORT int steif_panels_save(steif_context *ctx, size_t count, const steif_plot *panel,
+                                   const char *path);
+
+/* The first 8 components of a solution over t: rows y(t_0), y(t_1), ... of n numbers; names: n of them, NULL:
+ * y1, y2, .... Components whose largest values differ by more than a factor of 30 are drawn in panels of
+ * their own; t beyond 1e4 has a logarithmic axis. */
 STEIF_EXPORT int steif_plot_components(steif_context *ctx, const char *title, size_t count,
-                                       size_t n, const sunrealtype *t, const sunrealtype *y,
-                                       const char *path);
+                                       size_t n, const char *const *names, const sunrealtype *t,
+                                       const sunrealtype *y, const char *path);
 
 #ifdef __cplusplus
 }

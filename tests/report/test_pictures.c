@@ -189,11 +189,12 @@ static void missing_gnuplot_is_told(void)
   steif_context_free(&ctx);
 }
 
-/* Nine components of sizes 1 and 1e-3 over (0, 2e4): eight curves, parts of their largest values, a
- * logarithmic axis. */
-static void components_are_drawn_as_parts(void)
+/* Nine components of sizes 1 and 1e-3 over (0, 2e4): eight curves in two panels by their size, a logarithmic
+ * axis; names where there are some. */
+static void components_of_one_size_share_a_panel(void)
 {
   enum { ROWS = 20, N = 9 };
+  static const char *const names[N] = {"a", "b<", "c", "d", "e", "f", "g", "h", "i"};
   double t[ROWS], y[ROWS * N];
   for (int i = 0; i < ROWS; i++) {
     t[i] = pow(10, i * 4.3 / ROWS);
@@ -202,12 +203,24 @@ static void components_are_drawn_as_parts(void)
   y[7] = NAN;
   steif_context *ctx = steif_context_new(NULL);
   const char *to = temporary(".svg");
-  CHECK(steif_plot_components(ctx, "nine", ROWS, N, t, y, to) == STEIF_OK);
+  CHECK(steif_plot_components(ctx, "nine", ROWS, N, NULL, t, y, to) == STEIF_OK);
   contents(path, text);
   unlink(path);
-  CHECK(balanced(text) && count_of("y8 / 0.001") == 1 && count_of("y1 / 1") == 1);
-  CHECK(!strstr(text, "y9") && strstr(text, "the first components of y"));
-  CHECK(steif_plot_components(ctx, "two", ROWS, 2, t, y, "two.txt") == STEIF_BAD_INPUT);
+  CHECK(balanced(text) && count_of("<clipPath") == 2);
+  CHECK(count_of(">y8<") == 1 && count_of(">y1<") == 1 && !strstr(text, ">y9<"));
+  CHECK(strstr(text, "the first components are shown"));
+  CHECK(steif_plot_components(ctx, "two", ROWS, 1, names, t, y, to) == STEIF_OK);
+  contents(path, text);
+  unlink(path);
+  CHECK(balanced(text) && count_of("<clipPath") == 1 && count_of(">a<") == 1);
+  CHECK(steif_plot_components(ctx, "two", ROWS, 2, names, t, y, to) == STEIF_OK);
+  contents(path, text);
+  unlink(path);
+  CHECK(balanced(text) && count_of("<clipPath") == 1 && count_of(">b&lt;<") == 1);
+  CHECK(steif_plot_components(ctx, "two", ROWS, 2, NULL, t, y, "two.txt") == STEIF_BAD_INPUT);
+  const steif_plot none[9] = {{0}};
+  CHECK(steif_panels_save(ctx, 9, none, to) == STEIF_BAD_INPUT);
+  CHECK(steif_panels_save(ctx, 0, none, to) == STEIF_BAD_INPUT);
   steif_context_free(&ctx);
 }
 
@@ -220,5 +233,5 @@ CU_TestInfo tests_of_pictures[] = {
   {"bad pictures are rejected and leave nothing", bad_pictures_are_rejected},
   {"PNG comes from gnuplot, whatever the path", png_comes_from_gnuplot},
   {"missing gnuplot is told with its remedy", missing_gnuplot_is_told},
-  {"components are drawn as parts of their size", components_are_drawn_as_parts},
+  {"components of one size share a panel of their size", components_of_one_size_share_a_panel},
   CU_TEST_INFO_NULL};

@@ -32,7 +32,7 @@ static void setting(FILE *script, const char *what, const char *text)
   fputs(" noenhanced\n", script);
 }
 
-static void axes(const steif_plot *plot, FILE *script)
+static void terminal(FILE *script)
 {
   fputs("if (strstrt(GPVAL_TERMINALS, 'pngcairo')) {\n"
         "  set terminal pngcairo size 1100,720 font 'Sans,12' linewidth 1.4\n"
@@ -40,6 +40,10 @@ static void axes(const steif_plot *plot, FILE *script)
         "set border lc rgb '#555555'\nset grid lc rgb '#dddddd'\nset datafile missing '?'\n"
         "set tics nomirror\n",
         script);
+}
+
+static void axes(const steif_plot *plot, FILE *script)
+{
   setting(script, "title", plot->title);
   setting(script, "xlabel", plot->x_label);
   setting(script, "ylabel", plot->y_label);
@@ -138,12 +142,16 @@ static int waited(pid_t child)
   return got == child && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-int stf_plot_gnuplot(steif_context *ctx, const steif_plot *plot, FILE *stream)
+int stf_plot_gnuplot(steif_context *ctx, size_t count, const steif_plot *panel, FILE *stream)
 {
   FILE *script = tmpfile();
   STEIF_CHECK(script, ctx, STEIF_IO, "no temporary file for gnuplot: %s; name an .svg file",
               strerror(errno));
-  script_of(plot, script);
+  terminal(script);
+  if (count > 1)
+    fprintf(script, "set multiplot layout %zu,1\nset lmargin 12\nset rmargin 18\n", count);
+  for (size_t i = 0; i < count; i++) script_of(panel + i, script);
+  if (count > 1) fputs("unset multiplot\n", script);
   pid_t child = 0;
   const bool written = !fflush(script) && !ferror(script) && !fseek(script, 0, SEEK_SET) &&
                        lseek(fileno(script), 0, SEEK_SET) == 0;

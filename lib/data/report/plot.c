@@ -20,15 +20,23 @@ static int check(steif_context *ctx, const steif_plot *plot)
   return STEIF_OK;
 }
 
-int steif_plot_save(steif_context *ctx, const steif_plot *plot, const char *path)
+int steif_panels_save(steif_context *ctx, size_t count, const steif_plot *panel,
+                      const char *path)
 {
-  STEIF_TRY(check(ctx, plot));
+  STEIF_CHECK(panel && count >= 1 && count <= STF_PANELS, ctx, STEIF_BAD_INPUT,
+              "a picture has 1 to %d panels, not %zu", STF_PANELS, count);
+  for (size_t i = 0; i < count; i++) STEIF_TRY(check(ctx, panel + i));
   const bool png = path && ends(path, ".png");
   STEIF_CHECK(png || (path && ends(path, ".svg")), ctx, STEIF_BAD_INPUT,
               "\"%s\" is no picture: name a file that ends in .svg or .png", path ? path : "");
   stf_output output;
   STEIF_TRY(stf_output_open(ctx, path, &output));
-  const int code =
-    png ? stf_plot_gnuplot(ctx, plot, output.stream) : stf_plot_svg(plot, output.stream);
+  const int code = png ? stf_plot_gnuplot(ctx, count, panel, output.stream)
+                       : stf_plot_svg(count, panel, output.stream);
   return stf_output_close(ctx, &output, code);
+}
+
+int steif_plot_save(steif_context *ctx, const steif_plot *plot, const char *path)
+{
+  return steif_panels_save(ctx, 1, plot, path);
 }

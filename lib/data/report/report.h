@@ -69,7 +69,8 @@ void stf_axis_ticks(stf_axis *axis, int about);
 
 enum { STF_COLOURS = 8 };
 extern const char *const stf_colours[]; /* "#rrggbb" of the curves in turn */
-int stf_plot_svg(const steif_plot *plot, FILE *stream);
-int stf_plot_gnuplot(steif_context *ctx, const steif_plot *plot, FILE *stream);
+enum { STF_PANELS = 8 };
+int stf_plot_svg(size_t count, const steif_plot *panel, FILE *stream);
+int stf_plot_gnuplot(steif_context *ctx, size_t count, const steif_plot *panel, FILE *stream);
 
 #endif

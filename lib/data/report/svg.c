@@ -49,31 +49,45 @@ static double legend_width(const steif_plot *plot)
   return has_legend(plot) ? 62 + width : 26;
 }
 
-static picture layout(const steif_plot *plot, FILE *out)
+/* One of `count` panels, the bottom of the one above at `above`; plots of their own are higher. */
+static picture layout(const steif_plot *plot, size_t count, double above, FILE *out)
 {
-  picture p = {.out = out, .plot = plot, .top = 54};
+  picture p = {.out = out, .plot = plot, .top = above + (above > 0 ? 36 : 54)};
   p.x.log = plot->log_x;
   p.y.log = plot->log_y;
   stf_axis_range(&p.x, plot, false);
   stf_axis_range(&p.y, plot, true);
-  const double w = plot->equal ? 470 : 560, h = plot->equal ? 470 : 370;
+  const double w = plot->equal ? 470 : 560;
+  const double h = plot->equal ? 470 : count > 1 ? fmax(130, 480 / (double)count) : 370;
   p.x.p1 = w;
   p.y.p1 = h;
   if (plot->equal) stf_axis_equal(&p.x, &p.y);
   stf_axis_ticks(&p.x, 8);
-  stf_axis_ticks(&p.y, 7);
+  stf_axis_ticks(&p.y, count > 1 ? 4 : 7);
   p.left = 44 + widest_tick(&p.y);
   p.right = p.left + w;
   p.bottom = p.top + h;
-  p.x.p0 = p.left;
-  p.x.p1 = p.right;
   p.y.p0 = p.bottom;
   p.y.p1 = p.top;
-  p.width = p.right + legend_width(plot);
   p.height = p.bottom + 58;
   const double needed = 22.0 * (double)plot->count + p.top + 30;
   if (has_legend(plot) && needed > p.height) p.height = needed;
   return p;
+}
+
+/* The frames of all panels one below another: the left edge is that of the widest labels. */
+static void align(size_t count, picture *p)
+{
+  double left = 0, width = 0;
+  for (size_t i = 0; i < count; i++) left = fmax(left, p[i].left);
+  for (size_t i = 0; i < count; i++) {
+    p[i].right += left - p[i].left;
+    p[i].left = left;
+    p[i].x.p0 = p[i].left;
+    p[i].x.p1 = p[i].right;
+    width = fmax(width, p[i].right + legend_width(p[i].plot));
+  }
+  p->width = width;
 }
 
 /* ---- axes ---- */
@@ -145,7 +159,7 @@ static void axes(const picture *p)
   factor(p, &p->x, p->right, p->bottom + 36, "end");
   factor(p, &p->y, p->left, p->top - 7, "middle");
   const double middle_x = (p->left + p->right) / 2, middle_y = (p->top + p->bottom) / 2;
-  stf_svg_words(p->out, p->left, 24, "class=\"t\"", plot->title);
+  stf_svg_words(p->out, p->left, p->top - 30, "class=\"t\"", plot->title);
   stf_svg_words(p->out, middle_x, p->bottom + 42, "class=\"l\" text-anchor=\"middle\"",
                 plot->x_label);
   fputs("<g transform=\"translate(20 ", p->out);
@@ -285,13 +299,13 @@ static void legend(const picture *p)
   }
 }
 
-static void opening(const picture *p)
+static void opening(const picture *p, double height)
 {
   fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<svg xmlns=\"http://www.w3.org/2000/svg\"",
         p->out);
   stf_svg_attribute(p->out, "width", p->width);
-  stf_svg_attribute(p->out, "height", p->height);
+  stf_svg_attribute(p->out, "height", height);
   fputs(" font-family=\"Helvetica, Arial, DejaVu Sans, sans-serif\">\n<style>"
         ".t{font-size:15px;font-weight:bold;fill:#222}.l{font-size:13px;fill:#222}"
         ".n{font-size:12px;fill:#333}.k{font-size:12px;fill:#222}"
@@ -312,20 +326,31 @@ static void area(const picture *p, const char *style)
   fprintf(p->out, " %s/>", style);
 }
 
-int stf_plot_svg(const steif_plot *plot, FILE *stream)
+static void panel_of(const picture *p, size_t k)
 {
-  const picture p = layout(plot, stream);
-  opening(&p);
-  fputs("<clipPath id=\"area\">", stream);
-  area(&p, "");
-  fputs("</clipPath>\n", stream);
-  axes(&p);
-  fputs("<g clip-path=\"url(#area)\">\n", stream);
-  for (size_t k = 0; k < plot->count; k++) curve(&p, k);
-  fputs("</g>\n", stream);
-  area(&p, "fill=\"none\" stroke=\"#555\"");
-  putc('\n', stream);
-  if (has_legend(plot)) legend(&p);
+  fprintf(p->out, "<clipPath id=\"area%zu\">", k);
+  area(p, "");
+  fputs("</clipPath>\n", p->out);
+  axes(p);
+  fprintf(p->out, "<g clip-path=\"url(#area%zu)\">\n", k);
+  for (size_t i = 0; i < p->plot->count; i++) curve(p, i);
+  fputs("</g>\n", p->out);
+  area(p, "fill=\"none\" stroke=\"#555\"");
+  putc('\n', p->out);
+  if (has_legend(p->plot)) legend(p);
+}
+
+int stf_plot_svg(size_t count, const steif_plot *panel, FILE *stream)
+{
+  picture p[STF_PANELS] = {{.out = stream}};
+  double above = 0;
+  for (size_t i = 0; i < count; i++) {
+    p[i] = layout(panel + i, count, above, stream);
+    above = i + 1 < count ? p[i].bottom : p[i].height;
+  }
+  align(count, p);
+  opening(p, above);
+  for (size_t i = 0; i < count; i++) panel_of(p + i, i);
   fputs("</svg>\n", stream);
   return STEIF_OK;
 }
