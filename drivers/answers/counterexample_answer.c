@@ -44,6 +44,7 @@ int counterexample_present(const struct call *call, const struct counterexample_
   snprintf(title, sizeof title, "x' = lambda(t) x, a counterexample to %s", call->word[0]);
   const steif_curve curve[] = {{call->word[0], count, a->t, a->x, 0},
                                {"exact", count, a->t, a->exact, 0}};
-  const steif_plot plot = {title, "t", "|x|", 0, 1, 0, 2, curve};
+  const steif_plot plot = {
+    .title = title, .x_label = "t", .y_label = "|x|", .log_y = 1, .count = 2, .curve = curve};
   return code ? code : save_plot(call, &plot, call->plot);
 }

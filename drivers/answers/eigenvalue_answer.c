@@ -30,7 +30,11 @@ int eigenvalues_plot(const struct call *call, const steif_eigenvalues *e, const 
   snprintf(title, sizeof title, "Finite eigenvalues of %s", call->word[0]);
   const steif_curve curve[] = {{"eigenvalues", count, re, im, 2}, {"S", 1, near, near + 1, 2}};
   const bool point = near[0] != 0 || near[1] != 0;
-  const steif_plot plot = {title, "Re s", "Im s", 0, 0, 0, point ? 2 : 1, curve};
+  const steif_plot plot = {.title = title,
+                           .x_label = "Re s",
+                           .y_label = "Im s",
+                           .count = point ? 2 : 1,
+                           .curve = curve};
   const int code = save_plot(call, &plot, call->plot);
   free(re);
   return code;

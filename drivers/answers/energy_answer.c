@@ -72,7 +72,8 @@ static int draw(const struct call *call, const struct energy_answer *a)
   }
   snprintf(title, sizeof title, "Drift of the invariant: %s, %s", call->word[0], call->word[1]);
   const steif_curve curve = {call->word[1], e->rows, t, drift, 0};
-  const steif_plot plot = {title, "t", "I(t) - I(0)", 0, 0, 0, 1, &curve};
+  const steif_plot plot = {
+    .title = title, .x_label = "t", .y_label = "I(t) - I(0)", .count = 1, .curve = &curve};
   const int code = save_plot(call, &plot, call->plot);
   free(t);
   return code;

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
 #include "members.h"
+#include <math.h>
 
 /* What follows from the coefficients, where the step is a linear recurrence. */
 static void coefficients(steif_report *r, const struct call *call)
@@ -45,14 +46,33 @@ static void fill_rows(steif_report *r, const struct call *call, const void *resu
   }
 }
 
+/* In the region, or with --star where the method grows more than the solution. */
+static int inside(double re, double im, void *user)
+{
+  const struct call *call = user;
+  const double z[] = {re, im};
+  double radius;
+  if (steif_spectral_radius(call->ctx, call->word[0], z, &radius)) {
+    steif_forget(call->ctx);
+    return 0;
+  }
+  return given(call, "--star") ? radius > exp(re) : radius <= 1;
+}
+
 static int draw(const struct call *call, const struct region_answer *a)
 {
   char title[96];
   snprintf(title, sizeof title, "%s: %s",
-           given(call, "--star") ? "Order star" : "Boundary of the stability region",
-           call->word[0]);
+           given(call, "--star") ? "Order star" : "Stability region (shaded)", call->word[0]);
   const steif_curve curve = {call->word[0], a->count, a->re, a->im, 0};
-  const steif_plot plot = {title, "Re z", "Im z", 0, 0, 1, 1, &curve};
+  const steif_plot plot = {.title = title,
+                           .x_label = "Re z",
+                           .y_label = "Im z",
+                           .equal = 1,
+                           .count = 1,
+                           .curve = &curve,
+                           .inside = inside,
+                           .user = (void *)call};
   return save_plot(call, &plot, call->plot);
 }
 

@@ -54,6 +54,7 @@ int series_save(const struct call *call, const struct lyapunov_answer *a)
   snprintf(title, sizeof title, "Size and local error: %s, %s", call->word[0], call->word[1]);
   const steif_curve curve[] = {{"|x|", a->steps, a->t, a->norm, 0},
                                {"local error", a->steps, a->t, a->lte, 0}};
-  const steif_plot plot = {title, "t", "", 0, 1, 0, 2, curve};
+  const steif_plot plot = {
+    .title = title, .x_label = "t", .y_label = "", .log_y = 1, .count = 2, .curve = curve};
   return code ? code : save_plot(call, &plot, call->plot);
 }

@@ -86,6 +86,7 @@ int supervise_present(const struct call *call, const struct supervise_answer *a)
   const steif_curve curve[] = {
     {"supervised", kept->count + 1, kept->t, kept->log, 0},
     {"error control alone", alone->count + 1, alone->t, alone->log, 0}};
-  const steif_plot plot = {title, "t", "ln |w|", 0, 0, 0, 2, curve};
+  const steif_plot plot = {
+    .title = title, .x_label = "t", .y_label = "ln |w|", .count = 2, .curve = curve};
   return code ? code : save_plot(call, &plot, call->plot);
 }

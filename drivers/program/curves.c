@@ -68,6 +68,11 @@ int work_plot(const struct call *call, const work_curves *w, const char *problem
   snprintf(title, sizeof title, "Work against precision: %s%s%s", problem, *w->note ? ", " : "",
            w->note);
   snprintf(axis, sizeof axis, "digits (mescd)%s%s", *w->measured ? "; " : "", w->measured);
-  const steif_plot plot = {title, axis, "processor seconds", 0, 1, 0, count, curve};
+  const steif_plot plot = {.title = title,
+                           .x_label = axis,
+                           .y_label = "processor seconds",
+                           .log_y = 1,
+                           .count = count,
+                           .curve = curve};
   return save_plot(call, &plot, path);
 }

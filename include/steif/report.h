@@ -82,6 +82,9 @@ typedef struct steif_plot {
   int equal; /* same scale on both axes (regions) */
   size_t count;
   const steif_curve *curve;
+  int (*inside)(sunrealtype x, sunrealtype y, void *user); /* shaded where it returns 1; NULL:
+                                                               nothing is; linear axes only */
+  void *user;
 } steif_plot;
 
 /* SVG is drawn by the library, PNG by gnuplot (STEIF_UNSUPPORTED with the remedy when missing);

@@ -224,7 +224,41 @@ static void components_of_one_size_share_a_panel(void)
   steif_context_free(&ctx);
 }
 
+static int disc(double x, double y, void *user)
+{
+  const double *radius = user;
+  return x * x + y * y <= *radius * *radius;
+}
+
+/* The area of the rectangles, in pixels, is that of the disc. */
+static void what_is_inside_is_shaded(void)
+{
+  double x[] = {-2, 2, 2, -2}, y[] = {-2, -2, 2, 2}, radius = 1.5, area = 0;
+  const steif_curve square = {"square", 4, x, y, 0};
+  const steif_plot plot = {
+    .equal = 1, .count = 1, .curve = &square, .inside = disc, .user = &radius};
+  steif_context *ctx = steif_context_new(NULL);
+  const char *to = temporary(".svg");
+  CHECK(steif_plot_save(ctx, &plot, to) == STEIF_OK);
+  contents(path, text);
+  unlink(path);
+  const char *at = strstr(text, "<g fill=\"#dbe9f4\">"), *end = at ? strstr(at, "</g>") : NULL;
+  CU_ASSERT_FATAL(at && end);
+  double frame = 0, lo = 1e9, hi = 0;
+  while ((at = strstr(at, "<rect")) && at < end) {
+    const char *w = strstr(at, "width=\""), *left = strstr(at, "x=\"");
+    const double width = strtod(w + 7, NULL), from = strtod(left + 3, NULL);
+    area += 2 * width;
+    lo = fmin(lo, from), hi = fmax(hi, from + width);
+    at = w;
+  }
+  frame = hi - lo; /* the diameter */
+  CLOSE(area / (frame * frame / 4), 3.14159265, 0.03);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_pictures[] = {
+  {"what is inside is shaded", what_is_inside_is_shaded},
   {"points that cannot be drawn break the line", gaps_break_the_line},
   {"any data gives a finite, balanced picture", hostile_data_is_drawn},
   {"words are escaped", words_are_escaped},

@@ -95,6 +95,29 @@ static void frame(const steif_plot *plot, FILE *script)
   }
 }
 
+static void shade(const steif_plot *plot, FILE *script)
+{
+  enum { ROWS = 240 };
+  stf_axis x = {.p1 = 1}, y = {.p1 = 1};
+  double piece[STF_PIECES][2];
+  if (!plot->inside || plot->log_x || plot->log_y) return;
+  stf_axis_range(&x, plot, false);
+  stf_axis_range(&y, plot, true);
+  if (plot->equal) stf_axis_equal(&x, &y);
+  for (int k = 0; k < ROWS; k++) {
+    const double step = (y.hi - y.lo) / ROWS, low = y.lo + step * k;
+    const size_t count = stf_shade_row(plot, low + step / 2, x.lo, x.hi, piece);
+    for (size_t i = 0; i < count; i++) {
+      const double corner[] = {piece[i][0], low, piece[i][1], low + step};
+      char text[4][40];
+      for (int c = 0; c < 4; c++) stf_report_number(text[c], sizeof text[c], 'g', 9, corner[c]);
+      fprintf(script,
+              "set object rect from %s,%s to %s,%s back fc rgb '#dbe9f4' fs solid noborder\n",
+              text[0], text[1], text[2], text[3]);
+    }
+  }
+}
+
 static void script_of(const steif_plot *plot, FILE *script)
 {
   static const char *const style[] = {"lines", "linespoints", "points"};
@@ -106,6 +129,7 @@ static void script_of(const steif_plot *plot, FILE *script)
     return;
   }
   if (plot->equal) frame(plot, script);
+  shade(plot, script);
   for (size_t k = 0; k < plot->count; k++) {
     const steif_curve *c = &plot->curve[k];
     fprintf(script, "%s $curve%zu using 1:2 with %s pt %zu lc rgb '%s' title ",

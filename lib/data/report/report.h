@@ -69,6 +69,11 @@ void stf_axis_ticks(stf_axis *axis, int about);
 
 enum { STF_COLOURS = 8 };
 extern const char *const stf_colours[]; /* "#rrggbb" of the curves in turn */
+/* The pieces of the line from (lo, y) to (hi, y) that are shaded; returns how many. */
+enum { STF_PIECES = 32 };
+size_t stf_shade_row(const steif_plot *plot, double y, double lo, double hi,
+                     double piece[STF_PIECES][2]);
+
 enum { STF_PANELS = 8 };
 int stf_plot_svg(size_t count, const steif_plot *panel, FILE *stream);
 int stf_plot_gnuplot(steif_context *ctx, size_t count, const steif_plot *panel, FILE *stream);

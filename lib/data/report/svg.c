@@ -326,11 +326,35 @@ static void area(const picture *p, const char *style)
   fprintf(p->out, " %s/>", style);
 }
 
+/* Rows two pixels high of what is shaded. */
+static void shade(const picture *p)
+{
+  double piece[STF_PIECES][2];
+  if (!p->plot->inside || p->x.log || p->y.log) return;
+  fputs("<g fill=\"#dbe9f4\">\n", p->out);
+  for (double at = p->bottom; at > p->top; at -= 2) {
+    const double y =
+      p->y.lo + (p->y.hi - p->y.lo) * (p->bottom - at + 1) / (p->bottom - p->top);
+    const size_t count = stf_shade_row(p->plot, y, p->x.lo, p->x.hi, piece);
+    for (size_t i = 0; i < count; i++) {
+      const double left = stf_axis_pixel(&p->x, piece[i][0]);
+      fputs("<rect", p->out);
+      stf_svg_attribute(p->out, "x", left);
+      stf_svg_attribute(p->out, "y", at - 2);
+      stf_svg_attribute(p->out, "width", stf_axis_pixel(&p->x, piece[i][1]) - left);
+      stf_svg_attribute(p->out, "height", 2);
+      fputs("/>\n", p->out);
+    }
+  }
+  fputs("</g>\n", p->out);
+}
+
 static void panel_of(const picture *p, size_t k)
 {
   fprintf(p->out, "<clipPath id=\"area%zu\">", k);
   area(p, "");
   fputs("</clipPath>\n", p->out);
+  shade(p);
   axes(p);
   fprintf(p->out, "<g clip-path=\"url(#area%zu)\">\n", k);
   for (size_t i = 0; i < p->plot->count; i++) curve(p, i);
