@@ -167,7 +167,7 @@ struct steif_problem {
   steif_restore_state restore;
   const sunrealtype *event_times; /* of the first events where they are known, ascending */
   int event_time_count;
-  const sunrealtype *breaks; /* declared discontinuities of f inside (t0, t1), ascending */
+  const sunrealtype *breaks; /* declared discontinuities of f in (t0, t1], ascending */
   int break_count;
   /* A separable problem: the first `positions` components are q, the others p; q' depends on (t, p)
    * only and p' on (t, q) only, as for H = T(p) + V(q). 0: not separable. The halves of f alone, for

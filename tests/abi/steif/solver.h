@@ -159,12 +159,30 @@ STEIF_EXPORT N_Vector steif_solution(steif_solver *s); /* at the time last asked
 STEIF_EXPORT sunrealtype steif_time(const steif_solver *s);
 STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);
 
+/* Components of index 2 and 3 (velocities, multipliers) are controlled through h^(index - 1) only: *error is
+ * an estimate of their error at the end of the last step, the largest in tolerances rtol |y_i| + atol_i, as
+ * their distance from the values that the equations and their hidden derivatives give them beside the
+ * components of index 1 (consistent.h). Where these are stiff it may be tens of times too large; what they
+ * are off comes on top, as the problem hands it on.
+ * NaN: not known, or there are no such components. Of nonlinear DAEs with at most STEIF_DIAGNOSE_LARGEST
+ * unknowns, adaptive steps and steif's own methods; costs as much as a start does. */
+STEIF_EXPORT int steif_hidden_error(steif_solver *s, sunrealtype *error);
+
 /* The solution inside the last step. STEIF_BAD_INPUT outside of it. */
 STEIF_EXPORT int steif_dense(steif_solver *s, sunrealtype t, N_Vector y);
 
 /* drift[k] = I_k at the solution shown - I_k at the start, of the problem's first *count invariants;
  * *count becomes how many these are. */
 STEIF_EXPORT int steif_drift_now(steif_solver *s, int *count, sunrealtype *drift);
+
+/* The solution shown on all constraints of a DAE, hidden ones too: components of index 1 move as little as
+ * possible, in tolerances, and unknowns of index 2 and 3 are computed from them. Methods have lower orders for
+ * the latter; computed so they are as good as the former: the multiplier of a pendulum by radau:s=3 has order 5
+ * instead of 2. *drift: the largest movement of a component of index 1 (problem.index, or as found at the
+ * start), *corrected: that of the others, both in tolerances, NULL: not wanted. y may be the vector shown. Codes
+ * of steif_consistent (consistent.h); a diagnosis, and some thousand evaluations. */
+STEIF_EXPORT int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift,
+                                 sunrealtype *corrected);
 
 /* Stage values of the last step of a Runge-Kutta method: vectors X_i at t_n + c_i h with quadrature
  * weights b_i (b = NULL: a general linear method, which has none); *count = 0 for methods without
