@@ -10,6 +10,7 @@ cmake_minimum_required(VERSION 3.19)
 # the options and the statistics of solver.h, whose functions are those of the integrator.
 set(room_of_solver method)
 set(room_of_record integrator)
+set(room_of_sensitivity integrator)
 set(room_of_phi matfun)
 set(room_of_glm table)
 set(room_of_runs runs)

@@ -59,6 +59,8 @@ static int check(steif_solver *s, start *a)
 {
   STEIF_CHECK(!s->engine, s->ctx, STEIF_UNSUPPORTED,
               "'%s' cannot be restarted: make a new solver", s->spec);
+  STEIF_CHECK(!s->step.carry && !a->options.sensitivities, s->ctx, STEIF_UNSUPPORTED,
+              "a run with sensitivities is not restarted: make a new solver");
   STEIF_CHECK(!s->inside && !s->running, s->ctx, STEIF_BAD_INPUT,
               "a solver is restarted between two calls, not by a callback of a step");
   STEIF_CHECK(a->y && N_VGetLength(a->y) == s->given->n &&
@@ -70,8 +72,10 @@ static int check(steif_solver *s, start *a)
   STEIF_CHECK(isfinite(a->t) && stf_finite(space, a->y) && (!a->yp || stf_finite(space, a->yp)),
               s->ctx, STEIF_NOT_FINITE,
               "the start at t = %g has components that are not finite", a->t);
-  STEIF_TRY(stf_reserved_check(s->ctx, "steif_problem", a->problem.reserved));
-  STEIF_TRY(stf_reserved_check(s->ctx, "steif_options", a->options.reserved));
+  STEIF_TRY(stf_reserved_check(s->ctx, "steif_problem", STF_COUNT(a->problem.reserved),
+                               a->problem.reserved));
+  STEIF_TRY(stf_reserved_check(s->ctx, "steif_options", STF_COUNT(a->options.reserved),
+                               a->options.reserved));
   STEIF_TRY(check_problem(s, &a->problem));
   STEIF_TRY(check_options(s, &a->options));
   a->problem.t0 = a->t;

@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "integrator.h"
+#include "carry.h"
 #include <math.h>
 
 enum { REJECTIONS = 40 }; /* of one step before the run stops */
@@ -50,6 +51,7 @@ static void accept(steif_solver *s, sunrealtype h, sunrealtype t)
   stf_step *step = &s->step;
   step->h_try = h;
   step->method->commit(step);
+  if (step->carry) stf_carry_commit(step->carry);
   step->h = h;
   step->t = t;
   step->count++;
@@ -80,6 +82,10 @@ int stf_fixed_step(steif_solver *s)
   if (!(step->method->traits & STF_EXPLICIT)) STEIF_TRY(weigh_levels(s, h));
   const int code = step->method->attempt(step, h);
   if (code) return cause(s, code);
+  if (step->carry) {
+    const int carried = stf_carry_carry(step->carry, h);
+    if (carried) return cause(s, carried);
+  }
   if (s->problem->constraint) STEIF_TRY(stf_constraint_keep(s, h, 0));
   accept(s, h, t);
   s->mesh_at++;
@@ -211,12 +217,24 @@ static sunrealtype way(sunrealtype t, sunrealtype t_stop)
   return left;
 }
 
+/* Derivatives through the attempt; the largest error of y and of them. */
+static int carry(steif_solver *s, sunrealtype h, sunrealtype *e)
+{
+  stf_carry *T = s->step.carry;
+  const bool before = stf_silence(s->ctx, true);
+  const int code = stf_carry_carry(T, h);
+  stf_silence(s->ctx, before);
+  if (!code && !s->options.untested_sensitivities && !(T->relative <= *e)) *e = T->relative;
+  return code;
+}
+
 /* One attempt: its relative error e, or why there is none. */
 static int attempt(steif_solver *s, sunrealtype h, int tries, sunrealtype *e)
 {
   stf_step *step = &s->step;
   STEIF_TRY(attempt_silently(s, h));
   *e = stf_norm(&step->system.space, step->error, step->weights) / step->control.tolerance;
+  if (*e <= 1 && step->carry) STEIF_TRY(carry(s, h, e));
   return *e <= 1 && s->problem->constraint ? stf_constraint_keep(s, h, tries) : STEIF_OK;
 }
 

@@ -90,7 +90,9 @@ int stf_whole(steif_context *ctx, const char *name, const void *given, size_t by
 int stf_whole_problem(steif_context *ctx, const steif_problem *given, size_t bytes,
                       steif_problem *room, const steif_problem **whole);
 /* STEIF_BAD_INPUT where one of them is not 0. */
-int stf_reserved_check(steif_context *ctx, const char *name, void *const *reserved);
+int stf_reserved_check(steif_context *ctx, const char *name, size_t count,
+                       void *const *reserved);
+#define STF_COUNT(array) (sizeof(array) / sizeof *(array))
 
 /* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. */
 int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o);
@@ -137,6 +139,9 @@ int stf_rounding_step(steif_solver *s);
 /* What this has cost. */
 void stf_rounding_count(const steif_solver *s, steif_stats *sum);
 void stf_rounding_keep(steif_solver *s, stf_image *m);
+
+/* Derivatives by parameters, where options.sensitivities asks for them. */
+int stf_sensitivity_open(steif_solver *s);
 
 /* The invariants at the start. */
 int stf_drift_open(steif_solver *s);

@@ -27,9 +27,9 @@ int stf_whole(steif_context *ctx, const char *name, const void *given, size_t by
   return STEIF_OK;
 }
 
-int stf_reserved_check(steif_context *ctx, const char *name, void *const *reserved)
+int stf_reserved_check(steif_context *ctx, const char *name, size_t count,
+                       void *const *reserved)
 {
-  const size_t count = sizeof((steif_options *)0)->reserved / sizeof *reserved;
   for (size_t i = 0; i < count; i++)
     STEIF_CHECK(
       !reserved[i], ctx, STEIF_BAD_INPUT,

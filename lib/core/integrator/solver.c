@@ -318,6 +318,7 @@ int stf_run_begin(steif_solver *s)
 {
   if (!s->engine) STEIF_TRY(begin_step(s));
   if (s->chosen) STEIF_TRY(stf_switching_open(s, s->chosen));
+  STEIF_TRY(stf_sensitivity_open(s));
   STEIF_TRY(stf_constraint_open(s));
   STEIF_TRY(stf_drift_open(s));
   STEIF_TRY(stf_event_open(s));
@@ -337,8 +338,10 @@ static int take_given(steif_solver *s, const steif_problem *problem, size_t prob
   if (options)
     STEIF_TRY(stf_whole(s->ctx, "steif_options", options, options_bytes, sizeof s->options,
                         &s->options));
-  STEIF_TRY(stf_reserved_check(s->ctx, "steif_options", s->options.reserved));
-  return s->problem ? stf_reserved_check(s->ctx, "steif_problem", s->problem->reserved)
+  STEIF_TRY(stf_reserved_check(s->ctx, "steif_options", STF_COUNT(s->options.reserved),
+                               s->options.reserved));
+  return s->problem ? stf_reserved_check(s->ctx, "steif_problem",
+                                         STF_COUNT(s->problem->reserved), s->problem->reserved)
                     : STEIF_OK;
 }
 

@@ -72,6 +72,21 @@ int stf_solve_stages(stf_step *s, const stf_stages *g)
   return stf_newton_full(newton, g);
 }
 
+int stf_newton_carry_apply(stf_step *s, sunrealtype h, int count, N_Vector *const *r,
+                           N_Vector *const *other)
+{
+  (void)h;
+  return stf_newton_apply(&s->newton, count, r, other);
+}
+
+/* The Jacobian is that of another point than the one the next attempt may want. */
+int stf_newton_carry_renew(stf_step *s, sunrealtype t, sunrealtype h, N_Vector Y, N_Vector Yp)
+{
+  STEIF_TRY(stf_newton_prepare(&s->newton, t, h, Y, Yp, true));
+  s->newton.jacobian_new = false;
+  return STEIF_OK;
+}
+
 void stf_interpolate(int k, const sunrealtype *node, sunrealtype x, sunrealtype *value)
 {
   for (int j = 0; j <= k; j++) {

@@ -59,6 +59,31 @@ typedef struct stf_control {
 /* The usual one, but for tolerance and order. */
 extern const stf_control stf_control_usual;
 
+/* How a family carries derivatives by parameters through its steps (carry.h). */
+struct stf_carry;
+typedef struct stf_carrier_size {
+  int points; /* where matrices are made in a step */
+  int stages; /* solved for together */
+  int kept,
+    trial; /* vectors of a column that are kept, and that an attempt fills; equal without commit */
+} stf_carrier_size;
+typedef struct stf_carrier {
+  stf_carrier_size (*size)(const stf_step *s);
+  /* From T->S to T->next through the attempt just made, whose stages are there; with adaptive steps T->error
+   * and T->tolerance too. */
+  int (*carry)(struct stf_carry *T, sunrealtype h);
+  /* r_k := M^{-1} r_k, M in factors for the step h; M made anew at (t, Y, Yp). */
+  int (*apply)(stf_step *s, sunrealtype h, int count, N_Vector *const *r,
+               N_Vector *const *other);
+  int (*renew)(stf_step *s, sunrealtype t, sunrealtype h, N_Vector Y, N_Vector Yp);
+  void (*commit)(struct stf_carry *T); /* NULL: S <- next, kept <-> trial */
+  int (*dense)(const struct stf_carry *T, int k, sunrealtype t, N_Vector S);
+} stf_carrier;
+/* apply and renew of families that use s->newton. */
+int stf_newton_carry_apply(stf_step *s, sunrealtype h, int count, N_Vector *const *r,
+                           N_Vector *const *other);
+int stf_newton_carry_renew(stf_step *s, sunrealtype t, sunrealtype h, N_Vector Y, N_Vector Yp);
+
 typedef struct steif_method {
   const char *about;
   unsigned forms, traits;
@@ -90,6 +115,7 @@ typedef struct steif_method {
                   steif_method_info *info);
   /* The method as a general linear one; NULL: that of its table, or none. */
   int (*general)(steif_context *ctx, const steif_spec *spec, steif_glm *glm);
+  const stf_carrier *carrier; /* NULL: derivatives by parameters are not carried */
 } steif_method;
 
 struct stf_step {
@@ -114,9 +140,10 @@ struct stf_step {
   bool end_slope_known; /* stf_hermite has the slope at the end of the last step */
   sunrealtype h_try;    /* of the trial */
   N_Vector next, error, weights;
-  stf_control control;  /* what the attempt says of `error` */
-  long factors, solves; /* made by a family without the pencil */
-  int undamped;         /* attempts of this step rejected for undamped components */
+  stf_control control;     /* what the attempt says of `error` */
+  long factors, solves;    /* made by a family without the pencil */
+  struct stf_carry *carry; /* derivatives by parameters; NULL: none */
+  int undamped;            /* attempts of this step rejected for undamped components */
 };
 
 typedef struct stf_method_entry {

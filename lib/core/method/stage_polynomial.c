@@ -44,6 +44,16 @@ sunrealtype stf_stage_polynomial_weight(const stf_stage_polynomial *e, int j, su
   return sum;
 }
 
+int stf_stage_polynomial_at(const stf_stage_polynomial *e, const stf_space *space,
+                            sunrealtype x, N_Vector from, N_Vector *Z, N_Vector out)
+{
+  sunrealtype w[STEIF_STAGES];
+  for (int j = 0; j < e->s; j++) w[j] = stf_stage_polynomial_weight(e, j, x);
+  stf_combine(space, e->s, w, Z, out);
+  stf_axpy(space, 1, from, out);
+  return STEIF_OK;
+}
+
 /* Slope of the polynomial through (0, 0), (c_i, Z_i), c_1 > 0: at 0, or at 1 if that is no node. */
 static void fill_slope(stf_stage_polynomial *e)
 {

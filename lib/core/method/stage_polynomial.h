@@ -4,6 +4,7 @@
 #ifndef STF_STAGE_POLYNOMIAL_H
 #define STF_STAGE_POLYNOMIAL_H
 
+#include "space.h"
 #include "table.h"
 
 typedef struct stf_stage_polynomial {
@@ -20,6 +21,9 @@ int stf_stage_polynomial_open(stf_pool *pool, const steif_table *table, const su
                               stf_stage_polynomial *u);
 /* w_j(x). */
 sunrealtype stf_stage_polynomial_weight(const stf_stage_polynomial *u, int j, sunrealtype x);
+/* out = from + sum_j w_j(x) Z_j. */
+int stf_stage_polynomial_at(const stf_stage_polynomial *u, const stf_space *space,
+                            sunrealtype x, N_Vector from, N_Vector *Z, N_Vector out);
 /* P, s x s, with next Z = P Z for a step `ratio` times as long. */
 const sunrealtype *stf_stage_polynomial_ahead(stf_stage_polynomial *u, sunrealtype ratio);
 

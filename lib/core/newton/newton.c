@@ -186,6 +186,11 @@ static int shift_corrections(stf_newton *newton)
   return STEIF_OK;
 }
 
+int stf_newton_correct(stf_newton *newton)
+{
+  return newton->gamma > 0 ? stf_blend_correction(newton) : shift_corrections(newton);
+}
+
 /* dZ of one sweep and its weighted norm over all stages. The residual enters with its own sign:
  * Z - dZ is the next iterate. */
 static int sweep(stf_newton *newton, const stf_stages *g, sunrealtype *norm)
@@ -194,7 +199,7 @@ static int sweep(stf_newton *newton, const stf_stages *g, sunrealtype *norm)
   const stf_space *space = &newton->system->space;
   newton->sweeps++;
   STEIF_TRY(residuals(newton, g));
-  STEIF_TRY(newton->gamma > 0 ? stf_blend_correction(newton) : shift_corrections(newton));
+  STEIF_TRY(stf_newton_correct(newton));
   sunrealtype sum = 0;
   for (int j = 0; j < s; j++) {
     const sunrealtype part = stf_norm(space, newton->dZ[j], newton->weights);

@@ -83,6 +83,11 @@ int stf_newton_full(stf_newton *newton, const stf_stages *stages);
  * the residuals and not that of the factors, which is the same in every step. */
 int stf_newton_polish(stf_newton *newton, const stf_stages *stages);
 
+/* dZ = M^{-1} residual, M the matrix that the iteration has in place of that of the stages. */
+int stf_newton_correct(stf_newton *newton);
+/* r_k := M^{-1} r_k for `count` columns of s vectors at once; `other` is lost. */
+int stf_newton_apply(stf_newton *newton, int count, N_Vector *const *r, N_Vector *const *other);
+
 /* Convergence was slow or refused: the next prepare should renew the Jacobian. */
 bool stf_newton_stale(const stf_newton *newton);
 

@@ -14,12 +14,12 @@
 #include <sunmatrix/sunmatrix_sparse.h>
 
 /* What the residual at other parameters is computed with. */
-typedef struct point {
+typedef struct stf_slopes {
   steif_context *ctx;
   const steif_problem *problem;
   int form;
   sunrealtype t;
-  N_Vector y, yp, work;
+  N_Vector y, yp, work, other;
   SUNMatrix M;
 } point;
 
@@ -82,8 +82,9 @@ static sunrealtype increment(const steif_parameters *q, int k)
 
 /* Values on both sides, or on one and here: their quotient. what(data, out) is the function of p. */
 static int differ(const steif_parameters *q, int k, int (*what)(const point *at, N_Vector out),
-                  const point *at, N_Vector other, N_Vector out)
+                  const point *at, N_Vector out)
 {
+  N_Vector other = at->other;
   const sunrealtype p = q->value[k], d = increment(q, k);
   volatile sunrealtype up = p + d, down = p - d;
   q->value[k] = up;
@@ -162,18 +163,23 @@ static int told(steif_context *ctx, const steif_problem *p, int returned, int k,
     returned);
 }
 
+static int claim(point *at, stf_pool *pool, N_Vector like)
+{
+  at->other = stf_pool_vector(pool, like);
+  at->work = stf_pool_vector(pool, like);
+  return at->other && at->work ? open_matrix(at, pool) : STEIF_NO_MEMORY;
+}
+
 /* A derivative by differences of `what`, with memory of its own. */
 static int by_differences(point *at, int k, int (*what)(const point *at, N_Vector out),
                           N_Vector out)
 {
   const long before = stf_failures(at->ctx);
   stf_pool *pool = stf_pool_new(at->ctx);
-  N_Vector other = pool ? stf_pool_vector(pool, out) : NULL;
-  at->work = other ? stf_pool_vector(pool, out) : NULL;
-  int code = at->work ? open_matrix(at, pool) : STEIF_NO_MEMORY;
+  int code = pool ? claim(at, pool, out) : STEIF_NO_MEMORY;
   if (!code)
-    code = told(at->ctx, at->problem, differ(at->problem->parameters, k, what, at, other, out),
-                k, before);
+    code =
+      told(at->ctx, at->problem, differ(at->problem->parameters, k, what, at, out), k, before);
   stf_pool_free(&pool);
   return code;
 }
@@ -189,6 +195,26 @@ int steif_parameter_slope(steif_context *ctx, const steif_problem *p, int k, sun
     return told(ctx, p, p->parameters->dFdp(t, y, yp, k, out, p->user), k, before);
   at.form = steif_problem_form(ctx, p);
   return at.form ? by_differences(&at, k, residual, out) : steif_status(ctx);
+}
+
+int stf_slopes_open(stf_pool *pool, steif_context *ctx, const steif_problem *p, int form,
+                    N_Vector like, stf_slopes **slopes)
+{
+  point *at = *slopes = stf_pool_array(pool, 1, sizeof *at);
+  if (!at) return STEIF_NO_MEMORY;
+  *at = (point){.ctx = ctx, .problem = p, .form = form};
+  return p->parameters->dFdp ? STEIF_OK : claim(at, pool, like);
+}
+
+int stf_slopes_at(stf_slopes *at, int k, sunrealtype t, N_Vector y, N_Vector yp, N_Vector out)
+{
+  const steif_problem *p = at->problem;
+  const steif_parameters *q = p->parameters;
+  const long before = stf_failures(at->ctx);
+  at->t = t, at->y = y, at->yp = yp;
+  const int returned =
+    q->dFdp ? q->dFdp(t, y, yp, k, out, p->user) : differ(q, k, residual, at, out);
+  return told(at->ctx, p, returned, k, before);
 }
 
 int steif_parameter_start(steif_context *ctx, const steif_problem *p, int k, N_Vector out)

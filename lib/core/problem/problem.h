@@ -114,4 +114,25 @@ bool stf_groups_differ(const stf_system *system);
  * is STEIF_BAD_INPUT. Two evaluations, and a few for each row that deviates. */
 int stf_probe(stf_system *system, char which, sunrealtype t, N_Vector y, N_Vector yp,
               SUNMatrix M, bool *grown);
+
+/* parameters.c: dF/dp_k without memory of its own, for those who step. */
+typedef struct stf_slopes stf_slopes;
+int stf_slopes_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem, int form,
+                    N_Vector like, stf_slopes **slopes);
+int stf_slopes_at(stf_slopes *slopes, int k, sunrealtype t, N_Vector y, N_Vector yp,
+                  N_Vector out);
+
+/* matrices_at.c: E and A at several points, beside those of the pencil; a linear system has one pair. Needs
+ * matrices. */
+typedef struct stf_matrices_at {
+  stf_system *system;
+  int count;
+  SUNMatrix *E, *A; /* of each point; E NULL: identity */
+  long made;
+} stf_matrices_at;
+int stf_matrices_at_open(stf_pool *pool, stf_system *system, int count, stf_matrices_at *m);
+int stf_matrices_at_fill(stf_matrices_at *m, int point, sunrealtype t, N_Vector y, N_Vector yp);
+/* out = E x or A x at a point. */
+int stf_matrices_at_product(const stf_matrices_at *m, int point, char which, N_Vector x,
+                            N_Vector out);
 #endif

@@ -25,7 +25,7 @@ static int jacobian(stf_step *s, double h)
   return stf_system_matrices(&s->system, s->t + ahead * h, s->next, s->yp);
 }
 
-static int factor(stf_step *s, double h)
+int stf_irk_interleaved_factor(stf_step *s, double h)
 {
   stf_irk_interleaved *e = s->state;
   e->h_factored = 0;
@@ -42,7 +42,7 @@ int stf_irk_interleaved_prepare(stf_step *s, double h)
   if (e->renew_J && !at_point) STEIF_TRY(jacobian(s, h));
   if (!e->renew_J && e->h_factored == h) return STEIF_OK;
   e->renew_J = false;
-  return factor(s, h);
+  return stf_irk_interleaved_factor(s, h);
 }
 
 /* -- Newton ---------------------------------------------------------------------------------------------- */
@@ -178,7 +178,7 @@ static int renew_from_stage(stf_step *s, double h)
   while (j < e->s - 1 && e->table->c[j] < inside) j++;
   e->J_from_stage = e->J_ahead = true;
   STEIF_TRY(stf_system_matrices(&s->system, s->t + e->table->c[j] * h, e->Y[j], s->yp));
-  return factor(s, h);
+  return stf_irk_interleaved_factor(s, h);
 }
 
 int stf_irk_interleaved_iterate(stf_step *s, double h)

@@ -49,6 +49,16 @@ static int claim(stf_step *s, state *e)
   return e->Y && e->F && e->moved && e->a && e->f0 && e->before ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
+static int open_derivatives(stf_step *s)
+{
+  state *e = s->state;
+  if (!s->options->sensitivities) return STEIF_OK;
+  e->stage = stf_pool_vectors(s->pool, e->s, s->y);
+  e->aside = stf_pool_array(s->pool, (size_t)(e->n * e->L->wide), sizeof *e->aside);
+  if (!e->stage || !e->aside) return STEIF_NO_MEMORY;
+  return stf_stage_polynomial_open(s->pool, e->table, e->B, &e->u);
+}
+
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 {
   (void)spec;
@@ -62,6 +72,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(stf_system_mass(s->pool, &s->system, &e->M));
   if (!(e->L = stf_interleaved_new(s->pool, &transform, e->n, e->M))) return STEIF_NO_MEMORY;
   STEIF_TRY(claim(s, e));
+  STEIF_TRY(open_derivatives(s));
   e->L->whole = true;
   for (int j = 0; j < e->s; j++) stf_irk_interleaved_basis(e, j);
   e->itmax =
@@ -265,4 +276,5 @@ const steif_method steif_method_irk_interleaved = {
   .dense = dense,
   .stages = stages,
   .keep = keep,
+  .carrier = &stf_irk_interleaved_carrier,
 };

@@ -5,6 +5,7 @@
 
 #include "lu.h"
 #include "method.h"
+#include "stage_polynomial.h"
 
 typedef struct stf_irk_interleaved {
   const steif_table *table;
@@ -19,6 +20,10 @@ typedef struct stf_irk_interleaved {
   double *last_Z;       /* n x wide, with M: stages before a correction */
   const sunrealtype *B; /* A^{-1}, s x s by rows */
   stf_estimate higher_order;
+  stf_stage_polynomial
+    u; /* with derivatives by parameters; so are stages and what is set aside: */
+  N_Vector *stage;
+  double *aside;
   double h_factored, theta, eta, kappa,
     first_correction;    /* first_correction: ||first correction|| / ||omega|| */
   bool accurate;         /* the end is a stage */
@@ -37,5 +42,9 @@ void stf_irk_interleaved_predict(const stf_step *s, stf_irk_interleaved *e, doub
 int stf_irk_interleaved_prepare(stf_step *s, double h);
 /* The stages, from the prediction. */
 int stf_irk_interleaved_iterate(stf_step *s, double h);
+
+/* Factors of the matrices at hand. */
+int stf_irk_interleaved_factor(stf_step *s, double h);
+extern const stf_carrier stf_irk_interleaved_carrier;
 
 #endif

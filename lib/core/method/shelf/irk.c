@@ -12,7 +12,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "kick_drift.h"
-#include "stage_polynomial.h"
+#include "carry.h"
 #include <math.h>
 
 typedef struct state {
@@ -127,20 +127,25 @@ static void predict(stf_step *s, sunrealtype h)
  * -(re/im) Im of the complex solve, or its real part, which keeps stiff components; with the one
  * shift sigma of the blended iteration -sigma h gamma_0 (sigma E - A)^{-1} F, gamma_0 = 1/lambda or
  * re/|lambda|^2. */
-static int filtered(stf_step *s, sunrealtype h, sunrealtype t, N_Vector y)
+static int filter(stf_step *s, sunrealtype h, N_Vector v)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
   const stf_transform *transform = &s->newton.transform;
   const bool blended = s->newton.gamma > 0, real = blended || transform->im[0] == 0;
-  STEIF_TRY(stf_system_residual(&s->system, t, y, e->work, s->error));
   if (!real) stf_zero(space, e->imaginary);
-  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &s->error, real ? NULL : &e->imaginary));
+  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &v, real ? NULL : &e->imaginary));
   if (blended)
-    stf_scale(space, -e->filter * s->newton.shift * h, s->error, s->error);
-  else
-    stf_scale(space, -1, s->error, s->error);
+    stf_scale(space, e->filter * s->newton.shift * h, v, v);
   return STEIF_OK;
+}
+
+static int filtered(stf_step *s, sunrealtype h, sunrealtype t, N_Vector y)
+{
+  state *e = s->state;
+  STEIF_TRY(stf_system_residual(&s->system, t, y, e->work, s->error));
+  stf_scale(&s->system.space, -1, s->error, s->error);
+  return filter(s, h, s->error);
 }
 
 static int estimate_end(stf_step *s, sunrealtype h)
@@ -260,12 +265,8 @@ static void commit(stf_step *s)
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
   const state *e = s->state;
-  sunrealtype x[STEIF_STAGES];
-  for (int j = 0; j < e->s; j++)
-    x[j] = stf_stage_polynomial_weight(&e->u, j, (t - (s->t - s->h)) / s->h);
-  stf_combine(&s->system.space, e->s, x, e->Z, y);
-  stf_axpy(&s->system.space, 1, e->before, y);
-  return STEIF_OK;
+  return stf_stage_polynomial_at(&e->u, &s->system.space, (t - (s->t - s->h)) / s->h, e->before,
+                                 e->Z, y);
 }
 
 static int stages(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
@@ -288,6 +289,40 @@ static void keep(stf_step *s, stf_image *m)
   STF_KEEP(m, e->fails);
   STF_KEEP(m, e->history);
 }
+
+/* ---- derivatives by parameters --------------------------------------------------------------- */
+
+static stf_carrier_size sizes(const stf_step *s)
+{
+  const state *e = s->state;
+  return (stf_carrier_size){e->s + s->adaptive, e->s, e->s, e->s};
+}
+
+static int carry(stf_carry *T, sunrealtype h)
+{
+  const state *e = T->step->state;
+  const stf_collocation_stages c = {.u = &e->u,
+                                    .B_over_h = T->step->newton.B_over_h,
+                                    .estimate = &e->higher_order,
+                                    .oscillates = e->omega * h > 1,
+                                    .Z = e->trial,
+                                    .filter = filter};
+  return stf_carry_collocation(T, h, &c);
+}
+
+static int carried_dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)
+{
+  const stf_step *s = T->step;
+  const state *e = s->state;
+  return stf_stage_polynomial_at(&e->u, &s->system.space, (t - (s->t - s->h)) / s->h,
+                                 T->before[k], T->kept[k], S);
+}
+
+static const stf_carrier carrier = {.size = sizes,
+                                    .carry = carry,
+                                    .apply = stf_newton_carry_apply,
+                                    .renew = stf_newton_carry_renew,
+                                    .dense = carried_dense};
 
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
@@ -344,4 +379,5 @@ const steif_method steif_method_irk = {
   .keep = keep,
   .propagator = propagator,
   .describe = describe,
+  .carrier = &carrier,
 };

@@ -1,24 +1,39 @@
 /* rober.c: Robertson's autocatalytic reaction, as an ODE or with the conservation law
  * y1 + y2 + y3 = 1 in place of the third equation (M = diag(1, 1, 0), index 1).
  *
- *   y1' = -0.04 y1 + 1e4 y2 y3
- *   y2' = 0.04 y1 - 1e4 y2 y3 - 3e7 y2^2
- *   y3' = 3e7 y2^2                          rober:form=mass: 0 = y1 + y2 + y3 - 1
+ *   y1' = -k1 y1 + k2 y2 y3
+ *   y2' = k1 y1 - k2 y2 y3 - k3 y2^2
+ *   y3' = k3 y2^2                          rober:form=mass: 0 = y1 + y2 + y3 - 1
+ *
+ * with parameters k1 = 0.04, k2 = 1e4, k3 = 3e7.
  *
  * H. H. Robertson, in J. Walsh (ed.), Numerical Analysis, an Introduction (1966) 178-182.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"
+#include <steif/parameters.h>
 #include <string.h>
 
-static const sunrealtype K1 = 0.04, K2 = 3e7, K3 = 1e4;
+static const sunrealtype rates[] = {0.04, 1e4, 3e7};
+static const char *const names[] = {"k1", "k2", "k3"};
+
+struct reaction {
+  sunrealtype k[3];
+  steif_parameters parameters;
+};
+
+static const sunrealtype *rates_of(const void *user)
+{
+  return user ? ((const struct reaction *)user)->k : rates;
+}
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 {
   const sunrealtype *u = NV_DATA_S(y);
-  const sunrealtype slow = K1 * u[0], fast = K2 * u[1] * u[1], back = K3 * u[1] * u[2];
+  const sunrealtype *k = rates_of(user);
+  const sunrealtype slow = k[0] * u[0], back = k[1] * u[1] * u[2], fast = k[2] * u[1] * u[1];
   sunrealtype *d = NV_DATA_S(ydot);
-  (void)t, (void)user;
+  (void)t;
   d[0] = back - slow;
   d[1] = slow - back - fast;
   d[2] = fast;
@@ -29,17 +44,38 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
                N_Vector tmp2, N_Vector tmp3)
 {
   const sunrealtype *u = NV_DATA_S(y);
-  (void)t, (void)fy, (void)user, (void)tmp1, (void)tmp2, (void)tmp3;
-  SM_ELEMENT_D(J, 0, 0) = -K1;
-  SM_ELEMENT_D(J, 1, 0) = K1;
+  const sunrealtype *k = rates_of(user);
+  (void)t, (void)fy, (void)tmp1, (void)tmp2, (void)tmp3;
+  SM_ELEMENT_D(J, 0, 0) = -k[0];
+  SM_ELEMENT_D(J, 1, 0) = k[0];
   SM_ELEMENT_D(J, 2, 0) = 0;
-  SM_ELEMENT_D(J, 0, 1) = K3 * u[2];
-  SM_ELEMENT_D(J, 1, 1) = -K3 * u[2] - 2 * K2 * u[1];
-  SM_ELEMENT_D(J, 2, 1) = 2 * K2 * u[1];
-  SM_ELEMENT_D(J, 0, 2) = K3 * u[1];
-  SM_ELEMENT_D(J, 1, 2) = -K3 * u[1];
+  SM_ELEMENT_D(J, 0, 1) = k[1] * u[2];
+  SM_ELEMENT_D(J, 1, 1) = -k[1] * u[2] - 2 * k[2] * u[1];
+  SM_ELEMENT_D(J, 2, 1) = 2 * k[2] * u[1];
+  SM_ELEMENT_D(J, 0, 2) = k[1] * u[1];
+  SM_ELEMENT_D(J, 1, 2) = -k[1] * u[1];
   SM_ELEMENT_D(J, 2, 2) = 0;
   return 0;
+}
+
+/* -df/dk. */
+static int slope(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  const sunrealtype *u = NV_DATA_S(y);
+  const sunrealtype slow = u[0], back = u[1] * u[2], fast = u[1] * u[1];
+  sunrealtype *d = NV_DATA_S(out);
+  (void)t, (void)yp, (void)user;
+  d[0] = k == 0 ? slow : k == 1 ? -back : 0;
+  d[1] = k == 0 ? -slow : k == 1 ? back : fast;
+  d[2] = k == 2 ? -fast : 0;
+  return 0;
+}
+
+static int slope_mass(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  const int code = slope(t, y, yp, k, out, user);
+  NV_Ith_S(out, 2) = 0;
+  return code;
 }
 
 static int sum(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
@@ -76,22 +112,38 @@ static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
 static const sunrealtype y0[] = {1, 0, 0}, yp0[] = {-0.04, 0.04, 0};
 static const int index_mass[] = {1, 1, 1};
 
-/* rober:form=ode or rober:form=mass */
-static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self)
+static int open_parameters(steif_context *ctx, steif_problem *self)
 {
-  static const char *const keys[] = {"form", NULL};
-  const char *form = stf_spec_word(spec, "form");
-  STEIF_TRY(stf_spec_only(ctx, spec, keys));
-  if (!form || strcmp(form, "ode") == 0) return STEIF_OK;
-  STEIF_CHECK(strcmp(form, "mass") == 0, ctx, STEIF_BAD_INPUT,
-              "rober has form=ode or form=mass, not form=%s", form);
+  struct reaction *r = stf_collection_allocate(ctx, self, sizeof *r, 0);
+  if (!r) return STEIF_NO_MEMORY;
+  memcpy(r->k, rates, sizeof rates);
+  r->parameters = (steif_parameters){
+    .count = 3, .value = r->k, .name = names, .dFdp = self->E ? slope_mass : slope};
+  self->parameters = &r->parameters;
+  return STEIF_OK;
+}
+
+static void take_mass_form(steif_problem *self)
+{
   self->f = f_mass;
   self->jac = jac_mass;
   self->E = mass;
   self->yp0 = yp0;
   self->index = index_mass;
   self->dae_index = 1;
-  return STEIF_OK;
+}
+
+/* rober:form=ode or rober:form=mass */
+static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self)
+{
+  static const char *const keys[] = {"form", NULL};
+  const char *form = stf_spec_word(spec, "form");
+  STEIF_TRY(stf_spec_only(ctx, spec, keys));
+  const bool ode = !form || strcmp(form, "ode") == 0;
+  STEIF_CHECK(ode || strcmp(form, "mass") == 0, ctx, STEIF_BAD_INPUT,
+              "rober has form=ode or form=mass, not form=%s", form);
+  if (!ode) take_mass_form(self);
+  return open_parameters(ctx, self);
 }
 
 static const sunrealtype end[] = {2.083340149701255e-08, 8.3333607703347131e-14,
@@ -114,4 +166,5 @@ const steif_problem steif_problem_rober = {
   .invariant = sum,
   .rtol_scale = 1e-6,
   .build = build,
+  .destroy = stf_collection_release,
 };

@@ -1,0 +1,60 @@
+/* steif/sensitivity.h: forward sensitivities S = dy/dp, beside the solution.
+ *
+ *   double k[] = {0.04, 1e4, 3e7};
+ *   steif_parameters par = {.count = 3, .value = k, .dFdp = dFdk};
+ *   problem.parameters = &par;
+ *   steif_options opt = steif_defaults();
+ *   opt.rtol = 1e-8, opt.sensitivities = 1;
+ *   steif_solver *s = steif_solver_new(ctx, &problem, "radau:s=3", &opt);
+ *   if (s && steif_solve_to(s, 40) == STEIF_OK) steif_sensitivity(s, 40, 0, dy);
+ *
+ * Differentiated is the step, not the equation. A step solves F(t_j, Y_j, Y_j'; p) = 0 at its stages,
+ * Y_j = base_j + Z_j, Y_j' = offset_j + (1/h) sum_m B_jm Z_m, and with h, order and coefficients held,
+ *   F_y dY_j + F_y' dY_j' = -dF/dp_k
+ * at the converged stages is a linear system for column k of S. It is iterated with the factors of Newton's
+ * iteration as preconditioner, all columns together, to options.newton times the tolerance. S is thus the derivative
+ * of the numbers that the run returns, on its mesh: central differences of runs on one mesh (options.mesh)
+ * agree with it to their own errors, and its order is that of y.
+ *
+ * Column k has the unit of y over that of p_k; scale_k S, scale_k = parameters.scale or |p_k| (1 where that is
+ * 0), has that of y. Errors of S are tested in every adaptive step, by the estimate of the method, differentiated,
+ * against rtol |S_ik| + atol_i / scale_k; a step passes when y and each column do.
+ *
+ * Served: collocation (gauss, radau, radau1a, lobatto3c, any number of stages), DIRK and BDF with dense, band
+ * and sparse matrices, index 0 and 1. STEIF_UNSUPPORTED: other families and `auto`; Krylov
+ * storage; index above 1; event handlers, breaks, constraints, options.reinitialise, options.ewt; starts that had to
+ * be repaired, or whose derivative does not fulfil algebraic equations (give parameters.start). Where dF/dy is made
+ * by differences, S has their relative error too, about 1e-7.
+ * Checkpoints, copies and restarts of such runs: STEIF_UNSUPPORTED.
+ *
+ * Sources: U. Maly and L. R. Petzold, Appl. Numer. Math. 20 (1996) 57-79; L. Petzold, S. Li, Y. Cao and R. Serban,
+ * Comput. Chem. Engrg. 30 (2006) 1553-1559; E. Hairer and G. Wanner, Solving ODEs II, IV.8.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_SENSITIVITY_H
+#define STEIF_SENSITIVITY_H
+
+#include <steif/parameters.h>
+#include <steif/solver.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* dy = dy(t)/dp_k, k from 0, at t inside the last step, by the dense output of the method differentiated; before the
+ * first step at t0. STEIF_BAD_INPUT: k is not carried, or t lies elsewhere. */
+STEIF_EXPORT int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy);
+
+/* What S has cost so far, beside the statistics of the run, which count its solves and factors. */
+typedef struct steif_sensitivity_cost {
+  int columns;
+  int tested;     /* 1: their errors are tested */
+  long sweeps;    /* of the iteration, each over all columns */
+  long jacobians; /* at stages */
+} steif_sensitivity_cost;
+STEIF_EXPORT int steif_sensitivity_costs(const steif_solver *s, steif_sensitivity_cost *cost);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

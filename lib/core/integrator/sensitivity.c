@@ -1,0 +1,181 @@
+/* sensitivity.c: derivatives by parameters beside a run: what is served, their start, and what is shown.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "integrator.h"
+#include "carry.h"
+#include <math.h>
+#include <steif/sensitivity.h>
+#include <stdio.h>
+
+/* ---- what is refused ------------------------------------------------------------------------ */
+
+#define REFUSE(condition, ...) STEIF_CHECK(!(condition), s->ctx, STEIF_UNSUPPORTED, __VA_ARGS__)
+
+static int check_method(const steif_solver *s)
+{
+  REFUSE(s->chosen, "'auto' carries no sensitivities, since it may change the method: take "
+                    "radau:s=3 or bdf:p=5");
+  REFUSE(s->engine || !s->step.method->carrier,
+         "'%s' carries no sensitivities: take collocation (radau:s=3), dirk:hw43 or bdf:p=5",
+         s->spec);
+  return STEIF_OK;
+}
+
+static int check_problem(const steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const steif_options *o = &s->options;
+  REFUSE(p->dae_index > 1,
+         "sensitivities of problem '%s' of index %d are not served: index 0 and 1", p->name,
+         p->dae_index);
+  REFUSE(
+    p->events > 0 && p->handle_event,
+    "sensitivities do not pass events with a handler such as those of problem '%s': what it "
+    "does at a time that depends on p would have to be differentiated",
+    p->name);
+  REFUSE(p->break_count > 0, "sensitivities do not pass breaks such as those of problem '%s'",
+         p->name);
+  REFUSE(p->constraint,
+         "sensitivities are not served beside the constraints of problem '%s', which "
+         "move the solution",
+         p->name);
+  REFUSE(o->reinitialise, "sensitivities do not pass options.reinitialise");
+  REFUSE(o->ewt, "sensitivities need tolerances, not options.ewt");
+  REFUSE(!s->step.system.space.serial, "sensitivities of problem '%s' need serial vectors",
+         p->name);
+  REFUSE(
+    s->repair.report.moved > 0,
+    "the start of problem '%s' was repaired, and its derivative by parameters is not known: "
+    "give a consistent start",
+    p->name);
+  return STEIF_OK;
+}
+
+static int check_parameters(const steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const steif_parameters *q = p->parameters;
+  STEIF_CHECK(q && q->count > 0 && q->value, s->ctx, STEIF_BAD_INPUT,
+              "problem '%s' has no parameters: set .parameters", p->name);
+  for (int k = 0; k < q->count; k++) {
+    STEIF_CHECK(isfinite(q->value[k]), s->ctx, STEIF_NOT_FINITE,
+                "parameter %d of problem '%s' is %g", k + 1, p->name, q->value[k]);
+    STEIF_CHECK(!q->scale || (q->scale[k] > 0 && isfinite(q->scale[k])), s->ctx,
+                STEIF_BAD_INPUT, "scale %g of parameter %d of problem '%s' must be positive",
+                q->scale[k], k + 1, p->name);
+  }
+  return STEIF_OK;
+}
+
+/* ---- opening -------------------------------------------------------------------------------- */
+
+static int choose(steif_solver *s, int count, int **parameter, sunrealtype **scale)
+{
+  const steif_options *o = &s->options;
+  const steif_parameters *q = s->problem->parameters;
+  *parameter = stf_pool_array(s->pool, (size_t)count, sizeof **parameter);
+  *scale = stf_pool_array(s->pool, (size_t)count, sizeof **scale);
+  if (!*parameter || !*scale) return STEIF_NO_MEMORY;
+  for (int i = 0; i < count; i++) {
+    const int k = o->active ? o->active[i] : i;
+    STEIF_CHECK(k >= 0 && k < q->count, s->ctx, STEIF_BAD_INPUT,
+                "active[%d] = %d must lie in 0 .. %d, the parameters of problem '%s'", i, k,
+                q->count - 1, s->problem->name);
+    for (int j = 0; j < i; j++)
+      STEIF_CHECK((*parameter)[j] != k, s->ctx, STEIF_BAD_INPUT,
+                  "active names parameter %d twice", k);
+    const sunrealtype typical = q->scale ? q->scale[k] : fabs(q->value[k]);
+    (*parameter)[i] = k, (*scale)[i] = typical > 0 ? typical : 1;
+  }
+  return STEIF_OK;
+}
+
+/* Rows of E without entries, where E applied to a vector of no particular direction is exactly 0, are equations
+ * that S fulfils at the start: A S = dF/dp. */
+static int check_start(steif_solver *s, stf_carry *T)
+{
+  const stf_step *step = &s->step;
+  N_Vector Ex = T->Y, r = T->Yp, x = T->error[0];
+  if (step->system.form == STEIF_ODE) return STEIF_OK;
+  sunrealtype *v = N_VGetArrayPointer(x);
+  for (sunindextype i = 0; i < s->problem->n; i++) v[i] = sqrt(2 + (sunrealtype)i);
+  int code = stf_carry_point(T, 0, step->t, step->y, step->yp);
+  if (!code) code = stf_matrices_at_product(&T->at, 0, 'E', x, Ex);
+  for (int k = 0; !code && k < T->count; k++) {
+    code = stf_carry_residual(T, 0, k, T->S[k], NULL, r);
+    const sunrealtype *e = N_VGetArrayPointer(Ex), *d = N_VGetArrayPointer(r),
+                      *f = N_VGetArrayPointer(T->slope[0][k]);
+    for (sunindextype i = 0; !code && i < s->problem->n; i++) {
+      char row[STEIF_SPEC_WORD];
+      STEIF_CHECK(
+        e[i] != 0 || fabs(d[i]) <= 1e-6 * fabs(f[i]) + 1e-12, s->ctx, STEIF_UNSUPPORTED,
+        "dy0/dp of parameter %d of problem '%s' does not fulfil the derivative of "
+        "algebraic equation %s (%.3g is left): give parameters.start",
+        T->parameter[k] + 1, s->problem->name, stf_equation(s->problem, i, row), d[i]);
+    }
+  }
+  return code > 0 ? steif_status(s->ctx) : code;
+}
+
+int stf_sensitivity_open(steif_solver *s)
+{
+  const steif_options *o = &s->options;
+  int *parameter;
+  sunrealtype *scale;
+  s->step.carry = NULL;
+  if (!o->sensitivities) return STEIF_OK;
+  STEIF_TRY(check_method(s));
+  STEIF_TRY(check_problem(s));
+  STEIF_TRY(check_parameters(s));
+  STEIF_CHECK(!o->active || o->active_count > 0, s->ctx, STEIF_BAD_INPUT,
+              "active_count = %d must be positive", o->active_count);
+  const int count = o->active ? o->active_count : s->problem->parameters->count;
+  STEIF_TRY(choose(s, count, &parameter, &scale));
+  stf_carry *T = stf_pool_array(s->pool, 1, sizeof *T);
+  if (!T) return STEIF_NO_MEMORY;
+  STEIF_TRY(stf_carry_open(&s->step, count, parameter, scale, T));
+  for (int k = 0; k < count; k++) {
+    const int code = steif_parameter_start(s->ctx, s->problem, parameter[k], T->S[k]);
+    if (code) return code > 0 ? steif_status(s->ctx) : code;
+    STEIF_CHECK(stf_finite(&s->step.system.space, T->S[k]), s->ctx, STEIF_NOT_FINITE,
+                "dy0/dp of parameter %d of problem '%s' is not finite", parameter[k] + 1,
+                s->problem->name);
+  }
+  STEIF_TRY(check_start(s, T));
+  s->step.carry = T;
+  return STEIF_OK;
+}
+
+/* ---- what is shown -------------------------------------------------------------------------- */
+
+int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy)
+{
+  if (!s) return STEIF_BAD_INPUT;
+  const stf_carry *T = s->step.carry;
+  STEIF_CHECK(T, s->ctx, STEIF_BAD_INPUT,
+              "this run carries no sensitivities: set options.sensitivities");
+  STEIF_CHECK(dy && N_VGetLength(dy) == s->problem->n, s->ctx, STEIF_BAD_INPUT,
+              "a vector of %lld components is needed for dy/dp", (long long)s->problem->n);
+  int i = 0;
+  while (i < T->count && T->parameter[i] != k) i++;
+  STEIF_CHECK(i < T->count, s->ctx, STEIF_BAD_INPUT,
+              "the derivative by parameter %d is not carried by this run", k);
+  const stf_step *step = &s->step;
+  const sunrealtype slack = 1e-12 * (fabs(step->t) + step->h);
+  STEIF_CHECK(t >= step->t - step->h - slack && t <= s->end + slack, s->ctx, STEIF_BAD_INPUT,
+              "t = %.17g lies outside the last step [%.17g, %.17g]", t, step->t - step->h,
+              s->end);
+  if (t != step->t) return T->carrier->dense(T, i, t, dy);
+  N_VScale(1, T->S[i], dy);
+  return STEIF_OK;
+}
+
+int steif_sensitivity_costs(const steif_solver *s, steif_sensitivity_cost *cost)
+{
+  if (!s || !cost) return STEIF_BAD_INPUT;
+  const stf_carry *T = s->step.carry;
+  *cost = (steif_sensitivity_cost){0};
+  if (!T) return STEIF_OK;
+  const bool tested = s->step.adaptive && !s->options.untested_sensitivities;
+  *cost = (steif_sensitivity_cost){T->count, tested, T->sweeps, T->at.made};
+  return STEIF_OK;
+}

@@ -1,0 +1,199 @@
+/* carry.c: the equations of a step, differentiated and solved with the factors at hand.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "carry.h"
+#include <math.h>
+
+enum { SWEEPS = 6, MOST = 40 }; /* before M is made anew, and before the step is given up */
+
+static N_Vector **columns(stf_step *s, int count, int width)
+{
+  N_Vector **v = stf_pool_array(s->pool, (size_t)count, sizeof *v);
+  for (int k = 0; v && width > 0 && k < count; k++)
+    if (!(v[k] = stf_pool_vectors(s->pool, width, s->y))) return NULL;
+  return v;
+}
+
+static int claim_columns(stf_step *s, stf_carry *T)
+{
+  const stf_carrier_size *z = &T->size;
+  T->kept = columns(s, T->count, z->kept), T->trial = columns(s, T->count, z->trial);
+  T->r = columns(s, T->count, z->stages), T->other = columns(s, T->count, z->stages);
+  T->slope = columns(s, z->points, T->count);
+  T->tolerance = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->tolerance);
+  return T->kept && T->trial && T->r && T->other && T->slope && T->tolerance ? STEIF_OK
+                                                                             : STEIF_NO_MEMORY;
+}
+
+int stf_carry_open(stf_step *s, int count, const int *parameter, const sunrealtype *scale,
+                   stf_carry *T)
+{
+  *T = (stf_carry){.step = s, .carrier = s->method->carrier, .count = count};
+  T->parameter = parameter, T->scale = scale;
+  T->size = T->carrier->size(s);
+  N_Vector **one[] = {&T->S, &T->next, &T->before, &T->error, &T->weights};
+  for (size_t i = 0; i < sizeof one / sizeof *one; i++)
+    if (!(*one[i] = stf_pool_vectors(s->pool, count, s->y))) return STEIF_NO_MEMORY;
+  N_Vector *scratch[] = {&T->work, &T->product, &T->Y, &T->Yp, &T->last, &T->last_slope};
+  for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++)
+    if (!(*scratch[i] = stf_pool_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
+  STEIF_TRY(claim_columns(s, T));
+  STEIF_TRY(stf_matrices_at_open(s->pool, &s->system, T->size.points, &T->at));
+  return stf_slopes_open(s->pool, s->ctx, s->problem, s->system.form, s->y, &T->slopes);
+}
+
+int stf_carry_point(stf_carry *T, int point, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  STEIF_TRY(stf_matrices_at_fill(&T->at, point, t, y, yp));
+  for (int k = 0; k < T->count; k++) {
+    N_Vector out = T->slope[point][k];
+    STEIF_TRY(stf_slopes_at(T->slopes, T->parameter[k], t, y, yp, out));
+    STEIF_CHECK(stf_finite(&T->step->system.space, out), T->step->ctx, STEIF_NOT_FINITE,
+                "the derivative of problem '%s' by parameter %d is not finite at t = %.12g",
+                T->step->problem->name, T->parameter[k] + 1, t);
+  }
+  return STEIF_OK;
+}
+
+int stf_carry_residual(stf_carry *T, int point, int k, N_Vector S, N_Vector slope, N_Vector out)
+{
+  const stf_space *space = &T->step->system.space;
+  STEIF_TRY(stf_matrices_at_product(&T->at, point, 'A', S, out));
+  stf_axpy(space, -1, T->slope[point][k], out);
+  if (!slope) return STEIF_OK;
+  STEIF_TRY(stf_matrices_at_product(&T->at, point, 'E', slope, T->product));
+  stf_axpy(space, -1, T->product, out);
+  return STEIF_OK;
+}
+
+static int residuals(stf_carry *T, const stf_carry_stages *g, int k)
+{
+  const stf_space *space = &T->step->system.space;
+  N_Vector *Z = T->trial[k] + g->to;
+  for (int j = 0; j < g->m; j++) {
+    N_Vector Y = Z[j];
+    stf_combine(space, g->m, g->B_over_h + j * g->m, Z, T->work);
+    if (g->offset) stf_axpy(space, 1, g->offset[k], T->work);
+    if (g->base) stf_sum(space, 1, g->base[k], 1, Z[j], Y = T->Y);
+    STEIF_TRY(stf_carry_residual(T, g->first + j, k, Y, T->work, T->r[k][j]));
+  }
+  return STEIF_OK;
+}
+
+/* One sweep over all columns, and the largest of the weighted norms of what it has moved. */
+static int sweep(stf_carry *T, const stf_carry_stages *g, sunrealtype *norm)
+{
+  stf_step *s = T->step;
+  const stf_space *space = &s->system.space;
+  for (int k = 0; k < T->count; k++) STEIF_TRY(residuals(T, g, k));
+  STEIF_TRY(T->carrier->apply(s, g->h, T->count, T->r, T->other));
+  T->sweeps++;
+  *norm = 0;
+  for (int k = 0; k < T->count; k++) {
+    sunrealtype sum = 0;
+    for (int j = 0; j < g->m; j++) {
+      const sunrealtype part = stf_norm(space, T->r[k][j], T->weights[k]);
+      stf_axpy(space, 1, T->r[k][j], T->trial[k][g->to + j]);
+      sum += part * part;
+    }
+    *norm = sum > *norm * *norm * g->m || !(sum >= 0) ? sqrt(sum / g->m) : *norm;
+  }
+  return STEIF_OK;
+}
+
+static int refuse(stf_carry *T, const stf_carry_stages *g, sunrealtype norm, sunrealtype rate)
+{
+  return STEIF_RECOVER(T->step->ctx, isfinite(norm) ? STEIF_NO_CONVERGENCE : STEIF_NOT_FINITE,
+                       "the sensitivities of problem '%s' did not converge in the step to t = "
+                       "%.12g with h = %.6g: "
+                       "the last correction is %.3g of what may be left, rate %.2g; make the "
+                       "step smaller or check "
+                       "the Jacobian",
+                       T->step->problem->name, g->t, g->h, norm, rate);
+}
+
+int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
+{
+  stf_step *s = T->step;
+  const sunrealtype newton = s->options->newton, usual = s->adaptive ? 1e-4 : 1e-3;
+  const sunrealtype tolerance = newton > 0 ? fmin(newton, usual) : usual;
+  const sunrealtype rounding = s->adaptive ? 0.01 : 1;
+  sunrealtype norm, last = 0, rate = 0;
+  bool anew = s->system.linear;
+  for (int k = 0; k < T->count; k++)
+    for (int j = 0; j < g->m; j++) stf_zero(&s->system.space, T->trial[k][g->to + j]);
+  for (int m = 1, all = 1;; m++, all++, last = norm) {
+    STEIF_TRY(sweep(T, g, &norm));
+    if (!(norm <= 1e300)) return refuse(T, g, norm, rate);
+    if (s->system.linear || norm == 0) return STEIF_OK;
+    if (m == 1) continue;
+    rate = norm / last;
+    if (rate < 1 && rate / (1 - rate) * norm <= tolerance) return STEIF_OK;
+    if (rate >= 0.5 && norm <= rounding) return STEIF_OK; /* no longer shrinks: rounding */
+    if (!anew && (rate > 0.5 || m >= SWEEPS)) {
+      STEIF_TRY(T->carrier->renew(s, g->t, g->h, g->Y, g->Yp));
+      anew = true, m = 0;
+      continue;
+    }
+    if (rate >= 1 || all >= MOST) return refuse(T, g, norm, rate);
+  }
+}
+
+/* ---- the step ----------------------------------------------------------------------------- */
+
+/* By the values at the beginning of the step, as for y; levels as for y. */
+static void weigh(stf_carry *T, sunrealtype h)
+{
+  stf_step *s = T->step;
+  const steif_options *o = s->options;
+  const sunrealtype rtol = s->adaptive ? o->rtol : 1e-10;
+  const int *index = s->problem->index;
+  for (int k = 0; k < T->count; k++) {
+    const sunrealtype *S = N_VGetArrayPointer(T->S[k]);
+    sunrealtype *w = N_VGetArrayPointer(T->weights[k]);
+    for (sunindextype i = 0; i < s->problem->n; i++) {
+      const sunrealtype given = o->atols ? o->atols[i] : o->atol,
+                        atol = s->adaptive ? given : 1e-10 * s->system.scale;
+      w[i] = 1 / (rtol * fabs(S[i]) + atol / T->scale[k]);
+      for (int level = index ? index[i] : 1; level > 1; level--) w[i] *= h;
+    }
+  }
+}
+
+int stf_carry_carry(stf_carry *T, sunrealtype h)
+{
+  stf_step *s = T->step;
+  weigh(T, h);
+  STEIF_TRY(T->carrier->carry(T, h));
+  T->relative = 0;
+  for (int k = 0; k < T->count; k++) {
+    if (!stf_finite(&s->system.space, T->next[k]))
+      return STEIF_RECOVER(
+        s->ctx, STEIF_NOT_FINITE,
+        "the derivative of problem '%s' by parameter %d is not finite in the "
+        "step from t = %.12g with h = %.6g",
+        s->problem->name, T->parameter[k] + 1, s->t, h);
+    if (!s->adaptive) continue;
+    const sunrealtype e =
+      stf_norm(&s->system.space, T->error[k], T->weights[k]) / T->tolerance[k];
+    if (!(e <= T->relative)) T->relative = e;
+  }
+  return STEIF_OK;
+}
+
+static void exchange(N_Vector **a, N_Vector **b)
+{
+  N_Vector *c = *a;
+  *a = *b, *b = c;
+}
+
+void stf_carry_commit(stf_carry *T)
+{
+  if (T->carrier->commit) {
+    T->carrier->commit(T);
+    return;
+  }
+  exchange(&T->before, &T->S);
+  exchange(&T->S, &T->next);
+  N_Vector **trial = T->trial;
+  T->trial = T->kept, T->kept = trial;
+}

@@ -1,0 +1,77 @@
+/* carry.h: S = dy/dp carried through the steps of y: the derivative of the numbers that a step computes, its
+ * length, order and coefficients held.
+ *
+ * A step solves F(t_j, Y_j, Y_j') = 0 with Y_j = base_j + Z_j, Y_j' = offset_j + (1/h) sum_m B_jm Z_m.
+ * Column k of S, all matrices at the stages as they have come out (E = F_y', A = -F_y):
+ *   sum_m (B_jm/h E_j - delta_jm A_j) dZ_m = A_j dbase_j - E_j doffset_j - F_p,j.
+ * It is solved by dZ <- dZ + M^{-1} (right side - left side), M what Newton's iteration has in factors: all
+ * columns at once, until what is left is below Newton's tolerance for columns whose entries are weighted by
+ * 1 / (rtol |S_ik| + atol_i / scale_k). Where that is slow, M is made anew at the last stage.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_CARRY_H
+#define STF_CARRY_H
+
+#include "method.h"
+#include "stage_polynomial.h"
+
+typedef struct stf_carry {
+  stf_step *step;
+  const stf_carrier *carrier;
+  stf_carrier_size size;
+  int count;                /* columns */
+  const int *parameter;     /* of each, from 0 */
+  const sunrealtype *scale; /* of each */
+  N_Vector *S, *next, *before;
+  N_Vector *error, *weights; /* of each column */
+  sunrealtype *tolerance;    /* of the norm of each error */
+  N_Vector **kept, **trial;  /* what the method keeps of each column, and of the attempt */
+  N_Vector **r, **other;     /* right-hand sides of the sweeps */
+  N_Vector **slope;          /* dF/dp, by points and columns */
+  N_Vector work, product, Y, Yp;
+  N_Vector last, last_slope; /* the last stage */
+  stf_matrices_at at;
+  stf_slopes *slopes;
+  sunrealtype relative; /* the largest error of a column, in tolerances */
+  long sweeps;
+} stf_carry;
+
+/* Equations of m stages, at points first .. first + m - 1. */
+typedef struct stf_carry_stages {
+  int first, m;
+  sunrealtype t, h;            /* for M, should it be made anew ... */
+  N_Vector Y, Yp;              /* ... at t with these */
+  const sunrealtype *B_over_h; /* m x m */
+  N_Vector *base, *offset;     /* of each column, for all stages; NULL: zero */
+  int to;                      /* dZ are trial[k][to] .. trial[k][to + m - 1] */
+} stf_carry_stages;
+
+/* Columns that start from S, filled in by the caller. */
+int stf_carry_open(stf_step *s, int count, const int *parameter, const sunrealtype *scale,
+                   stf_carry *T);
+/* Matrices and dF/dp at (t, y, yp). */
+int stf_carry_point(stf_carry *T, int point, sunrealtype t, N_Vector y, N_Vector yp);
+/* STEIF_RETRY where the sweeps do not converge. */
+int stf_carry_solve(stf_carry *T, const stf_carry_stages *g);
+/* out = A S - E S' - F_p of column k at a point; S' NULL: 0. */
+int stf_carry_residual(stf_carry *T, int point, int k, N_Vector S, N_Vector slope,
+                       N_Vector out);
+
+/* After an attempt that has succeeded: columns at its end in T->next, and T->relative. */
+int stf_carry_carry(stf_carry *T, sunrealtype h);
+/* After the commit of the method. */
+void stf_carry_commit(stf_carry *T);
+
+/* What collocation methods share (carry_collocation.c): a step as it has been solved. */
+typedef struct stf_collocation_stages {
+  const stf_stage_polynomial *u;
+  const sunrealtype *B_over_h;
+  const stf_estimate *estimate;
+  bool oscillates;
+  N_Vector *Z; /* stages relative to y */
+  /* v := (lambda/h E - A)^{-1} v as in the estimate of y. */
+  int (*filter)(stf_step *s, sunrealtype h, N_Vector v);
+} stf_collocation_stages;
+int stf_carry_collocation(stf_carry *T, sunrealtype h, const stf_collocation_stages *c);
+
+#endif

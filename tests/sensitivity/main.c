@@ -1,0 +1,9 @@
+/* main.c: the tests of derivatives by parameters.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_forward[], tests_of_same_mesh[], tests_of_sensitivity_input[];
+
+SUITE_MAIN({.pName = "forward", .pTests = tests_of_forward},
+           {.pName = "same mesh", .pTests = tests_of_same_mesh},
+           {.pName = "input", .pTests = tests_of_sensitivity_input})

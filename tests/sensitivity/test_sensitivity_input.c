@@ -1,0 +1,141 @@
+/* test_sensitivity_input.c: what is refused, and memory.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/failing.h"
+#include "forcing.h"
+#include <string.h>
+
+static void refused(steif_context *ctx, const steif_problem *p, const char *method,
+                    const steif_options *o, int code, const char *part)
+{
+  steif_solver *s = steif_solver_new(ctx, p, method, o);
+  CHECK(!s && steif_status(ctx) == code);
+  const int said = strstr(steif_message(ctx), part) != NULL;
+  if (!said) printf("\n  %s: no '%s' in '%s'", method, part, steif_message(ctx));
+  CHECK(said);
+  steif_solver_free(&s);
+}
+
+static int handler(sunrealtype t, N_Vector y, const int *fired, void *user)
+{
+  (void)t, (void)y, (void)fired, (void)user;
+  return STEIF_CONTINUE;
+}
+
+static int values(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
+{
+  (void)t, (void)user;
+  value[0] = NV_Ith_S(y, 0) - 1;
+  return 0;
+}
+
+static void other_families_are_refused(void)
+{
+  static const char *const methods[] = {"rodas4", "dopri87", "cvode", "glm:irks,p=2",
+                                        "exprb43"};
+  steif_context *ctx = steif_context_new(NULL);
+  struct forcing F;
+  steif_options o = steif_defaults();
+  forcing_open(&F, 0);
+  o.sensitivities = 1;
+  for (int i = 0; i < 5; i++)
+    refused(ctx, &F.problem, methods[i], &o, STEIF_UNSUPPORTED, methods[i]);
+  refused(ctx, &F.problem, "auto", &o, STEIF_UNSUPPORTED, "auto");
+  steif_context_free(&ctx);
+}
+
+static void other_problems_are_refused(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  struct forcing F;
+  const sunrealtype breaks[] = {1};
+  const int positive[] = {1};
+  steif_options o = steif_defaults();
+  o.sensitivities = 1;
+  forcing_open(&F, 0);
+  F.problem.events = 1, F.problem.event = values, F.problem.handle_event = handler;
+  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_UNSUPPORTED, "handler");
+  forcing_open(&F, 0);
+  F.problem.breaks = breaks, F.problem.break_count = 1;
+  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_UNSUPPORTED, "breaks");
+  forcing_open(&F, 0);
+  F.problem.constraint = positive;
+  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_UNSUPPORTED, "constraints");
+  forcing_open(&F, 0);
+  F.problem.parameters = NULL;
+  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_BAD_INPUT, "no parameters");
+  forcing_open(&F, 0);
+  F.p[2] = NAN;
+  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_NOT_FINITE, "parameter 3");
+  steif_context_free(&ctx);
+}
+
+static void wrong_columns_are_refused(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  struct forcing F;
+  const int twice[] = {1, 1}, beyond[] = {3}, one[] = {2};
+  steif_options o = steif_defaults();
+  forcing_open(&F, 0);
+  o.sensitivities = 1, o.active = twice, o.active_count = 2;
+  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_BAD_INPUT, "twice");
+  o.active = beyond, o.active_count = 1;
+  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_BAD_INPUT, "0 .. 2");
+  o.active = one;
+  steif_solver *s = steif_solver_new(ctx, &F.problem, "radau:s=3", &o);
+  CU_ASSERT_FATAL(s && !steif_solve_to(s, 1));
+  N_Vector d = N_VClone(steif_solution(s));
+  CHECK(!steif_sensitivity(s, 1, 2, d));
+  CLOSE(NV_Ith_S(d, 0), exp(-1), 1e-6);
+  CHECK(steif_sensitivity(s, 1, 0, d) == STEIF_BAD_INPUT);
+  CHECK(steif_sensitivity(s, 19, 2, d) == STEIF_BAD_INPUT);
+  CHECK(steif_sensitivity(s, 1, 2, NULL) == STEIF_BAD_INPUT);
+  CHECK(steif_sensitivity(NULL, 1, 2, d) == STEIF_BAD_INPUT);
+  CHECK(steif_checkpoint_save(s, "never.steif", NULL, 0) == STEIF_UNSUPPORTED);
+  CHECK(steif_solver_restart(s, 0, d, NULL, NULL, NULL) == STEIF_UNSUPPORTED);
+  N_VDestroy(d);
+  steif_solver_free(&s);
+  steif_context_free(&ctx);
+}
+
+static int life(steif_context *ctx, const char *method, failing *memory)
+{
+  struct forcing F;
+  steif_options o = steif_defaults();
+  forcing_open(&F, 1);
+  F.p[1] = 1, F.problem.linear = 0;
+  o.sensitivities = 1, o.t1 = 1;
+  steif_solver *s = steif_solver_new(ctx, &F.problem, method, &o);
+  int code = s ? steif_solve_step(s) : steif_status(ctx);
+  const long before = memory->served;
+  if (!code) code = steif_solve_to(s, 1);
+  if (!code) CHECK(memory->served == before);
+  steif_solver_free(&s);
+  return code;
+}
+
+static void memory_may_fail_anywhere(void)
+{
+  static const char *const methods[] = {"radau:s=3"};
+  for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+    for (long k = 1;; k++) {
+      failing memory = {.refuse_at = k};
+      steif_setup setup = failing_setup(&memory);
+      setup.threads = 1;
+      steif_context *ctx = steif_context_new(&setup);
+      const int code = ctx ? life(ctx, methods[m], &memory) : STEIF_NO_MEMORY;
+      steif_context_free(&ctx);
+      CHECK(memory.alive == 0);
+      if (memory.served < k) {
+        CHECK(code == STEIF_OK && k > 20);
+        break;
+      }
+      CHECK(code == STEIF_NO_MEMORY);
+    }
+}
+
+CU_TestInfo tests_of_sensitivity_input[] = {
+  {"other families are refused", other_families_are_refused},
+  {"other problems are refused", other_problems_are_refused},
+  {"wrong columns are refused", wrong_columns_are_refused},
+  {"memory may fail anywhere, and none is taken while stepping", memory_may_fail_anywhere},
+  CU_TEST_INFO_NULL};
