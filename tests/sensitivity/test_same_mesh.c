@@ -71,6 +71,8 @@ static void agree_with_differences(void)
     agree("rober:form=mass", methods[m], 40);
     agree("rober", methods[m], 25);
   }
+  agree("rober", "dirk:esdirk43", 40);
+  agree("rober", "dirk:esdirk43", 25);
 }
 
 CU_TestInfo tests_of_same_mesh[] = {

@@ -115,7 +115,7 @@ static int life(steif_context *ctx, const char *method, failing *memory)
 
 static void memory_may_fail_anywhere(void)
 {
-  static const char *const methods[] = {"radau:s=3"};
+  static const char *const methods[] = {"radau:s=3", "bdf", "dirk:hw43", "dirk:esdirk43"};
   for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
     for (long k = 1;; k++) {
       failing memory = {.refuse_at = k};

@@ -13,6 +13,7 @@
  * the solution is smooth.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "carry.h"
 #include "method.h"
 #include <math.h>
 #include <string.h>
@@ -116,6 +117,13 @@ static int halves(stf_step *s, sunrealtype h)
   return STEIF_OK;
 }
 
+/* Derivatives by parameters begin without slopes. */
+static bool in_halves(const stf_step *s)
+{
+  const state *e = s->state;
+  return e->points == 1 && (!s->yp_known || s->options->sensitivities);
+}
+
 /* Orders above 2 amplify oscillations whose frequency times h is of size 1; where the fastest are
  * beyond, slower ones are there. */
 static int find_oscillation(stf_step *s)
@@ -152,7 +160,7 @@ static int attempt(stf_step *s, sunrealtype h)
   if (e->k <= 2 && h < CLOCK * STF_EPS * fabs(s->t))
     s->control.tolerance = fmax(s->control.tolerance, first);
   stf_share_newton(s, rounding);
-  if (e->points == 1 && !s->yp_known) return halves(s, h);
+  if (in_halves(s)) return halves(s, h);
   predict(s, h);
   STEIF_TRY(solve(s, h));
   if (s->system.nje != e->omega_of) STEIF_TRY(find_oscillation(s));
@@ -161,17 +169,47 @@ static int attempt(stf_step *s, sunrealtype h)
   return STEIF_OK;
 }
 
-/* Norm of the error of order k, in units of what is allowed, for the step just solved. */
-static sunrealtype error_at(stf_step *s, int k)
+/* e->other := the error of order k for the step just made from `past` to `next`. */
+static void error_of(stf_step *s, int k, N_Vector *past, N_Vector next)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
   sunrealtype weight[POINTS];
   const sunrealtype t = s->t + s->h_try, scale = s->h_try / (t - e->t[k]);
   extrapolate(e, k + 1, t, weight);
-  stf_combine(space, k + 1, weight, e->y, e->other);
-  stf_sum(space, scale, s->next, -scale, e->other, e->other);
-  return stf_norm(space, e->other, s->weights) / e->allowed[k];
+  stf_combine(space, k + 1, weight, past, e->other);
+  stf_sum(space, scale, next, -scale, e->other, e->other);
+}
+
+static const stf_carry *tested(const stf_step *s)
+{
+  return s->options->untested_sensitivities ? NULL : s->carry;
+}
+
+/* Its norm in units of what is allowed, the largest of y and its derivatives. */
+static sunrealtype error_at(stf_step *s, int k)
+{
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const stf_carry *T = tested(s);
+  error_of(s, k, e->y, s->next);
+  sunrealtype most = stf_norm(space, e->other, s->weights);
+  for (int i = 0; T && i < T->count; i++) {
+    error_of(s, k, T->kept[i], T->next[i]);
+    most = fmax(most, stf_norm(space, e->other, T->weights[i]));
+  }
+  return most / e->allowed[k];
+}
+
+/* The same of the step's own order. */
+static sunrealtype error_now(const stf_step *s)
+{
+  const state *e = s->state;
+  const stf_carry *T = tested(s);
+  sunrealtype most = stf_norm(&s->system.space, s->error, s->weights);
+  for (int i = 0; T && i < T->count; i++)
+    most = fmax(most, stf_norm(&s->system.space, T->error[i], T->weights[i]));
+  return most / e->allowed[e->k];
 }
 
 static sunrealtype step_factor(sunrealtype bias, sunrealtype error, int k)
@@ -185,8 +223,7 @@ static void choose(stf_step *s)
   state *e = s->state;
   const int k = e->k;
   const sunrealtype cap = s->options->h_max > 0 ? s->options->h_max / s->h_try : INFINITY;
-  const sunrealtype now = stf_norm(&s->system.space, s->error, s->weights);
-  sunrealtype best = step_factor(6, now / e->allowed[k], k);
+  sunrealtype best = step_factor(6, error_now(s), k);
   int order = k;
   if (--e->wait <= 0) {
     const sunrealtype lower = k > 1 ? step_factor(6, error_at(s, k - 1), k - 1) : 0;
@@ -232,6 +269,71 @@ static int dense(const stf_step *s, sunrealtype t, N_Vector y)
   stf_combine(&s->system.space, e->last + 1, weight, e->y, y);
   return STEIF_OK;
 }
+
+/* ---- derivatives by parameters --------------------------------------------------------------------- */
+
+static stf_carrier_size sizes(const stf_step *s)
+{
+  (void)s;
+  return (stf_carrier_size){1, 1, POINTS + 1, 1};
+}
+
+/* T->before: the point between them. */
+static int carry_halves(stf_carry *T, sunrealtype h)
+{
+  stf_step *s = T->step;
+  state *e = s->state;
+  const sunrealtype d = h / 2, c[] = {1, -2, 1};
+  STEIF_TRY(stf_carry_bdf(T, 0, s->t, d, 1, e->alpha, &s->y, e->other));
+  for (int k = 0; k < T->count; k++) {
+    stf_copy(&s->system.space, T->next[k], T->before[k]);
+    T->kept[k][0] = T->before[k];
+  }
+  const int code = stf_carry_bdf(T, 0, s->t + d, d, 1, e->alpha, &e->other, s->next);
+  for (int k = 0; k < T->count; k++) {
+    N_Vector v[] = {T->next[k], T->before[k], T->S[k]};
+    T->kept[k][0] = T->S[k];
+    if (!code) stf_combine(&s->system.space, 3, c, v, T->error[k]);
+  }
+  return code;
+}
+
+static int carry(stf_carry *T, sunrealtype h)
+{
+  stf_step *s = T->step;
+  state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const bool halved = in_halves(s);
+  sunrealtype weight[POINTS];
+  STEIF_TRY(halved ? carry_halves(T, h)
+                   : stf_carry_bdf(T, 0, s->t, h, e->k, e->alpha, e->y, s->next));
+  const int count = e->points < e->k + 1 ? e->points : e->k + 1;
+  const sunrealtype span = e->points > e->k ? s->t + h - e->t[e->k] : 2 * h;
+  if (!halved) extrapolate(e, count, s->t + h, weight);
+  for (int k = 0; k < T->count; k++) {
+    T->tolerance[k] = s->control.tolerance;
+    if (halved) continue;
+    stf_combine(space, count, weight, T->kept[k], T->error[k]);
+    stf_sum(space, h / span, T->next[k], -h / span, T->error[k], T->error[k]);
+  }
+  return STEIF_OK;
+}
+
+static int carried_dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)
+{
+  const state *e = T->step->state;
+  sunrealtype weight[POINTS];
+  extrapolate(e, e->last + 1, t, weight);
+  stf_combine(&T->step->system.space, e->last + 1, weight, T->kept[k], S);
+  return STEIF_OK;
+}
+
+static const stf_carrier carrier = {.size = sizes,
+                                    .carry = carry,
+                                    .apply = stf_newton_carry_apply,
+                                    .renew = stf_newton_carry_renew,
+                                    .commit = stf_carry_bdf_commit,
+                                    .dense = carried_dense};
 
 static void keep(stf_step *s, stf_image *m)
 {
@@ -322,4 +424,5 @@ const steif_method steif_method_bdf_adaptive = {
   .commit = commit,
   .dense = dense,
   .keep = keep,
+  .carrier = &carrier,
 };

@@ -68,6 +68,7 @@ typedef struct stf_carrier_size {
     trial; /* vectors of a column that are kept, and that an attempt fills; equal without commit */
 } stf_carrier_size;
 typedef struct stf_carrier {
+  int (*check)(const stf_step *s); /* NULL: all that the family takes is served */
   stf_carrier_size (*size)(const stf_step *s);
   /* From T->S to T->next through the attempt just made, whose stages are there; with adaptive steps T->error
    * and T->tolerance too. */

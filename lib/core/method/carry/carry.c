@@ -29,6 +29,7 @@ int stf_carry_open(stf_step *s, int count, const int *parameter, const sunrealty
 {
   *T = (stf_carry){.step = s, .carrier = s->method->carrier, .count = count};
   T->parameter = parameter, T->scale = scale;
+  if (T->carrier->check) STEIF_TRY(T->carrier->check(s));
   T->size = T->carrier->size(s);
   N_Vector **one[] = {&T->S, &T->next, &T->before, &T->error, &T->weights};
   for (size_t i = 0; i < sizeof one / sizeof *one; i++)
@@ -37,6 +38,7 @@ int stf_carry_open(stf_step *s, int count, const int *parameter, const sunrealty
   for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++)
     if (!(*scratch[i] = stf_pool_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
   STEIF_TRY(claim_columns(s, T));
+  for (int k = 0; T->carrier->commit && k < count; k++) T->kept[k][0] = T->S[k];
   STEIF_TRY(stf_matrices_at_open(s->pool, &s->system, T->size.points, &T->at));
   return stf_slopes_open(s->pool, s->ctx, s->problem, s->system.form, s->y, &T->slopes);
 }
@@ -111,13 +113,14 @@ static int refuse(stf_carry *T, const stf_carry_stages *g, sunrealtype norm, sun
                        T->step->problem->name, g->t, g->h, norm, rate);
 }
 
+/* Corrections that no longer shrink are rounding, where they are small: more of it in columns whose entries are
+ * differences of large numbers, as is seen when M is that of the step. */
 int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
 {
   stf_step *s = T->step;
-  const sunrealtype newton = s->options->newton, usual = s->adaptive ? 1e-4 : 1e-3;
-  const sunrealtype tolerance = newton > 0 ? fmin(newton, usual) : usual;
-  const sunrealtype rounding = s->adaptive ? 0.01 : 1;
+  const sunrealtype tolerance = fmin(s->newton.tolerance, s->adaptive ? 1e-4 : 1e-3);
   sunrealtype norm, last = 0, rate = 0;
+  const sunrealtype of_columns = s->adaptive ? 0.01 : 1;
   bool anew = s->system.linear;
   for (int k = 0; k < T->count; k++)
     for (int j = 0; j < g->m; j++) stf_zero(&s->system.space, T->trial[k][g->to + j]);
@@ -128,7 +131,7 @@ int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
     if (m == 1) continue;
     rate = norm / last;
     if (rate < 1 && rate / (1 - rate) * norm <= tolerance) return STEIF_OK;
-    if (rate >= 0.5 && norm <= rounding) return STEIF_OK; /* no longer shrinks: rounding */
+    if (rate >= 0.5 && norm <= (anew ? of_columns : s->newton.rounding)) return STEIF_OK;
     if (!anew && (rate > 0.5 || m >= SWEEPS)) {
       STEIF_TRY(T->carrier->renew(s, g->t, g->h, g->Y, g->Yp));
       anew = true, m = 0;

@@ -74,4 +74,11 @@ typedef struct stf_collocation_stages {
 } stf_collocation_stages;
 int stf_carry_collocation(stf_carry *T, sunrealtype h, const stf_collocation_stages *c);
 
+/* A step of BDF from t to y at t + h with coefficients alpha of past values y_n, y_{n-1}, ... of y, and of S in
+ * T->kept; then T->next is the derivative. */
+enum { STF_CARRY_PAST = 8 };
+int stf_carry_bdf(stf_carry *T, int point, sunrealtype t, sunrealtype h, int order,
+                  const sunrealtype *alpha, N_Vector *past, N_Vector y);
+void stf_carry_bdf_commit(stf_carry *T);
+
 #endif

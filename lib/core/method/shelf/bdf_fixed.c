@@ -12,6 +12,7 @@
  *             for K(s) = (s E + F)^{-1}; descriptor form and equal steps only
  *
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "carry.h"
 #include "method.h"
 #include <math.h>
 #include <stdio.h>
@@ -246,6 +247,43 @@ static void keep(stf_step *s, stf_image *m)
   STF_KEEP(m, e->last);
 }
 
+static stf_carrier_size sizes(const stf_step *s)
+{
+  const state *e = s->state;
+  return (stf_carrier_size){1, 1, e->p + 2, 1};
+}
+
+static int check_carry(const stf_step *s)
+{
+  const state *e = s->state;
+  STEIF_CHECK(e->start == RAMP, s->ctx, STEIF_UNSUPPORTED,
+              "sensitivities of BDF are carried from start=ramp only");
+  return STEIF_OK;
+}
+
+static int carry(stf_carry *T, sunrealtype h)
+{
+  state *e = T->step->state;
+  return stf_carry_bdf(T, 0, T->step->t, h, e->k, e->alpha, e->y, T->step->next);
+}
+
+static int carried_dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)
+{
+  const state *e = T->step->state;
+  sunrealtype value[HIGHEST + 2];
+  stf_interpolate(e->last, e->t, t, value);
+  stf_combine(&T->step->system.space, e->last + 1, value, T->kept[k], S);
+  return STEIF_OK;
+}
+
+static const stf_carrier carrier = {.check = check_carry,
+                                    .size = sizes,
+                                    .carry = carry,
+                                    .apply = stf_newton_carry_apply,
+                                    .renew = stf_newton_carry_renew,
+                                    .commit = stf_carry_bdf_commit,
+                                    .dense = carried_dense};
+
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
@@ -328,4 +366,5 @@ const steif_method steif_method_bdf_fixed = {
   .propagator = propagator,
   .describe = describe,
   .general = general,
+  .carrier = &carrier,
 };

@@ -5,6 +5,7 @@
  * 0. Error estimate: h sum (b_i - bhat_i) K_i filtered by (E/(gamma h) - A)^{-1} E/(gamma h).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "carry.h"
 #include "stage_chain.h"
 
 typedef struct state {
@@ -103,22 +104,29 @@ static void commit(stf_step *s)
 
 /* Both end values, the slope at the end (last stage of a stiffly accurate method) and the slope
  * at the start (explicit first stage): of degree 1 to 3, as many as the method gives. */
-static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+static int polynomial(const stf_step *s, sunrealtype t, N_Vector before, N_Vector y,
+                      N_Vector *K, N_Vector out)
 {
   const state *e = s->state;
   const sunrealtype x = (t - (s->t - s->h)) / s->h, u = 1 - x;
   if (!e->accurate || !e->first) {
     const sunrealtype end = e->accurate ? 1 : 0,
                       c[] = {u * (1 - end * x), x * (1 + end * u), -s->h * x * u * end};
-    N_Vector v[] = {e->before, s->y, e->old[e->s - 1]};
-    stf_combine(&s->system.space, 3, c, v, y);
+    N_Vector v[] = {before, y, K[e->s - 1]};
+    stf_combine(&s->system.space, 3, c, v, out);
     return STEIF_OK;
   }
   const sunrealtype c[] = {u * u * (1 + 2 * x), x * x * (1 + 2 * u), s->h * x * u * u,
                            -s->h * x * x * u};
-  N_Vector v[] = {e->before, s->y, e->old[0], e->old[e->s - 1]};
-  stf_combine(&s->system.space, 4, c, v, y);
+  N_Vector v[] = {before, y, K[0], K[e->s - 1]};
+  stf_combine(&s->system.space, 4, c, v, out);
   return STEIF_OK;
+}
+
+static int dense(const stf_step *s, sunrealtype t, N_Vector y)
+{
+  const state *e = s->state;
+  return polynomial(s, t, e->before, s->y, e->old, y);
 }
 
 static int stages(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
@@ -137,6 +145,114 @@ static void keep(stf_step *s, stf_image *m)
   stf_keep_vector(m, e->before);
   STF_KEEP(m, e->stepped);
 }
+
+/* ---- derivatives by parameters: trial and kept hold those of the slopes K ------------------------ */
+
+static stf_carrier_size sizes(const stf_step *s)
+{
+  const state *e = s->state;
+  return (stf_carrier_size){e->s, 1, e->s, e->s};
+}
+
+/* Explicit: that of the last slope, or at the beginning of y' = f itself; point 0 is the start. */
+static int first_slope(stf_carry *T)
+{
+  stf_step *s = T->step;
+  const state *e = s->state;
+  if (!e->stepped) STEIF_TRY(stf_carry_point(T, 0, s->t, s->y, s->yp));
+  for (int k = 0; k < T->count; k++)
+    if (e->stepped)
+      stf_copy(&s->system.space, T->kept[k][e->s - 1], T->trial[k][0]);
+    else
+      STEIF_TRY(stf_carry_residual(T, 0, k, T->S[k], NULL, T->trial[k][0]));
+  return STEIF_OK;
+}
+
+static int carry_stage(stf_carry *T, sunrealtype h, int i)
+{
+  stf_step *s = T->step;
+  const state *e = s->state;
+  const stf_space *space = &s->system.space;
+  const sunrealtype shift = 1 / (e->chain.gamma * h), t = s->t + e->table->c[i] * h;
+  N_Vector Y = e->chain.X[i], Yp = e->chain.K[i];
+  STEIF_TRY(stf_carry_point(T, i, t, Y, Yp));
+  for (int k = 0; k < T->count; k++) {
+    stf_combine(space, i, e->table->A + i * e->s, T->trial[k], T->next[k]);
+    stf_sum(space, 1, T->S[k], h, T->next[k], T->next[k]);
+  }
+  const stf_carry_stages g = {.first = i,
+                              .m = 1,
+                              .t = t,
+                              .h = h,
+                              .Y = Y,
+                              .Yp = Yp,
+                              .B_over_h = &shift,
+                              .base = T->next,
+                              .to = i};
+  STEIF_TRY(stf_carry_solve(T, &g));
+  for (int k = 0; k < T->count; k++) stf_scale(space, shift, T->trial[k][i], T->trial[k][i]);
+  return STEIF_OK;
+}
+
+static int carry_estimate(stf_carry *T, sunrealtype h, int k)
+{
+  stf_step *s = T->step;
+  const state *e = s->state;
+  const stf_space *space = &s->system.space;
+  sunrealtype weight[STEIF_STAGES];
+  for (int i = 0; i < e->s; i++)
+    weight[i] = (e->table->b[i] - e->table->bhat[i]) / e->chain.gamma;
+  stf_combine(space, e->s, weight, T->trial[k], T->error[k]);
+  for (int round = 0; round < 1 + e->accurate; round++) {
+    if (round) stf_scale(space, 1 / (e->chain.gamma * h), T->error[k], T->error[k]);
+    STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', T->error[k], T->work));
+    stf_copy(space, T->work, T->error[k]);
+    STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &T->error[k], NULL));
+  }
+  T->tolerance[k] = s->control.tolerance;
+  return STEIF_OK;
+}
+
+static int carry(stf_carry *T, sunrealtype h)
+{
+  stf_step *s = T->step;
+  const state *e = s->state;
+  const stf_space *space = &s->system.space;
+  if (e->first) STEIF_TRY(first_slope(T));
+  for (int i = e->first; i < e->s; i++) STEIF_TRY(carry_stage(T, h, i));
+  const sunrealtype *b = e->accurate ? e->table->A + (e->s - 1) * e->s : e->table->b;
+  for (int k = 0; k < T->count; k++) {
+    stf_combine(space, e->s, b, T->trial[k], T->next[k]);
+    stf_sum(space, 1, T->S[k], h, T->next[k], T->next[k]);
+    if (s->adaptive) STEIF_TRY(carry_estimate(T, h, k));
+  }
+  return STEIF_OK;
+}
+
+static int carried_dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)
+{
+  return polynomial(T->step, t, T->before[k], T->S[k], T->kept[k], S);
+}
+
+static int check_carry(const stf_step *s)
+{
+  const state *e = s->state;
+  STEIF_CHECK(
+    !e->first || s->system.form == STEIF_ODE, s->ctx, STEIF_UNSUPPORTED,
+    "'dirk:%s' begins with y'(t0), whose derivative by parameters is known for y' = f "
+    "only: take dirk:hw43 or radau:s=3 for problem '%s'",
+    e->table->name, s->problem->name);
+  STEIF_CHECK(e->chain.gamma > 0, s->ctx, STEIF_UNSUPPORTED,
+              "'dirk:%s' is explicit and carries no sensitivities", e->table->name);
+  return STEIF_OK;
+}
+
+static const stf_carrier carrier = {.check = check_carry,
+                                    .size = sizes,
+                                    .carry = carry,
+                                    .apply = stf_newton_carry_apply,
+                                    .renew = stf_newton_carry_renew,
+                                    .dense = carried_dense};
 
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
@@ -176,4 +292,5 @@ const steif_method steif_method_dirk = {
   .keep = keep,
   .propagator = propagator,
   .describe = describe,
+  .carrier = &carrier,
 };
