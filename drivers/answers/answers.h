@@ -4,7 +4,7 @@
 #ifndef ANSWERS_H
 #define ANSWERS_H
 
-#include "program.h"
+#include "integration.h"
 
 /* Rows of the sheet "methods". */
 void report_methods(steif_report *r, const struct call *call);
@@ -50,6 +50,28 @@ struct counterexample_answer {
   double *t, *x, *exact;
 };
 int counterexample_present(const struct call *call, const struct counterexample_answer *a);
+
+/* S = dy/dp: rows of t, y and the columns of S one after another, `width` numbers each. */
+enum { SENSITIVITIES = 64 };
+struct sensitivity_answer {
+  const steif_problem *problem;
+  steif_options options;
+  int count, active[SENSITIVITIES];
+  size_t shown, width;
+  double *value;
+  double *mesh; /* of the run, where it is to be checked */
+  size_t times, room;
+  outcome outcome;
+  steif_sensitivity_cost cost;
+  bool checked;
+  double disagreement;
+};
+/* --parameters; the run, and what it shows: exit codes after a sentence. */
+int sensitivity_choose(struct call *call, struct sensitivity_answer *a);
+int sensitivity_measure(struct call *call, struct sensitivity_answer *a);
+int sensitivity_present(struct call *call, const struct sensitivity_answer *a);
+double sensitivity_scale(const struct sensitivity_answer *a, int i);
+void sensitivity_close(struct sensitivity_answer *a);
 
 struct energy_answer {
   const steif_problem *problem;

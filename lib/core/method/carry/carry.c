@@ -113,14 +113,19 @@ static int refuse(stf_carry *T, const stf_carry_stages *g, sunrealtype norm, sun
                        T->step->problem->name, g->t, g->h, norm, rate);
 }
 
-/* Corrections that no longer shrink are rounding, where they are small: more of it in columns whose entries are
- * differences of large numbers, as is seen when M is that of the step. */
+/* Corrections of this size that no longer shrink, with M of the step, are rounding: more of it in columns whose
+ * entries are differences of large numbers, as is seen where sweeps have converged before. */
+static bool at_rounding(const stf_carry *T, sunrealtype norm, sunrealtype first)
+{
+  const bool adaptive = T->step->adaptive, converged = norm <= 1e-6 * first;
+  return norm <= (adaptive ? converged ? 0.1 : 0.01 : converged ? 100 : 1);
+}
+
 int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
 {
   stf_step *s = T->step;
   const sunrealtype tolerance = fmin(s->newton.tolerance, s->adaptive ? 1e-4 : 1e-3);
-  sunrealtype norm, last = 0, rate = 0;
-  const sunrealtype of_columns = s->adaptive ? 0.01 : 1;
+  sunrealtype norm, first = 0, last = 0, rate = 0;
   bool anew = s->system.linear;
   for (int k = 0; k < T->count; k++)
     for (int j = 0; j < g->m; j++) stf_zero(&s->system.space, T->trial[k][g->to + j]);
@@ -128,10 +133,12 @@ int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
     STEIF_TRY(sweep(T, g, &norm));
     if (!(norm <= 1e300)) return refuse(T, g, norm, rate);
     if (s->system.linear || norm == 0) return STEIF_OK;
+    first = fmax(first, norm);
     if (m == 1) continue;
     rate = norm / last;
     if (rate < 1 && rate / (1 - rate) * norm <= tolerance) return STEIF_OK;
-    if (rate >= 0.5 && norm <= (anew ? of_columns : s->newton.rounding)) return STEIF_OK;
+    if (rate >= 0.5 && (anew ? at_rounding(T, norm, first) : norm <= s->newton.rounding))
+      return STEIF_OK;
     if (!anew && (rate > 0.5 || m >= SWEEPS)) {
       STEIF_TRY(T->carrier->renew(s, g->t, g->h, g->Y, g->Yp));
       anew = true, m = 0;

@@ -1,0 +1,37 @@
+/* sensitivity.c: derivatives of a solution by parameters.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "answers.h"
+#include "integration.h"
+
+static int find(struct call *call, const steif_problem *p)
+{
+  struct sensitivity_answer a = {.problem = p, .options = options_of(call)};
+  if (a.options.t1 == 0) a.options.t1 = p->t1;
+  int code = sensitivity_choose(call, &a);
+  if (!code) code = sensitivity_measure(call, &a);
+  sensitivity_close(&a);
+  return code;
+}
+
+static int run(struct call *call) { return with_problem(call, find); }
+
+static const struct option options[] = {
+  {"--parameters", WORD, "P,...", "names of the parameters, or all", "all"},
+  {"--points", COUNT, "N", "times shown, at equal distances to the end", "1"},
+  {"--check", FLAG, NULL, "compare with differences of runs on the same mesh", NULL},
+  {"--rtol", POSITIVE, "R", "relative tolerance of y and of its derivatives", "1e-6"},
+  {"--atol", POSITIVE, "A", "absolute tolerance (default: R times the problem's scale)", NULL},
+  {"--h", POSITIVE, "H", "constant step size instead", NULL},
+  RUN_OPTIONS,
+  OPTIONS_END,
+};
+
+const struct verb verb_sensitivity = {
+  .name = "sensitivity",
+  .about = "Find derivatives of a solution by parameters",
+  .usage = "PROBLEM METHOD [--parameters k1,k2 --t1 T --points N --rtol R --check]",
+  .least = 2,
+  .most = 2,
+  .option = options,
+  .run = run,
+};
