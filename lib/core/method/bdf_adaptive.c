@@ -13,17 +13,12 @@
  * the solution is smooth.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "carry.h"
-#include "method.h"
+#include "bdf_adaptive.h"
 #include <math.h>
 #include <string.h>
 
-enum {
-  HIGHEST = 5,
-  POINTS = HIGHEST + 2,
-  AGE = 50,
-  YOUNG = 10
-}; /* steps a Jacobian may serve; where it carries errors on */
+/* Steps a Jacobian may serve; where it carries errors on. */
+enum { HIGHEST = STF_BDF_HIGHEST, POINTS = STF_BDF_POINTS, AGE = 50, YOUNG = 10 };
 
 /* Beginnings late on the clock cannot be made of steps as short as they should be: the few of less than so
  * many rounding errors of t may have this part of the tolerance. */
@@ -33,23 +28,9 @@ static const sunrealtype first = 0.1;
 /* Of past values, amplified by up to 2^(k+1) - 1 in the estimate. */
 static const sunrealtype rounding = 3e-12;
 
-typedef struct state {
-  int p, k, last;   /* highest order; order of the trial; of the last step */
-  int points, wait; /* valid past points; steps until the order is looked at */
-  int refusals;
-  sunrealtype omega; /* frequency of the fastest part if that oscillates; 0: it does not */
-  long seen, since;  /* Jacobians made, and the step of the last one */
-  long omega_of;     /* Jacobians made when omega was found */
-  N_Vector y[POINTS + 1];
-  sunrealtype t[POINTS + 1];
-  sunrealtype alpha[HIGHEST + 1];
-  sunrealtype wanted[HIGHEST + 1], allowed[HIGHEST + 1]; /* of the error of order k */
-  stf_carried carried;
-  N_Vector base, offset, Z, other;
-} state;
+typedef stf_bdf state;
 
-/* Weights of the extrapolation to time t through the first `count` past points. */
-static void extrapolate(const state *e, int count, sunrealtype t, sunrealtype *weight)
+void stf_bdf_extrapolate(const state *e, int count, sunrealtype t, sunrealtype *weight)
 {
   sunrealtype node[POINTS];
   for (int j = 0; j < count; j++) node[j] = e->t[j] - t;
@@ -62,7 +43,7 @@ static void predict(stf_step *s, sunrealtype h)
   const stf_space *space = &s->system.space;
   const int count = e->points < e->k + 1 ? e->points : e->k + 1;
   sunrealtype weight[POINTS];
-  extrapolate(e, count, s->t + h, weight);
+  stf_bdf_extrapolate(e, count, s->t + h, weight);
   stf_combine(space, count, weight, e->y, e->base);
   if (e->points == 1 && s->yp_known) stf_axpy(space, h, s->yp, e->base);
 }
@@ -118,7 +99,7 @@ static int halves(stf_step *s, sunrealtype h)
 }
 
 /* Derivatives by parameters begin without slopes. */
-static bool in_halves(const stf_step *s)
+bool stf_bdf_halves(const stf_step *s)
 {
   const state *e = s->state;
   return e->points == 1 && (!s->yp_known || s->options->sensitivities);
@@ -160,7 +141,7 @@ static int attempt(stf_step *s, sunrealtype h)
   if (e->k <= 2 && h < CLOCK * STF_EPS * fabs(s->t))
     s->control.tolerance = fmax(s->control.tolerance, first);
   stf_share_newton(s, rounding);
-  if (in_halves(s)) return halves(s, h);
+  if (stf_bdf_halves(s)) return halves(s, h);
   predict(s, h);
   STEIF_TRY(solve(s, h));
   if (s->system.nje != e->omega_of) STEIF_TRY(find_oscillation(s));
@@ -176,7 +157,7 @@ static void error_of(stf_step *s, int k, N_Vector *past, N_Vector next)
   const stf_space *space = &s->system.space;
   sunrealtype weight[POINTS];
   const sunrealtype t = s->t + s->h_try, scale = s->h_try / (t - e->t[k]);
-  extrapolate(e, k + 1, t, weight);
+  stf_bdf_extrapolate(e, k + 1, t, weight);
   stf_combine(space, k + 1, weight, past, e->other);
   stf_sum(space, scale, next, -scale, e->other, e->other);
 }
@@ -265,75 +246,10 @@ static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
   const state *e = s->state;
   sunrealtype weight[POINTS];
-  extrapolate(e, e->last + 1, t, weight);
+  stf_bdf_extrapolate(e, e->last + 1, t, weight);
   stf_combine(&s->system.space, e->last + 1, weight, e->y, y);
   return STEIF_OK;
 }
-
-/* ---- derivatives by parameters --------------------------------------------------------------------- */
-
-static stf_carrier_size sizes(const stf_step *s)
-{
-  (void)s;
-  return (stf_carrier_size){1, 1, POINTS + 1, 1};
-}
-
-/* T->before: the point between them. */
-static int carry_halves(stf_carry *T, sunrealtype h)
-{
-  stf_step *s = T->step;
-  state *e = s->state;
-  const sunrealtype d = h / 2, c[] = {1, -2, 1};
-  STEIF_TRY(stf_carry_bdf(T, 0, s->t, d, 1, e->alpha, &s->y, e->other));
-  for (int k = 0; k < T->count; k++) {
-    stf_copy(&s->system.space, T->next[k], T->before[k]);
-    T->kept[k][0] = T->before[k];
-  }
-  const int code = stf_carry_bdf(T, 0, s->t + d, d, 1, e->alpha, &e->other, s->next);
-  for (int k = 0; k < T->count; k++) {
-    N_Vector v[] = {T->next[k], T->before[k], T->S[k]};
-    T->kept[k][0] = T->S[k];
-    if (!code) stf_combine(&s->system.space, 3, c, v, T->error[k]);
-  }
-  return code;
-}
-
-static int carry(stf_carry *T, sunrealtype h)
-{
-  stf_step *s = T->step;
-  state *e = s->state;
-  const stf_space *space = &s->system.space;
-  const bool halved = in_halves(s);
-  sunrealtype weight[POINTS];
-  STEIF_TRY(halved ? carry_halves(T, h)
-                   : stf_carry_bdf(T, 0, s->t, h, e->k, e->alpha, e->y, s->next));
-  const int count = e->points < e->k + 1 ? e->points : e->k + 1;
-  const sunrealtype span = e->points > e->k ? s->t + h - e->t[e->k] : 2 * h;
-  if (!halved) extrapolate(e, count, s->t + h, weight);
-  for (int k = 0; k < T->count; k++) {
-    T->tolerance[k] = s->control.tolerance;
-    if (halved) continue;
-    stf_combine(space, count, weight, T->kept[k], T->error[k]);
-    stf_sum(space, h / span, T->next[k], -h / span, T->error[k], T->error[k]);
-  }
-  return STEIF_OK;
-}
-
-static int carried_dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)
-{
-  const state *e = T->step->state;
-  sunrealtype weight[POINTS];
-  extrapolate(e, e->last + 1, t, weight);
-  stf_combine(&T->step->system.space, e->last + 1, weight, T->kept[k], S);
-  return STEIF_OK;
-}
-
-static const stf_carrier carrier = {.size = sizes,
-                                    .carry = carry,
-                                    .apply = stf_newton_carry_apply,
-                                    .renew = stf_newton_carry_renew,
-                                    .commit = stf_carry_bdf_commit,
-                                    .dense = carried_dense};
 
 static void keep(stf_step *s, stf_image *m)
 {
@@ -424,5 +340,5 @@ const steif_method steif_method_bdf_adaptive = {
   .commit = commit,
   .dense = dense,
   .keep = keep,
-  .carrier = &carrier,
+  .carrier = &stf_bdf_carrier,
 };

@@ -135,8 +135,7 @@ static int filter(stf_step *s, sunrealtype h, N_Vector v)
   const bool blended = s->newton.gamma > 0, real = blended || transform->im[0] == 0;
   if (!real) stf_zero(space, e->imaginary);
   STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &v, real ? NULL : &e->imaginary));
-  if (blended)
-    stf_scale(space, e->filter * s->newton.shift * h, v, v);
+  if (blended) stf_scale(space, e->filter * s->newton.shift * h, v, v);
   return STEIF_OK;
 }
 
