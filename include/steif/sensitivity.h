@@ -23,8 +23,9 @@
  * Served: collocation (gauss, radau, radau1a, lobatto3c, any number of stages), DIRK and BDF with dense, band
  * and sparse matrices, index 0 and 1. STEIF_UNSUPPORTED: other families and `auto`; Krylov
  * storage; index above 1; event handlers, breaks, constraints, options.reinitialise, options.ewt; starts that had to
- * be repaired, or whose derivative does not fulfil algebraic equations (give parameters.start). Where dF/dy is made
- * by differences, S has their relative error too, about 1e-7.
+ * be repaired, or whose derivative does not fulfil algebraic equations (give parameters.start). Where dF/dy
+ * or dF/dp are made by differences, S has their relative error too, about 1e-10: tolerances of one step near
+ * that are not kept, and BDF at rtol below 1e-6 may then make far too many steps: give dFdp and jac.
  * Checkpoints, copies and restarts of such runs: STEIF_UNSUPPORTED.
  *
  * Sources: U. Maly and L. R. Petzold, Appl. Numer. Math. 20 (1996) 57-79; L. Petzold, S. Li, Y. Cao and R. Serban,

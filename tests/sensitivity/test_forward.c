@@ -125,7 +125,46 @@ static void order_is_that_of_the_method(void)
   steif_context_free(&ctx);
 }
 
+/* y_i and its derivatives by all parameters of a model, by Radau IIA with two numbers of stages in 113-bit
+ * arithmetic. */
+static void model(const char *path, const char *method, sunindextype i, int count,
+                  const sunrealtype *expected)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  sunrealtype S[64];
+  steif_options o = steif_defaults();
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, path, &p));
+  o.sensitivities = 1, o.rtol = 1e-9;
+  for (int k = 0; k < count; k++) {
+    sensitivity_at(ctx, &p, method, &o, k, p.t1, S, NULL);
+    CLOSE(S[i], expected[k], 1e-6);
+  }
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* Akzo Nobel, index 1, whose start depends on parameters: y1 and y6 at 180. The Brusselator, banded: v_10 at
+ * 10. */
+static void models_as_text(void)
+{
+  static const sunrealtype y1[] = {-0.0020003685178, -7.8330066609e-4, -7.9194689421e-5,
+                                   7.4287278797e-4,  -4.0862217303e-6, -9.7677625042e-4,
+                                   5.3873188457e-6,  -0.024144554769,  2.9484530926e-5};
+  static const sunrealtype y6[] = {-3.2320134277e-4, -0.0027698049160, -4.7030513468e-4,
+                                   0.0077225658925,  -1.5137682341e-4, 7.1177983180e-5,
+                                   9.8078966243e-5,  -0.0012990640875, 1.5863740553e-6};
+  static const sunrealtype v10[] = {5.17671755933, 0.445278498534, -17.9802091259};
+  static const char akzo[] = EXAMPLES "/akzo.steif",
+                    brusselator[] = EXAMPLES "/brusselator.steif";
+  model(akzo, "radau:s=3", 0, 9, y1);
+  model(akzo, "radau:s=5", 5, 9, y6);
+  model(brusselator, "radau:s=3", 29, 3, v10);
+  model(brusselator, "radau:s=5", 29, 3, v10);
+}
+
 CU_TestInfo tests_of_forward[] = {
+  {"models as text", models_as_text},
   {"Robertson to eight digits", robertson_to_eight_digits},
   {"what y does not show is tested", what_y_does_not_show_is_tested},
   {"linear problems take one solve", linear_problems_take_one_solve},

@@ -15,6 +15,66 @@ static void refused(steif_context *ctx, const steif_problem *p, const char *meth
   steif_solver_free(&s);
 }
 
+/* 0 = y2 - p y1: with dy0/dp = 0 the derivative of the equation does not hold at the start. */
+static int constrained(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  const sunrealtype *p = user, *u = NV_DATA_S(y);
+  (void)t;
+  NV_Ith_S(ydot, 0) = -u[1];
+  NV_Ith_S(ydot, 1) = u[1] - p[0] * u[0];
+  return 0;
+}
+
+static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  static const sunrealtype d[] = {1, 0};
+  (void)t, (void)y, (void)yp, (void)user;
+  return steif_fill_diagonal(E, d);
+}
+
+static int by_p(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  (void)t, (void)yp, (void)k, (void)user;
+  NV_Ith_S(out, 0) = 0, NV_Ith_S(out, 1) = NV_Ith_S(y, 0);
+  return 0;
+}
+
+static int consistent(int k, N_Vector S0, void *user)
+{
+  (void)user;
+  NV_Ith_S(S0, 0) = 0, NV_Ith_S(S0, 1) = k == 0;
+  return 0;
+}
+
+/* y1 = e^(-p t), so that dy2/dp = (1 - p t) e^(-p t). */
+static void inconsistent_derivatives_of_starts_are_refused(void)
+{
+  static const char *const methods[] = {"radau:s=3", "bdf", "dirk:hw43"};
+  steif_context *ctx = steif_context_new(NULL);
+  sunrealtype p[] = {2}, S[2];
+  const sunrealtype y0[] = {1, 2};
+  steif_parameters q = {.count = 1, .value = p, .dFdp = by_p};
+  const steif_problem problem = {.name = "constrained",
+                                 .n = 2,
+                                 .t1 = 1,
+                                 .y0 = y0,
+                                 .f = constrained,
+                                 .E = mass,
+                                 .user = p,
+                                 .dae_index = 1,
+                                 .parameters = &q};
+  steif_options o = steif_defaults();
+  o.sensitivities = 1, o.rtol = 1e-8;
+  refused(ctx, &problem, "radau:s=3", &o, STEIF_UNSUPPORTED, "algebraic equation");
+  q.start = consistent;
+  for (int m = 0; m < 3; m++) {
+    sensitivity_at(ctx, &problem, methods[m], &o, 0, 1, S, NULL);
+    CLOSE(S[0], -exp(-2), 1e-6);
+    CLOSE(S[1], -exp(-2), 1e-6);
+  }
+  steif_context_free(&ctx);
+}
+
 static int handler(sunrealtype t, N_Vector y, const int *fired, void *user)
 {
   (void)t, (void)y, (void)fired, (void)user;
@@ -136,6 +196,8 @@ static void memory_may_fail_anywhere(void)
 CU_TestInfo tests_of_sensitivity_input[] = {
   {"other families are refused", other_families_are_refused},
   {"other problems are refused", other_problems_are_refused},
+  {"inconsistent derivatives of starts are refused",
+   inconsistent_derivatives_of_starts_are_refused},
   {"wrong columns are refused", wrong_columns_are_refused},
   {"memory may fail anywhere, and none is taken while stepping", memory_may_fail_anywhere},
   CU_TEST_INFO_NULL};

@@ -171,7 +171,8 @@ static sunrealtype increment(const stf_system *s, sunrealtype at)
 {
   const sunrealtype scale = s->scale;
   if (s->linear) return 1;
-  const sunrealtype wanted = sqrt(STF_EPS) * fmax(fabs(at), scale);
+  const sunrealtype part = s->central ? cbrt(STF_EPS) : sqrt(STF_EPS);
+  const sunrealtype wanted = part * fmax(fabs(at), scale);
   const volatile sunrealtype moved = at + (at < 0 ? -wanted : wanted);
   return moved - at;
 }
@@ -197,11 +198,17 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
     }
     STEIF_TRY(which == 'A' ? stf_groups_evaluate(s, t, moved, yp, changed)
                            : stf_groups_evaluate(s, t, y, moved, changed));
+    if (s->central) {
+      for (sunindextype k = from; k < to; k++)
+        m[g->column[k]] = at[g->column[k]] - g->step[g->column[k]];
+      STEIF_TRY(which == 'A' ? stf_groups_evaluate(s, t, moved, yp, base)
+                             : stf_groups_evaluate(s, t, y, moved, base));
+    }
     for (sunindextype i = 0; i < s->space.n; i++) d[i] -= b[i];
     for (sunindextype k = from; k < to; k++) {
       const sunindextype j = g->column[k];
       m[j] = at[j];
-      put(s, M, j, d, sign / g->step[j]);
+      put(s, M, j, d, sign / (s->central ? 2 * g->step[j] : g->step[j]));
     }
   }
   return STEIF_OK;

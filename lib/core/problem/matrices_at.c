@@ -36,7 +36,7 @@ int stf_matrices_at_fill(stf_matrices_at *m, int j, sunrealtype t, N_Vector y, N
 {
   stf_system *s = m->system, here = *s;
   if (s->linear) return STEIF_OK;
-  here.A = m->A[j], here.E = m->E[j];
+  here.A = m->A[j], here.E = m->E[j], here.central = true;
   const int code = stf_system_matrices(&here, t, y, yp);
   s->nfe = here.nfe;
   m->made++;

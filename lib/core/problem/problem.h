@@ -35,7 +35,8 @@ typedef struct stf_system {
   N_Vector at_y, at_yp, at_f; /* point of the last linearisation (operators only) */
   sunrealtype at_t;
   bool filled;
-  bool doubted;       /* Newton's iteration has failed: the next Jacobian is probed */
+  bool central; /* differences on both sides, for matrices that are more than preconditioners */
+  bool doubted; /* Newton's iteration has failed: the next Jacobian is probed */
   sunrealtype weight; /* of g in the residual of the descriptor form, 1 */
   long nfe, nje;
 } stf_system;
