@@ -307,6 +307,7 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(steif_spec_parse(s->ctx, method, spec));
   s->engine = stf_engine_find(spec->name);
   STEIF_TRY(s->engine ? open_engine(s, form, spec, y, yp) : open_step(s, form, spec, y, yp));
+  STEIF_TRY(stf_constant_matrices(s->ctx, s->problem, form, s->t1, y, s->spec));
   if (s->engine) STEIF_TRY(check_ewt(s, y));
   if (s->engine && s->options.h > 0 && !s->options.mesh) STEIF_TRY(constant_steps(s));
   STEIF_TRY(stf_run_begin(s));

@@ -83,6 +83,11 @@ void stf_system_keep(stf_system *system, stf_image *m);
 /* STEIF_BAD_INPUT where problem.index declares less than E and A at the start show. */
 int stf_index_check(stf_system *system);
 
+/* constant_matrices.c: STEIF_UNSUPPORTED, in the name of `who`, where E of the mass form, or E or A of the
+ * descriptor form, is another one at other times up to t1 or other states than y, that of the start. */
+int stf_constant_matrices(steif_context *ctx, const steif_problem *problem, int form,
+                          sunrealtype t1, N_Vector y, const char *who);
+
 /* Is the problem complete for this kind of storage? */
 int stf_storage_check(steif_context *ctx, const steif_problem *problem,
                       enum steif_storage storage);
