@@ -47,5 +47,22 @@ static void the_start_may_be_late(void)
   }
 }
 
+/* The same by auto, of few digits too against bdf. */
+static void auto_starts_late(void)
+{
+  static const char *const problems[] = {"hires", "rober", "pollu"};
+  static const double rtol[] = {1e-4, 1e-6, 1e-8};
+  for (int i = 0; i < 3; i++) {
+    double right[MOST], y[MOST], floor;
+    const int n = end_of(problems[i], "bdf", 1e-10, 0, right, &floor);
+    for (int k = 0; k < 3; k++) {
+      end_of(problems[i], "auto", rtol[k], 14400, y, &floor);
+      for (int j = 0; j < n; j++)
+        CHECK(fabs(y[j] - right[j]) <= 10 * rtol[k] * (floor + fabs(right[j])));
+    }
+  }
+}
+
 CU_TestInfo tests_of_clock[] = {{"the start may be late", the_start_may_be_late},
+                                {"auto starts late", auto_starts_late},
                                 CU_TEST_INFO_NULL};
