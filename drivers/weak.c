@@ -36,7 +36,7 @@ static const struct option options[] = {
    "power:n=8"},
   {"--ball", COUNT, "M",
    "the worst of all test functions instead: norms in H^-M, and orders in H^-m "
-   "for all m (--g ball:m=M)",
+   "for all m (--g ball:m=M; bspline:m=M,cells=N: beside the worst of such splines)",
    NULL},
   {"--exact", FLAG, NULL, "runs in many-digit arithmetic: where rounding would decide", NULL},
   {"--t1", POSITIVE, "T", "they end at T (default: 1, or where they are 0)", NULL},

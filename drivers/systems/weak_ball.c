@@ -18,11 +18,13 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_whole(r, "index", a->result.index);
   steif_report_text(r, "convention", convention_name(q->convention));
   steif_report_whole(r, "m", a->result.m);
+  if (q->cells) steif_report_whole(r, "cells", q->cells);
   for (size_t i = 0; i < q->rows; i++) {
     const steif_ball_row *row = a->row + i;
     steif_report_row(r, "rows");
     steif_report_real(r, "rows.h", row->h);
     steif_report_real(r, "rows.norm", row->norm);
+    if (q->cells) steif_report_real(r, "rows.bsplines", row->splines);
     steif_report_real(r, "rows.rounding", row->rounding);
     steif_report_real(r, "rows.order", row->usable ? row->order : NAN);
   }

@@ -77,13 +77,52 @@ static int end(const struct call *call, const struct weak *w)
   return EXIT_UNCERTIFIED;
 }
 
-/* --g, or the usual one on the interval of --t1. */
-static int find_test(struct call *call, struct weak *w)
+/* A norm: --ball M, --g ball:m=M or bspline:m=M,cells=N. */
+struct norm {
+  bool asked;
+  int m, cells;
+};
+
+static int whole_parameter(const steif_spec *spec, const char *key)
 {
-  const bool asked = given(call, "--g") || given(call, "--t1");
-  const char *g = word_of(call, "--g"), *words = g && strncmp(g, "ball:", 5) ? g : "power";
-  if (!asked) return EXIT_OK;
-  const int code = test_function_open(call, words, real_of(call, "--t1"), &w->g);
+  for (int i = 0; i < spec->count; i++) {
+    char *end = NULL;
+    const char *value = spec->param[i].value;
+    if (strcmp(spec->param[i].key, key)) continue;
+    const double number = strtod(value, &end);
+    return *value && !*end && number >= 1 && number < 1e9 && number == floor(number)
+             ? (int)number
+             : -1;
+  }
+  return 0;
+}
+
+static int find_norm(struct call *call, struct norm *norm)
+{
+  const char *words = word_of(call, "--g");
+  steif_spec spec;
+  *norm = (struct norm){given(call, "--ball"), (int)whole_of(call, "--ball"), 0};
+  const bool ball = words && !strncmp(words, "ball:", 5),
+             splines = words && (!strncmp(words, "bspline:", 8) || !strcmp(words, "bspline"));
+  if (!ball && !splines) return EXIT_OK;
+  if (steif_spec_parse(call->ctx, words, &spec)) return fail(call);
+  norm->asked = true;
+  norm->m = whole_parameter(&spec, "m");
+  norm->cells = splines ? whole_parameter(&spec, "cells") : 0;
+  if (norm->m < 1 || spec.count != (splines ? 2 : 1) || (splines && norm->cells < 1))
+    return bad_usage(call, "--g %s: %s", words,
+                     splines ? "bspline takes m, the degree, and cells, 1 or more each"
+                             : "ball takes m, 1 or more");
+  return EXIT_OK;
+}
+
+/* --g, or the usual one on the interval of --t1. */
+static int find_test(struct call *call, struct weak *w, bool norm)
+{
+  const char *g = word_of(call, "--g");
+  if (!given(call, "--g") && !given(call, "--t1")) return EXIT_OK;
+  const int code =
+    test_function_open(call, g && !norm ? g : "power", real_of(call, "--t1"), &w->g);
   w->query.g = &w->g.weight;
   return code;
 }
@@ -91,12 +130,14 @@ static int find_test(struct call *call, struct weak *w)
 int weak_answer(struct call *call, struct weak *w, report_filler *fill, const void *result)
 {
   const char *words = word_of(call, "--g");
-  const bool ball = words && !strncmp(words, "ball:m=", 7);
+  struct norm norm;
   if (words && strchr(words, ';')) return weak_family(call, w, words);
-  int code = find_test(call, w);
-  if (!code && (ball || given(call, "--ball"))) {
-    code = weak_ball(call, w,
-                     ball ? (int)strtol(words + 7, NULL, 10) : (int)whole_of(call, "--ball"));
+  int code = find_norm(call, &norm);
+  if (code) return code;
+  code = find_test(call, w, norm.asked);
+  if (!code && norm.asked) {
+    w->query.cells = norm.cells;
+    code = weak_ball(call, w, norm.m);
     test_function_close(&w->g);
     return code;
   }

@@ -111,6 +111,7 @@ typedef struct steif_weak_query {
                 rounding decides nothing; for be, bdf and Runge-Kutta methods with regular A */
   size_t break_count; /* where f or a derivative of it jumps, ascending, of `linear` only: */
   const sunrealtype *breaks; /* impulses there are part of the exact distribution */
+  int cells; /* norms only: B-splines on so many equal cells beside them; 0: none */
 } steif_weak_query;
 STEIF_EXPORT int steif_weak_measure(steif_context *ctx, const steif_weak_query *query,
                                     steif_weak_row *row, steif_weak_result *result);
@@ -120,10 +121,15 @@ STEIF_EXPORT int steif_weak_measure(steif_context *ctx, const steif_weak_query *
  *   sup |<x_h - x, g>| / |g|_m = t1^(1/2 - m) ||I^m (x_h - x)||_L2(0, t1),
  * I^m the m-fold integral from 0-; over several components 2-norms. H^-m holds the impulses of index k from
  * m = k - 1 on, where the order is 1/2 at best; it is p from m = k + p - 1 on. Convergence for every smooth
- * g is convergence in some H^-m. */
+ * g is convergence in some H^-m.
+ *
+ * The supremum over the B-splines of degree m on N equal cells that vanish so at t1,
+ *   t1^(1/2 - m) (sum over cells N / t1 (int I^m (x_h - x))^2)^(1/2),
+ * rises to the norm as N doubles. Cells longer than h do not see the steps. */
 typedef struct steif_ball_row {
-  sunrealtype h, norm, rounding, order;
-  int usable; /* rounding <= 0.1 norm */
+  sunrealtype h, norm, rounding, order; /* order: NaN where a break of f lies inside a step */
+  int usable;                           /* rounding <= 0.1 norm */
+  sunrealtype splines;                  /* the supremum over B-splines; NaN: not asked for */
 } steif_ball_row;
 typedef struct steif_ball_space {
   int m;
@@ -138,7 +144,7 @@ typedef struct steif_weak_ball {
   int converges; /* for every smooth g: 1, 0, or -1: undecided */
 } steif_weak_ball;
 /* Rows of H^-m (m = 0: k + p - 1) as the query asks for, and orders in all spaces. Of its g only t1
- * counts; no breaks of f. For be, bdf and Runge-Kutta methods with regular A. */
+ * counts. For be, bdf and Runge-Kutta methods with regular A. */
 STEIF_EXPORT int steif_weak_measure_ball(steif_context *ctx, const steif_weak_query *query,
                                          int m, steif_ball_row *row, steif_weak_ball *result);
 

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "subject.h"
 #include "suite.h"
+#include "base/failing.h"
 #include <steif/input.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -103,6 +104,134 @@ static void a_circuit_with_a_switched_source(void)
          1e-12);
 }
 
+/* ---- norms ------------------------------------------------------------------------------------ */
+
+static int norms(system_of *s, const char *method, enum steif_convention convention, int m,
+                 int component, sunrealtype h, steif_ball_row *row, size_t rows,
+                 steif_weak_ball *result)
+{
+  const steif_weak_query query = {.method = method,
+                                  .linear = &s->linear,
+                                  .x0 = s->x0,
+                                  .convention = convention,
+                                  .component = component,
+                                  .h = h,
+                                  .rows = rows,
+                                  .cells = 8,
+                                  .break_count = s->count,
+                                  .breaks = s->breaks};
+  return steif_weak_measure_ball(s->ctx, &query, m, row, result);
+}
+
+/* Backward Euler by hand, s = t - 0.3: the impulse -delta is the density -1/h of one step, so the error
+ * has I e = 1 - s/h and I^2 e = s - s^2/(2h) on it, h/2 from there on; delta' is 1/h^2, -1/h^2 on two
+ * steps, I^2 e = s^2/(2 h^2) - 1 and -(2 - s/h)^2/2. The kink of index 3 makes the same of its delta. */
+static void norms_at_breaks_by_hand(void)
+{
+  static const struct {
+    const char *f;
+    int n, m;
+  } known[] = {{"0;step(t-0.3)", 2, 1},
+               {"0;step(t-0.3)", 2, 2},
+               {"0;0;ramp(t-0.3)", 3, 2},
+               {"0;0;step(t-0.3)", 3, 2}};
+  for (int i = 0; i < 4; i++) {
+    steif_ball_row row[5];
+    steif_weak_ball result;
+    system_of s;
+    open_system(&s, known[i].n, known[i].f);
+    CHECK(!norms(&s, "be", STEIF_R, known[i].m, 0, 0, row, 5, &result));
+    CHECK(result.converges == 1 && row[4].usable);
+    for (int j = 0; j < 5; j++) {
+      const double h = row[j].h, on = 2 * pow(h, 3) / 15 + h * h / 4 * (0.7 - h);
+      CLOSE(row[j].norm, i == 0 ? sqrt(h / 3) : i == 3 ? sqrt(h * 23 / 30) : sqrt(on), 1e-12);
+      CHECK(row[j].splines <= row[j].norm * (1 + 1e-14));
+    }
+    CHECK(fabs(row[4].order - (i == 0 || i == 3 ? 0.5 : 1)) < 0.01);
+    close_system(&s);
+  }
+}
+
+/* A break at the part p of its step: I e = -s/h and then 1 - s/h over it. */
+static void norms_with_breaks_inside_steps(void)
+{
+  steif_ball_row row[4];
+  steif_weak_ball result;
+  system_of s;
+  open_system(&s, 2, "0;step(t-0.3)");
+  CHECK(!norms(&s, "be", STEIF_R, 1, 0, 1.0 / 64, row, 4, &result));
+  for (int j = 0; j < 4; j++) {
+    const double h = row[j].h, p = 0.3 / h - floor(0.3 / h);
+    CLOSE(row[j].norm, sqrt(h * (pow(p, 3) + pow(1 - p, 3)) / 3), 1e-12);
+    CHECK(isnan(row[j].order));
+  }
+  CHECK(result.converges == -1 && strstr(result.verdict, "lies inside a step") != NULL);
+  close_system(&s);
+}
+
+/* Jumps, kinks and a circuit with states: |<x_h - x, g>| <= norm |g|_m, g = (1 - t)^8. */
+static void no_function_beats_norms_with_breaks(void)
+{
+  static const char *const method[] = {"be", "radau:s=2", "radau:s=3", "bdf:p=2"};
+  for (int i = 0; i < 12; i++) {
+    const enum steif_convention reading = i % 4 == 0 || i % 4 == 3 ? STEIF_R : STEIF_STAGE;
+    const int m = 2 + i / 4 % 2;
+    steif_ball_row ball[3];
+    steif_weak_ball norm;
+    steif_weak_row row[3];
+    steif_weak_result weak;
+    system_of s;
+    if (i < 4)
+      open_circuit(&s);
+    else
+      open_system(&s, 3,
+                  i < 8 ? "0;ramp(t-1/4);step(t-1/2)" : "1;exp(t);abs(t-0.3)+step(t-0.6)");
+    const int component = i < 4 ? 3 : 0;
+    const steif_weak_query query = {.method = method[i % 4],
+                                    .linear = &s.linear,
+                                    .x0 = s.x0,
+                                    .convention = reading,
+                                    .component = component,
+                                    .rows = 3,
+                                    .break_count = s.count,
+                                    .breaks = s.breaks};
+    double size = 1 / sqrt(17 - 2 * m);
+    for (int q = 0; q < m; q++) size *= 8 - q;
+    CHECK(!norms(&s, method[i % 4], reading, m, component, 0, ball, 3, &norm));
+    CHECK(!steif_weak_measure(s.ctx, &query, row, &weak) && s.count > 0);
+    for (int j = 0; j < 3; j++)
+      CHECK(fabs(row[j].error) <= ball[j].norm * size * (1 + 1e-9) + row[j].rounding);
+    for (int j = 0; j + 1 < norm.count; j++)
+      CHECK(norm.space[j + 1].order > norm.space[j].order - 0.1);
+    close_system(&s);
+  }
+}
+
+static void memory_of_norms_may_fail(void)
+{
+  int code = STEIF_NO_MEMORY;
+  long failed = 0;
+  for (long at = 1; code && at < 9000; at += 3) {
+    failing f = {.refuse_at = 0};
+    const steif_setup setup = failing_setup(&f);
+    steif_ball_row row[1];
+    steif_weak_ball result;
+    system_of s;
+    open_system(&s, 2, "0;step(t-0.3)");
+    steif_context *ctx = s.ctx;
+    s.ctx = steif_context_new(&setup);
+    f.refuse_at = f.served + at;
+    code = norms(&s, "be", STEIF_R, 2, 0, 0.1, row, 1, &result);
+    CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
+    failed += code != 0;
+    steif_context_free(&s.ctx);
+    CHECK(f.alive == 0);
+    s.ctx = ctx;
+    close_system(&s);
+  }
+  CHECK(!code && failed > 10);
+}
+
 /* Of component 0 of N x' + x = f, where only the last f is not 0. */
 static steif_weak_result measure(const char *method, int n, const char *f,
                                  enum steif_convention convention, sunrealtype h,
@@ -176,4 +305,8 @@ CU_TestInfo tests_of_breaks[] = {
   {"breaks on the mesh leave orders as restarts do", orders_on_the_mesh},
   {"breaks inside steps leave no order", no_order_off_the_mesh},
   {"meshes hold all breaks", meshes_hold_all_breaks},
+  {"norms at breaks are those by hand", norms_at_breaks_by_hand},
+  {"norms with breaks inside steps have no order", norms_with_breaks_inside_steps},
+  {"no test function beats norms with breaks", no_function_beats_norms_with_breaks},
+  {"memory of norms may fail", memory_of_norms_may_fail},
   CU_TEST_INFO_NULL};

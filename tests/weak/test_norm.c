@@ -218,6 +218,43 @@ static void no_function_beats_the_norm(void)
   steif_context_free(&ctx);
 }
 
+/* be on N-inc of index 3, h = 1/64, in 113-bit arithmetic: suprema over B-splines of degree m on 4, 16 and
+ * 64 cells. They rise towards the norm, as every function on N cells is one on 2 N. */
+static void splines_rise_to_the_norm(void)
+{
+  static const struct {
+    int m;
+    double of[3], norm;
+  } known[] = {{3, {.051741524, .051784562, .051904924}, .05194143},
+               {2, {.11736, .24628, .42257}, .43556016}};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_weak_query query = {
+    .method = "be", .problem = "jordan:k=3,case=N-inc", .convention = STEIF_R, .rows = 1};
+  steif_ball_row row[1];
+  steif_weak_ball result;
+  for (int i = 0; i < 2; i++) {
+    for (int c = 0; c < 3; c++) {
+      query.cells = 4 << 2 * c;
+      CHECK(!steif_weak_measure_ball(ctx, &query, known[i].m, row, &result));
+      CLOSE(row->splines, known[i].of[c], i ? 2e-5 : 1e-8);
+      CLOSE(row->norm, known[i].norm, 1e-7);
+    }
+    sunrealtype before = 0;
+    for (query.cells = 1; query.cells <= 1 << 14; query.cells *= 2) {
+      CHECK(!steif_weak_measure_ball(ctx, &query, known[i].m, row, &result));
+      CHECK(row->splines >= before && row->splines <= row->norm * (1 + 1e-14));
+      before = row->splines;
+    }
+    CLOSE(row->splines, row->norm, 1e-4);
+  }
+  query.cells = -1;
+  CHECK(steif_weak_measure_ball(ctx, &query, 3, row, &result) == STEIF_BAD_INPUT);
+  CHECK(strstr(steif_message(ctx), "-1 cells") != NULL);
+  query.cells = 0;
+  CHECK(!steif_weak_measure_ball(ctx, &query, 3, row, &result) && isnan(row->splines));
+  steif_context_free(&ctx);
+}
+
 /* (1 - t/T)^8 by its Taylor coefficients. */
 static int power(long double t, int order, long double *c, void *user)
 {
@@ -290,6 +327,7 @@ CU_TestInfo tests_of_norm[] = {
   {"orders are min(p, m - k + 3/2)", orders_by_the_width_of_the_layer},
   {"verdicts hold for every test function", verdicts_hold_for_every_function},
   {"no test function beats the norm", no_function_beats_the_norm},
+  {"B-splines rise to the norm", splines_rise_to_the_norm},
   {"norms have units", norms_have_units},
   {"every allocation may fail", every_allocation_may_fail},
   CU_TEST_INFO_NULL};

@@ -300,18 +300,27 @@ static sunrealtype largest(const sunrealtype *x, size_t count)
   return most;
 }
 
-sunrealtype stf_subject_rounding(const stf_subject *s)
+/* Of x(t+) and of impulses c_i / t1^(i + 1), times what is open of them. */
+static sunrealtype rounding_of(const stf_subject *s, const steif_impulse *impulse,
+                               sunrealtype size)
 {
   const size_t n = (size_t)s->n;
-  const steif_impulse *impulse = &s->impulse;
-  sunrealtype size = largest(s->problem.y0, n), units = 1;
-  if (s->block.k) return 4 * STF_EPS * size;
+  sunrealtype units = 1;
   size = fmax(size, largest(impulse->x_plus, n));
   for (int i = 0; i < impulse->count; i++) {
     units /= (sunrealtype)s->weight.t1;
     size = fmax(size, units * largest(impulse->c + (size_t)i * n, n));
   }
   return size * fmax(FOUND * STF_EPS, isfinite(impulse->estimate) ? impulse->estimate : 0);
+}
+
+sunrealtype stf_subject_rounding(const stf_subject *s)
+{
+  const sunrealtype size = largest(s->problem.y0, (size_t)s->n);
+  if (s->block.k) return 4 * STF_EPS * size;
+  sunrealtype most = rounding_of(s, &s->impulse, size);
+  for (size_t b = 0; b < s->jumps; b++) most = fmax(most, rounding_of(s, &s->jump[b].at, 0));
+  return most;
 }
 
 /* |g^(i)(0)| t1^(i + 1), i = 0 .. index - 2, and i = 0 at least. */

@@ -101,6 +101,18 @@ int stf_subject_smooth(stf_subject *s, size_t count, const sunrealtype *t, sunre
   return s->problem.exact ? closed_times(s, count, t, x) : stf_subject_follow(s, count, t, x);
 }
 
+int stf_subject_segment(stf_subject *s, size_t i, size_t count, const sunrealtype *t,
+                        sunrealtype *x)
+{
+  if (count < 2 || s->jumps == 0) return stf_subject_smooth(s, count, t, x);
+  const sunrealtype *start = i ? s->jump[i - 1].at.x_plus : s->impulse.x_plus;
+  memcpy(x, start, (size_t)s->n * sizeof *x);
+  stf_sides_step(&s->sides, t[0], i < s->jumps ? s->jump[i].t : t[count - 1], 0);
+  const int code = stf_subject_follow(s, count, t, x);
+  stf_sides_step(&s->sides, 0, 0, 0);
+  return code;
+}
+
 int stf_subject_before(stf_subject *s, sunrealtype t, sunrealtype *x)
 {
   if (s->block.k) return stf_block_series(&s->block, t, 0, false, x);

@@ -44,11 +44,14 @@ stf_apart *stf_subject_apart(stf_subject *subject, const char *method, const cha
  * found, in words. */
 int stf_subject_pair(stf_subject *subject, sunrealtype *value, sunrealtype *accuracy, char *how,
                      size_t room);
-/* The rounding level of x(0+) and of impulses c_i / t1^(i + 1). */
+/* The rounding level of x(t+) and of impulses c_i / t1^(i + 1) at 0 and at breaks found. */
 sunrealtype stf_subject_rounding(const stf_subject *subject);
 /* The smooth part at t[0] = 0 (right limit), t[1], ... ascending: rows of n. */
 int stf_subject_smooth(stf_subject *subject, size_t count, const sunrealtype *t,
                        sunrealtype *x);
+/* The same from break `i` - 1 on, where the jump is known, to times before break i; i = 0: from 0. */
+int stf_subject_segment(stf_subject *subject, size_t i, size_t count, const sunrealtype *t,
+                        sunrealtype *x);
 /* A smooth solution at `t`, before 0, that has there the slow part of x(0+): one row. */
 int stf_subject_before(stf_subject *subject, sunrealtype t, sunrealtype *x);
 /* The smooth solution from the first row at t[0] on: the others. */

@@ -17,17 +17,26 @@
 #define AGREED 0.25
 #define NEAR 0.03
 #define TRUTH 1e-15
-enum { LARGEST = 1 << 24, LEAST = 3 }; /* numbers of an array; rows */
+#define MESHED 1e-9 /* of a break, its distance from a mesh that counts as none */
+enum {
+  LARGEST = 1 << 24,
+  LEAST = 3,
+  CELLS = 1 << 20
+}; /* numbers of an array; rows; B-splines */
 
 typedef struct ball {
   stf_measure measure;
   stf_events events[3]; /* in double, long double, shaken */
+  stf_panel *panel;     /* parts of steps between breaks of f, */
+  size_t panels;
   sunrealtype
-    *x; /* smooth values at STF_NODES points of each step, rows of n, from the second on */
-  sunrealtype *t;
-  size_t masses; /* of a step; 0: densities */
-  size_t steps;  /* of the last row */
+    *x; /* in each segment between breaks x at its beginning and smooth values at STF_NODES
+                     points of its panels, rows of n; */
+  sunrealtype *t; /* their times */
+  size_t masses;  /* of a step; 0: densities */
+  size_t steps;   /* of the last row */
   int most;
+  sunrealtype inside, fitting; /* a break inside a step, NaN: none; a step without any */
   steif_weak_ball *result;
 } ball;
 
@@ -37,7 +46,8 @@ static int claim(ball *b)
 {
   stf_measure *w = &b->measure;
   const size_t n = (size_t)w->subject.n, rows = b->steps * (b->masses ? b->masses : 1) + 1,
-               nodes = b->steps * STF_NODES + 1;
+               jumps = w->subject.jumps, panels = b->steps + jumps,
+               nodes = panels * STF_NODES + jumps + 1;
   STEIF_CHECK(rows * n <= LARGEST && nodes * n <= LARGEST, w->ctx, STEIF_BAD_INPUT,
               "%zu steps of %zu unknowns are too many for a norm: ask for fewer rows", b->steps,
               n);
@@ -48,7 +58,8 @@ static int claim(ball *b)
     b->events[i].value = b->events[i].at + rows;
   }
   b->t = stf_allocate(w->ctx, nodes * (n + 1), sizeof *b->t);
-  if (!b->t) return STEIF_NO_MEMORY;
+  b->panel = stf_allocate(w->ctx, panels + 1, sizeof *b->panel);
+  if (!b->t || !b->panel) return STEIF_NO_MEMORY;
   b->x = b->t + nodes;
   return STEIF_OK;
 }
@@ -57,19 +68,54 @@ static void release(ball *b)
 {
   for (int i = 0; i < 3; i++) stf_release(b->measure.ctx, b->events[i].at);
   stf_release(b->measure.ctx, b->t);
+  stf_release(b->measure.ctx, b->panel);
+  b->t = NULL, b->panel = NULL;
 }
 
 /* ---- one row ---------------------------------------------------------------------------------- */
 
-/* The smooth solution at 0 and at the nodes of all steps. */
-static int truth(ball *b, sunrealtype h)
+/* Break `i` in steps, a whole number where it is one to rounding; after the last the end t1. */
+static long double place(const ball *b, size_t i, sunrealtype h)
 {
+  const stf_subject *s = &b->measure.subject;
+  if (i >= s->jumps) return fminl(s->weight.t1 / h, (long double)b->steps);
+  const long double at = (long double)s->jump[i].t / h;
+  return fabsl(at - roundl(at)) <= (long double)MESHED * fmaxl(1, at) ? roundl(at) : at;
+}
+
+/* The panels from break i - 1 to break i, in rows of b->x from `row` on; the next row. */
+static size_t cut(ball *b, size_t i, sunrealtype h, size_t row)
+{
+  const stf_subject *s = &b->measure.subject;
+  const size_t n = (size_t)s->n;
+  const long double from = i ? place(b, i - 1, h) : 0, to = place(b, i, h);
   long double node[STF_NODES], weight[STF_NODES];
   stf_gauss(STF_NODES, node, weight);
-  for (size_t i = 0; i < b->steps; i++)
+  b->t[row++] = i ? s->jump[i - 1].t : 0;
+  for (long double at = from; at < to; row += STF_NODES) {
+    stf_panel *p = b->panel + b->panels++;
+    *p = (stf_panel){.from = at, .to = fminl(floorl(at) + 1, to), .x = b->x + row * n};
+    if (at <= from && i > 0) p->impulses = s->jump[i - 1].at.count, p->c = s->jump[i - 1].at.c;
     for (size_t k = 0; k < STF_NODES; k++)
-      b->t[1 + i * STF_NODES + k] = (sunrealtype)(h * ((long double)i + node[k]));
-  return stf_subject_smooth(&b->measure.subject, b->steps * STF_NODES + 1, b->t, b->x);
+      b->t[row + k] = (sunrealtype)(h * (at + (p->to - at) * node[k]));
+    at = p->to;
+  }
+  return row;
+}
+
+/* Panels, the smooth solution at their nodes, and the impulses. */
+static int truth(ball *b, sunrealtype h)
+{
+  stf_subject *s = &b->measure.subject;
+  b->panels = 0;
+  for (size_t i = 0, row = 0; i <= s->jumps; i++) {
+    const size_t next = cut(b, i, h, row);
+    STEIF_TRY(stf_subject_segment(s, i, next - row, b->t + row, b->x + row * (size_t)s->n));
+    row = next;
+  }
+  b->panel->impulses = s->block.k ? s->block.k - 1 : s->impulse.count;
+  b->panel->c = s->block.k ? s->block.c : s->impulse.c;
+  return STEIF_OK;
 }
 
 /* a -= b */
@@ -79,15 +125,15 @@ static void subtract(const stf_events *a, const stf_events *b, int n)
 }
 
 /* Norms of all components together. */
-static void norms(ball *b, const stf_events *events, const stf_limit *limit, sunrealtype h,
-                  long double *norm)
+static void norms(ball *b, const stf_events *events, const stf_panel *panel, sunrealtype h,
+                  stf_cells *cells, long double *norm)
 {
   const stf_measure *w = &b->measure;
   long double one[STF_SPACES];
   for (int m = 0; m < b->most; m++) norm[m] = 0;
   for (int j = w->first; j < w->first + w->count; j++) {
-    stf_dual_norm(events, w->subject.n, j, limit, h, b->steps, w->subject.weight.t1, b->most,
-                  one);
+    stf_dual_norm(events, w->subject.n, j, panel, h, b->steps, w->subject.weight.t1, b->most,
+                  cells, one);
     for (int m = 0; m < b->most; m++) norm[m] = hypotl(norm[m], one[m]);
   }
 }
@@ -101,29 +147,41 @@ static long double impulses_norm(int count, int m)
   return sum;
 }
 
+/* The largest number of impulses that belong to one time. */
+static int impulses_of(const ball *b)
+{
+  int most = 0;
+  for (size_t i = 0; i < b->panels; i++)
+    if (b->panel[i].impulses > most) most = b->panel[i].impulses;
+  return most;
+}
+
 static int measure_row(ball *b, sunrealtype h, steif_ball_row *row)
 {
   stf_measure *w = &b->measure;
   const stf_subject *s = &w->subject;
-  const stf_limit limit = {s->block.k ? s->block.k - 1 : s->impulse.count,
-                           s->block.k ? s->block.c : s->impulse.c, b->x + s->n};
+  const long double t1 = s->weight.t1;
   long double error[STF_SPACES], made[STF_SPACES], shaken[STF_SPACES], size[STF_SPACES];
-  const sunrealtype known = stf_subject_rounding(s) * (sunrealtype)s->weight.t1;
+  stf_cells cells = {.m = b->result->m, .count = w->query->cells};
+  const sunrealtype known =
+    stf_subject_rounding(s) * (sunrealtype)t1 * (sunrealtype)(s->jumps + 1);
   w->events = b->events;
   STEIF_TRY(stf_measure_run(w, h, b->steps));
   STEIF_TRY(truth(b, h));
-  norms(b, b->events, &limit, h, error);
-  norms(b, b->events, NULL, h, size);
+  norms(b, b->events, b->panel, h, cells.count ? &cells : NULL, error);
+  norms(b, b->events, NULL, h, NULL, size);
   subtract(b->events + 2, b->events + 1, s->n);
   subtract(b->events + 1, b->events, s->n);
-  norms(b, b->events + 1, NULL, h, made);
-  norms(b, b->events + 2, NULL, h, shaken);
+  norms(b, b->events + 1, NULL, h, NULL, made);
+  norms(b, b->events + 2, NULL, h, NULL, shaken);
   for (int m = 0; m < b->most; m++) {
     const long double level =
-      made[m] + 2 * shaken[m] + TRUTH * size[m] + known * impulses_norm(limit.impulses, m + 1);
-    row[m] = (steif_ball_row){h, (sunrealtype)error[m], (sunrealtype)level, NAN, 0};
+      made[m] + 2 * shaken[m] + TRUTH * size[m] + known * impulses_norm(impulses_of(b), m + 1);
+    row[m] = (steif_ball_row){h, (sunrealtype)error[m], (sunrealtype)level, NAN, 0, NAN};
     row[m].usable = isfinite(error[m]) && level <= USABLE * error[m];
   }
+  if (cells.count)
+    row[cells.m - 1].splines = (sunrealtype)(powl(t1, 0.5L - cells.m) * sqrtl(cells.square));
   return STEIF_OK;
 }
 
@@ -187,6 +245,22 @@ static void say(steif_weak_ball *r)
              "larger steps or more rows");
 }
 
+/* A break inside a step: how far in it lies changes from row to row, and errors with it. */
+static void say_inside(ball *b)
+{
+  steif_weak_ball *r = b->result;
+  const size_t room = sizeof r->verdict;
+  for (int i = 0; i < r->count; i++) r->space[i].converges = -1, r->space[i].order = NAN;
+  r->converges = -1;
+  const int used = snprintf(r->verdict, room,
+                            "undecided: the break of f at %.6g lies inside a step, norms "
+                            "depend on where and have no order",
+                            b->inside);
+  if (isfinite(b->fitting))
+    snprintf(r->verdict + used, room - (size_t)used, "; --h %.17g puts it on the mesh",
+             b->fitting);
+}
+
 /* ---- the measure ------------------------------------------------------------------------------ */
 
 static int check(const stf_measure *w, int m)
@@ -198,8 +272,8 @@ static int check(const stf_measure *w, int m)
     "norms take a second run in long double, which there is of be, bdf and Runge-Kutta "
     "methods with regular A, not of '%s'",
     q->method);
-  STEIF_CHECK(!q->break_count, w->ctx, STEIF_UNSUPPORTED,
-              "norms are known without breaks of f; the first is at t = %g", q->breaks[0]);
+  STEIF_CHECK(q->cells >= 0 && q->cells <= CELLS, w->ctx, STEIF_BAD_INPUT,
+              "%d cells of B-splines were asked for: 1 to %d, or 0 for none", q->cells, CELLS);
   STEIF_CHECK(m == 0 || (m >= 1 && m >= k - 1 && m <= STF_SPACES), w->ctx, STEIF_BAD_INPUT,
               "H^-%d does not hold the impulses of index %d: m is %d to %d", m, k,
               k > 2 ? k - 1 : 1, STF_SPACES);
@@ -228,15 +302,34 @@ static int measure(ball *b, steif_ball_row *row)
     for (int m = 0; m < b->most && !code; m++) {
       steif_ball_row *to = rows + i * STF_SPACES + m;
       *to = all[m];
-      if (i > 0) to->order = log2((to - STF_SPACES)->norm / to->norm);
+      if (i > 0 && isnan(b->inside)) to->order = log2((to - STF_SPACES)->norm / to->norm);
       if (m + 1 == r->m) row[i] = *to;
     }
   }
   for (int j = 0; j < r->count && !code; j++)
     judge_space(rows + r->space[j].m - 1, q->rows, STF_SPACES, longest, r->space + j);
-  if (!code) say(r);
+  if (!code && isnan(b->inside)) say(r);
+  if (!code && !isnan(b->inside)) say_inside(b);
   stf_release(w->ctx, rows);
   return code;
+}
+
+/* What happens at breaks of f, and whether they are on the mesh. */
+static int find_breaks(ball *b)
+{
+  stf_measure *w = &b->measure;
+  const steif_weak_query *q = w->query;
+  const sunrealtype t1 = (sunrealtype)w->subject.weight.t1;
+  sunrealtype accuracy;
+  char how[160];
+  b->inside = NAN, b->fitting = NAN;
+  if (!q->break_count) return STEIF_OK;
+  STEIF_TRY(stf_subject_pair(&w->subject, w->exact, &accuracy, how, sizeof how));
+  const size_t inside = stf_break_inside(q->break_count, q->breaks, t1, w->h);
+  if (inside == q->break_count) return STEIF_OK;
+  b->inside = q->breaks[inside];
+  b->fitting = stf_break_step(q->break_count, q->breaks, t1, w->h);
+  return STEIF_OK;
 }
 
 static int open(ball *b, int m)
@@ -266,6 +359,7 @@ int steif_weak_measure_ball(steif_context *ctx, const steif_weak_query *query, i
   STEIF_TRY(stf_measure_check(ctx, query));
   int code = stf_measure_open(ctx, query, &b.measure);
   if (!code) code = open(&b, m);
+  if (!code) code = find_breaks(&b);
   if (!code) code = measure(&b, row);
   stf_measure_close(&b.measure);
   return code;

@@ -5,6 +5,10 @@
  * State z_j = I^j e: an impulse c_i delta^(i) is a jump of z_{i+1}, a mass one of z_1, and between events
  * z_1' = density - smooth part (a polynomial through its values at Gauss's points of the step),
  * z_j' = z_{j-1}: polynomials, too, whose squares Gauss's rule integrates exactly.
+ *
+ * Of B-splines of degree m on N equal cells, with g, .., g^(m-1) = 0 at T, the g^(m) are all step functions:
+ * their supremum is the norm of the projection of I^m e on these, T^(1/2 - m) (sum over cells of
+ * N/T (int I^m e)^2)^(1/2).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "norm.h"
 #include "table.h"
@@ -15,13 +19,18 @@ enum { DEGREE = STF_NODES + STF_SPACES, SQUARES = DEGREE + 1 };
 
 typedef struct walk {
   int most;
-  long double t1, h, at;              /* at: in time */
-  long double z[STF_SPACES + 1];      /* z_1, ... at `at` */
+  size_t n, j;                        /* component j of n */
+  long double t1, h, end;             /* end of all, like `at` in steps */
+  long double at, z[STF_SPACES + 1];  /* z_1, ... there */
   long double square[STF_SPACES + 1]; /* integrals so far */
+  const stf_panel *panel;
   long double node[STF_NODES],
-    value[STF_NODES];                    /* of the smooth part in this step, nodes in [0, 1] */
+    value[STF_NODES];                    /* of the smooth part in this panel, nodes in [0, 1] */
   long double fit[STF_NODES][STF_NODES]; /* coefficients of u^q from values at nodes */
   long double point[SQUARES], weight[SQUARES];
+  stf_cells *cells;
+  int cell;         /* this one, and */
+  long double mean; /* its integral of z_m so far */
 } walk;
 
 /* Lagrange's polynomials of the nodes in powers of u. */
@@ -49,29 +58,28 @@ static long double evaluate(const long double *c, int degree, long double u)
   return sum;
 }
 
-/* The smooth part on the piece [a, b] of the step, in powers of the piece's own u. */
-static void local(const walk *w, long double a, long double b, long double *c)
+/* The smooth part on [from, to] of the panel, in powers of the part's own u. */
+static void local(const walk *w, long double from, long double to, long double *c)
 {
   long double whole[STF_NODES] = {0}, at[STF_NODES];
+  const long double length = w->panel->to - w->panel->from,
+                    a = (from - w->panel->from) / length, b = (to - w->panel->from) / length;
   for (int q = 0; q < STF_NODES; q++)
     for (int k = 0; k < STF_NODES; k++) whole[q] += w->fit[q][k] * w->value[k];
   for (int k = 0; k < STF_NODES; k++)
     at[k] = evaluate(whole, STF_NODES - 1, a + (b - a) * w->node[k]);
   for (int q = 0; q < STF_NODES; q++) {
     c[q] = 0;
-    for (int k = 0; k < STF_NODES; k++) c[q] += w->fit[q][k] * at[k];
+    for (int k = 0; k < STF_NODES; k++) c[q] -= w->fit[q][k] * at[k];
   }
 }
 
-/* From a to b, in parts of step i, with a constant density. */
-static void piece(walk *w, size_t i, long double a, long double b, long double density)
+/* Over a part of a panel and of a cell, of this length, with a constant density. */
+static void part(walk *w, long double to, long double density)
 {
-  long double c[DEGREE + 1] = {0}, length = (b - a) * w->h;
-  const long double end = ((long double)i + b) * w->h;
-  if (end > w->t1) length -= end - w->t1;
-  if (!(length > 0)) return;
-  local(w, a, a + length / w->h, c);
-  for (int q = 0; q < STF_NODES; q++) c[q] = -c[q];
+  long double c[DEGREE + 1] = {0};
+  const long double length = (to - w->at) * w->h;
+  if (w->panel && w->panel->x) local(w, w->at, to, c);
   c[0] += density;
   for (int m = 1, degree = STF_NODES - 1; m <= w->most; m++) {
     for (int q = degree++; q >= 0; q--) c[q + 1] = length * c[q] / (q + 1);
@@ -79,41 +87,58 @@ static void piece(walk *w, size_t i, long double a, long double b, long double d
     for (int k = 0; k < SQUARES; k++) {
       const long double z = evaluate(c, degree, w->point[k]);
       w->square[m] += length * w->weight[k] * z * z;
+      if (w->cells && w->cells->m == m) w->mean += length * w->weight[k] * z;
     }
     w->z[m] = evaluate(c, degree, 1);
   }
+  w->at = to;
 }
 
-/* One step: its density, or its masses from event `e` on; the next event. */
-static size_t step(walk *w, const stf_events *events, size_t n, size_t j, size_t i, size_t e)
+/* Into a panel, with what happens at its beginning. */
+static void enter(walk *w, const stf_panel *panel)
 {
-  if (!events->masses) {
-    piece(w, i, 0, 1, e < events->count ? events->value[e * n + j] : 0);
-    return e + 1;
-  }
-  long double a = 0;
-  for (; e < events->count && events->at[e] < (long double)i + 1; e++) {
-    const long double b = events->at[e] - (long double)i;
-    piece(w, i, a, b, 0);
-    w->z[1] += events->value[e * n + j];
-    a = b;
-  }
-  piece(w, i, a, 1, 0);
-  return e;
+  w->panel = panel;
+  for (int i = 0; i < panel->impulses && i < w->most; i++)
+    w->z[i + 1] -= panel->c[(size_t)i * w->n + w->j];
+  for (size_t k = 0; k < STF_NODES; k++) w->value[k] = panel->x[k * w->n + w->j];
 }
 
-void stf_dual_norm(const stf_events *events, int n, int j, const stf_limit *limit,
-                   long double h, size_t steps, long double t1, int most, long double *norm)
+/* Out of a cell: its share of the square of the projection on step functions. */
+static void leave_cell(walk *w)
 {
-  walk w = {.most = most, .t1 = t1, .h = h};
-  size_t e = 0;
+  w->cells->square += w->mean * w->mean * w->cells->count / w->t1;
+  w->mean = 0;
+  w->cell++;
+}
+
+/* To this place, in steps, or to t1, through panels and cells, with a constant density. */
+static void go(walk *w, long double to, long double density)
+{
+  to = fminl(to, w->end);
+  while (w->at < to) {
+    const long double panel = w->panel ? w->panel->to : to,
+                      cell = w->cells ? w->end * (w->cell + 1) / w->cells->count : to,
+                      next = fminl(to, fminl(panel, cell));
+    part(w, next, density);
+    if (w->panel && next >= panel && next < w->end) enter(w, w->panel + 1);
+    if (w->cells && next >= cell) leave_cell(w);
+  }
+}
+
+void stf_dual_norm(const stf_events *events, int n, int j, const stf_panel *panel,
+                   long double h, size_t steps, long double t1, int most, stf_cells *cells,
+                   long double *norm)
+{
+  walk w = {.most = most, .n = (size_t)n, .j = (size_t)j, .t1 = t1, .h = h, .cells = cells};
+  w.end = fminl(t1 / h, (long double)steps);
   prepare(&w);
-  for (int i = 0; limit && i < limit->impulses && i < most; i++)
-    w.z[i + 1] = -limit->c[(size_t)i * (size_t)n + (size_t)j];
-  for (size_t i = 0; i < steps; i++) {
-    for (size_t k = 0; limit && k < STF_NODES; k++)
-      w.value[k] = limit->x[(i * STF_NODES + k) * (size_t)n + (size_t)j];
-    e = step(&w, events, (size_t)n, (size_t)j, i, e);
+  if (panel) enter(&w, panel);
+  for (size_t e = 0; e < events->count; e++) {
+    const long double value = events->value[e * w.n + w.j];
+    go(&w, events->masses ? events->at[e] : (long double)e + 1, events->masses ? 0 : value);
+    if (events->masses) w.z[1] += value;
   }
+  go(&w, w.end, 0);
+  if (cells && w.cell < cells->count) leave_cell(&w);
   for (int m = 1; m <= most; m++) norm[m - 1] = powl(t1, 0.5L - m) * sqrtl(w.square[m]);
 }
