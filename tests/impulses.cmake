@@ -645,6 +645,19 @@ expect(5 weak be ${jump} --ball 2 --h 0.015625 --halvings 4 ERR "inside a step.*
 # Its norm in H^-1 is sqrt(h/3), and h = 1/60 puts the break on the mesh.
 expect(0 weak be ${jump} --ball 1 --json)
 about(74535599 rows 0 norm)
+# Bad input: f that turns unseen by its expression, fast f, rough g, short intervals, steps that cannot fit.
+file(WRITE ${FOLDER}/unseen.txt "0\nsqrt((t-0.3)^2)\n")
+file(WRITE ${FOLDER}/front.txt "0\ntanh((t-0.3)*1e6)\n")
+set(unseen E2.mtx F2.mtx --x0 z2.mtx --forcing)
+expect(3 weak be ${unseen} unseen.txt ERR "near t = 0.3, where derivative 1.*--breaks")
+expect(0 weak be ${unseen} unseen.txt --breaks 0.3)
+expect(5 weak be ${unseen} front.txt ERR "do not resolve the forcing.*below")
+expect(2 weak be --index 4 --g "(1-t)^2.5" ERR "not smooth enough up to t = 1.*take one like")
+expect(2 weak be --index 4 --g "t*sqrt(t)*(1-t)^4" ERR "no derivatives up to order . at t = 0")
+expect(5 weak be --index 3 --h 1 --halvings 2 ERR "steps of 0.25 do not resolve.*take them below 0.12")
+expect(5 weak be switchrlc --ball 2 ERR "fastest finite eigenvalue.*below 6.9e-05")
+expect(2 weak be --index 3 --t1 0.01 --h 0.02 ERR "h = 0.02 must lie in .0, 0.01")
+expect(2 weak be --index 3 --h 1e-12 ERR "take h above 1.5e-08")
 expect(2 weak be ${turns} ERR "name its breaks")
 expect(2 weak be ${turns} --breaks 0.2379547392877548 ERR "near t = 0.58")
 # No steps of a sensible length have all three on their mesh.

@@ -299,6 +299,61 @@ static void meshes_hold_all_breaks(void)
   CHECK(stf_break_step(0, NULL, 1, 1. / 64) == 1. / 64);
 }
 
+/* ---- breaks that nobody declares -------------------------------------------------------------- */
+
+/* The code of a run with f, and its sentence or verdict. */
+static int undeclared(const char *f, int n, char *text, size_t room)
+{
+  steif_weak_row row[4];
+  steif_weak_result result;
+  system_of s;
+  open_system(&s, n, f);
+  const steif_weak_query query = {.method = "be",
+                                  .linear = &s.linear,
+                                  .x0 = s.x0,
+                                  .convention = STEIF_R,
+                                  .component = 0,
+                                  .rows = 4};
+  const int code = steif_weak_measure(s.ctx, &query, row, &result);
+  snprintf(text, room, "%s", code ? steif_message(s.ctx) : result.verdict);
+  close_system(&s);
+  return code;
+}
+
+static void undeclared_breaks_are_found(void)
+{
+  static const struct {
+    const char *f, *says;
+    int n;
+  } known[] = {{"0;step(t-0.3)", "near t = 0.3, where derivative 0", 2},
+               {"0;0;ramp(t-0.7)", "near t = 0.7, where derivative 1", 3},
+               {"0;0;1e-3*step(t-1/7)", "near t = 0.142857142", 3},
+               {"0;sqrt((t-0.3)^2)", "near t = 0.3, where derivative 1", 2}};
+  char text[512];
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    CHECK(undeclared(known[i].f, known[i].n, text, sizeof text) == STEIF_BAD_INPUT);
+    CHECK(strstr(text, known[i].says) != NULL && strstr(text, "--breaks") != NULL);
+  }
+}
+
+/* What is fast, but smooth, asks for steps; what is slow, for nothing. */
+static void fast_forcing_is_no_break(void)
+{
+  static const char *const fast[] = {"0;tanh((t-0.3)*1e6)", "0;sin(1e5*t)",
+                                     "0;exp(-((t-0.3)*2e3)^2)"};
+  static const char *const slow[] = {"0;sin(t)^2+cos(t)^2", "0;exp(-t)*cos(5*t)", "0;1",
+                                     "1e6*t;1e-6*sin(t)", "0;t^7"};
+  char text[512];
+  for (int i = 0; i < 3; i++) {
+    CHECK(!undeclared(fast[i], 2, text, sizeof text));
+    CHECK(strstr(text, "do not resolve the forcing") != NULL);
+  }
+  for (int i = 0; i < 5; i++) {
+    CHECK(!undeclared(slow[i], 2, text, sizeof text));
+    CHECK(strstr(text, "forcing") == NULL);
+  }
+}
+
 CU_TestInfo tests_of_breaks[] = {
   {"impulses at breaks of f are paired", impulses_at_breaks_are_paired},
   {"a circuit with a switched source pairs to 12 digits", a_circuit_with_a_switched_source},
@@ -309,4 +364,6 @@ CU_TestInfo tests_of_breaks[] = {
   {"norms with breaks inside steps have no order", norms_with_breaks_inside_steps},
   {"no test function beats norms with breaks", no_function_beats_norms_with_breaks},
   {"memory of norms may fail", memory_of_norms_may_fail},
+  {"undeclared breaks are found", undeclared_breaks_are_found},
+  {"fast forcing is no break", fast_forcing_is_no_break},
   CU_TEST_INFO_NULL};

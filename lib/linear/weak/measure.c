@@ -6,7 +6,9 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
-enum { LAYERS = 2, STEPS = 64, MOST_STEPS = 1 << 26, LOOKS = 500, LIMBS = 8 };
+enum { LAYERS = 2, STEPS = 64, MOST_STEPS = 1 << 26, LIMBS = 8 };
+
+#define ROUGH 1e-3 /* of a test function, the most that its derivatives may miss */
 
 /* The step of the first row. */
 static sunrealtype first_step(const steif_weak_query *q)
@@ -26,8 +28,9 @@ static int check_steps(steif_context *ctx, const steif_weak_query *q, sunrealtyp
               "the step h = %g must lie in (0, %g], the support of the test function", h, t1);
   STEIF_CHECK(ldexp(ceil(t1 / h), (int)fmin((double)q->rows, 64) - 1) <= MOST_STEPS, ctx,
               STEIF_BAD_INPUT,
-              "%zu rows from h = %g would take more than %d steps: ask for fewer rows", q->rows,
-              h, (int)MOST_STEPS);
+              "%zu rows from h = %g would take more than %d steps: take h above %.2g, or fewer "
+              "rows",
+              q->rows, h, (int)MOST_STEPS, ldexp(t1, (int)q->rows - 1) / MOST_STEPS);
   return STEIF_OK;
 }
 
@@ -59,41 +62,18 @@ int stf_measure_components(stf_measure *w)
   return STEIF_OK;
 }
 
-/* The largest rate at which f changes, 1/time: (|f^(j)| / |f|)^(1/j) over places of [0, t1]. */
-static int rate_of_forcing(const stf_measure *w, sunrealtype *rate)
-{
-  const stf_subject *s = &w->subject;
-  const steif_forcing f = s->block.k ? s->block.forcing : s->linear.f;
-  void *user = s->block.k ? s->block.user : s->linear.user;
-  sunrealtype most = 0;
-  *rate = 0;
-  for (int j = 0; f && j <= s->index; j++) {
-    sunrealtype largest = 0;
-    for (int i = 0; i < LOOKS; i++) {
-      const sunrealtype t = (sunrealtype)w->subject.weight.t1 * (i + 0.5) / LOOKS;
-      if (f(t, j, w->room, user)) return STEIF_OK; /* no more derivatives */
-      largest = fmax(largest, N_VMaxNorm(w->room));
-    }
-    if (j == 0) most = largest;
-    if (j > 0 && most > 0) *rate = fmax(*rate, pow(largest / most, 1.0 / j));
-  }
-  return STEIF_OK;
-}
-
 int stf_measure_longest(const stf_measure *w, sunrealtype *longest, const char **fastest)
 {
   const stf_subject *s = &w->subject;
   long double most, rate;
-  sunrealtype of_f;
   STEIF_TRY(stf_weight_scale(&w->subject.weight, &most, &rate));
-  STEIF_TRY(rate_of_forcing(w, &of_f));
   const struct {
     sunrealtype rate;
     const char *what;
   } known[] = {{(sunrealtype)rate, "the test function"},
                {LAYERS * (s->index + 1) / (sunrealtype)s->weight.t1,
                 "the interval of the test function, which holds the layer"},
-               {of_f, "the forcing"},
+               {w->rate, "the forcing"},
                {s->structure.finite > 0 ? s->structure.radius : 0,
                 "the fastest finite eigenvalue of the system"}};
   *longest = INFINITY;
@@ -140,10 +120,17 @@ int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_meas
   if (query->g && w->longer) {
     STEIF_TRY(stf_spline_open(&s->weight, stf_smooth(s->index), LIMBS, true, &w->smooth));
     s->weight.smooth = &w->smooth;
+    STEIF_CHECK(
+      w->smooth.defect <= ROUGH, ctx, STEIF_BAD_INPUT,
+      "the test function is not smooth enough up to t = %g: what its first %d "
+      "derivatives say differs from it by %.1Le of its size; take one like (1-t/%g)^%d, "
+      "or end it before (--t1)",
+      query->g->t1, stf_smooth(s->index), w->smooth.defect, query->g->t1,
+      stf_smooth(s->index) + 1);
   }
   w->room = N_VNew_Serial(s->n, steif_sundials(ctx));
   STEIF_CHECK(w->room, ctx, STEIF_NO_MEMORY, "no memory for a vector");
-  return STEIF_OK;
+  return stf_forcing_rate(w);
 }
 
 void stf_measure_close(stf_measure *w)

@@ -18,6 +18,7 @@ typedef struct stf_measure {
   N_Vector room;      /* n */
   stf_events *events; /* 3: of the run in double, in long double, shaken; NULL: not wanted */
   sunrealtype h;      /* first step */
+  sunrealtype rate;   /* at which f changes, 1/time */
   stf_turned turned[STF_TURNS]; /* where the run has coordinates of its own */
   stf_spline smooth;            /* the test function, where it is given */
   int first, count;             /* components paired */
@@ -34,6 +35,8 @@ void stf_measure_close(stf_measure *measure);
 int stf_measure_components(stf_measure *measure);
 /* The longest step that resolves the system, f and g, and what asks for it. */
 int stf_measure_longest(const stf_measure *measure, sunrealtype *longest, const char **fastest);
+/* The rate of f; bad input where f or a derivative that counts jumps at no break. */
+int stf_forcing_rate(stf_measure *measure);
 /* A run with so many steps h: value and level. */
 int stf_measure_run(stf_measure *measure, sunrealtype h, size_t steps);
 

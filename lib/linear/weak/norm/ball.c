@@ -245,6 +245,16 @@ static void say(steif_weak_ball *r)
              "larger steps or more rows");
 }
 
+/* The last row is too long: for what. */
+static void say_long(steif_weak_ball *r, sunrealtype h, sunrealtype longest,
+                     const char *fastest)
+{
+  snprintf(r->verdict, sizeof r->verdict,
+           "undecided: steps of %.3g do not resolve %s; take them below %.2g (--h), or another "
+           "interval (--t1)",
+           h, fastest, longest);
+}
+
 /* A break inside a step: how far in it lies changes from row to row, and errors with it. */
 static void say_inside(ball *b)
 {
@@ -309,6 +319,8 @@ static int measure(ball *b, steif_ball_row *row)
   for (int j = 0; j < r->count && !code; j++)
     judge_space(rows + r->space[j].m - 1, q->rows, STF_SPACES, longest, r->space + j);
   if (!code && isnan(b->inside)) say(r);
+  const sunrealtype last = ldexp(w->h, 1 - (int)q->rows);
+  if (!code && last > longest) say_long(r, last, longest, fastest);
   if (!code && !isnan(b->inside)) say_inside(b);
   stf_release(w->ctx, rows);
   return code;
