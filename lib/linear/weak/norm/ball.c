@@ -280,8 +280,8 @@ static int check(const stf_measure *w, int m)
   STEIF_CHECK(
     w->longer, w->ctx, STEIF_UNSUPPORTED,
     "norms take a second run in long double, which there is of be, bdf and Runge-Kutta "
-    "methods with regular A, not of '%s'",
-    q->method);
+    "methods with regular A and at most 400 stage values, not of '%s' with %d unknowns",
+    q->method, w->subject.n);
   STEIF_CHECK(q->cells >= 0 && q->cells <= CELLS, w->ctx, STEIF_BAD_INPUT,
               "%d cells of B-splines were asked for: 1 to %d, or 0 for none", q->cells, CELLS);
   STEIF_CHECK(m == 0 || (m >= 1 && m >= k - 1 && m <= STF_SPACES), w->ctx, STEIF_BAD_INPUT,
