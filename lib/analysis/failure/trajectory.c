@@ -45,10 +45,11 @@ static size_t collect(const steif_history *s, size_t n, size_t j, sunrealtype *t
   return count;
 }
 
-/* What blows up is larger than ever before. */
+/* What blows up is larger than ever before, and than its tolerance: below, its slopes are rounding. */
 static bool largest_now(const steif_history *s, size_t n, size_t j)
 {
   const sunrealtype now = fabs(s->y[(s->count - 1) * n + j]);
+  if (!s->prescribed && !(now > (s->atols ? s->atols[j] : s->atol))) return false;
   for (size_t k = 0; k + 1 < s->count; k++)
     if (fabs(s->y[k * n + j]) > now) return false;
   return true;
