@@ -5,6 +5,8 @@
  *   implicit     F(t, y, y') = 0                       .F
  *   descriptor   E x' = A x + g(t), E and A constant   .E, .A, .g   (A = -F in E x' + F x = g)
  *
+ * M, E and A that vary with t or y are STEIF_UNSUPPORTED in these forms: state M(t, y) y' - f(t, y) as .F.
+ *
  * The form is deduced from the members that are set. All lower to one residual F(t, y, y') and one
  * matrix pencil s E - A with E = dF/dy' and A = -dF/dy; nothing else is asked of a problem.
  *

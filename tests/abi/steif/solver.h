@@ -98,7 +98,13 @@ typedef struct steif_options {
   sunrealtype max_seconds; /* limit on the wall-clock time of a call; 0: none */
   const volatile int *stop; /* set to nonzero, by a signal handler for example, it lets
                                          the call return STEIF_STOPPED after the step at hand */
-  void *reserved[16];       /* 0, as in steif_problem */
+  /* Derivatives by the parameters of the problem, carried through every step (sensitivity.h). */
+  int sensitivities; /* 1: by all parameters, or by those listed: */
+  int active_count;
+  const int *active;          /* numbers from 0; NULL: all */
+  int untested_sensitivities; /* 1: their errors do not decide on steps */
+  int reserved_int;
+  void *reserved[13]; /* 0, as in steif_problem */
 } steif_options;
 
 /* What a run has cost. nli: iterations of GMRES, and then nlu is how often a preconditioner was made.
