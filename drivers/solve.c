@@ -15,7 +15,7 @@ static int integrate_on(struct call *call, const steif_problem *p)
   if (!code && !(tr.report = steif_report_new(call->ctx))) code = fail(call);
   if (!code && call->continues) code = saved_run_load(call, p, &options, &tr, &s);
   if (!code) {
-    const outcome o = integrate(call->ctx, p, call->word[1], &options, &s);
+    const outcome o = integrate(call->ctx, p, solution_method(call), &options, &s);
     saved_run_end(&tr, s, &o);
     code = solution_present(call, &o, s, &tr);
   }

@@ -80,12 +80,15 @@ static void fill_hidden(steif_report *r, const outcome *o, steif_solver *s)
   steif_report_text(r, "hidden", text);
 }
 
-static void fill(steif_report *r, const char *const *word, const outcome *o, steif_solver *s,
+const char *solution_method(const struct call *call) { return call->word[call->words - 1]; }
+
+static void fill(steif_report *r, const struct call *call, const outcome *o, steif_solver *s,
                  const trajectory *tr)
 {
-  steif_report_text(r, "problem", word[0]);
-  steif_report_text(r, "method", word[1]);
-  if (s && strcmp(word[1], steif_method_used(s)))
+  const char *method = solution_method(call);
+  steif_report_text(r, "problem", call->word[0]);
+  steif_report_text(r, "method", method);
+  if (s && strcmp(method, steif_method_used(s)))
     steif_report_text(r, "used", steif_method_used(s));
   report_status(r, "", o);
   if (s && steif_initial_used(s)->message[0])
@@ -109,12 +112,12 @@ static void fill(steif_report *r, const char *const *word, const outcome *o, ste
 int solution_present(struct call *call, const outcome *o, steif_solver *s, const trajectory *tr)
 {
   char title[128];
-  snprintf(title, sizeof title, "%s by %s", call->word[0], call->word[1]);
+  snprintf(title, sizeof title, "%s by %s", call->word[0], solution_method(call));
   const bool rounded = o->code == STEIF_OK && o->stats.rounding > 1;
   const int code = rounded               ? EXIT_UNCERTIFIED
                    : o->code == STEIF_OK ? EXIT_OK
                                          : exit_of_run(call, o->code, o->message);
-  fill(tr->report, call->word, o, s, tr);
+  fill(tr->report, call, o, s, tr);
   int output = call->json || s ? show(call, tr->report) : EXIT_OK;
   if (tr->short_of_memory)
     no_memory(call, "the trajectory",

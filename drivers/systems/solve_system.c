@@ -50,12 +50,12 @@ static int solve(struct call *call, const struct descriptor *l,
 int solve_system(struct call *call, int (*work)(struct call *call, const steif_problem *p))
 {
   struct descriptor l;
-  const char *method = call->word[--call->words]; /* what is left names the matrices */
-  const bool two = call->words > 1;
+  const int words = call->words;
+  const bool two = words > 2;
+  call->words = words - 1; /* all but the method: the matrices */
   int code = descriptor_open(call, &l, 0, true);
   if (!code) code = descriptor_started(call, &l);
-  call->word[1] = method;
-  call->words = 2;
+  call->words = words;
   if (!code && (!unify(&l.system.E, l.system.F) || !unify(&l.system.F, l.system.E)))
     code = no_memory(call, "sparse matrices", "save both as coordinates");
   if (!code && two) negate(l.system.F);
