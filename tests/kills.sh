@@ -3,7 +3,7 @@
 # whole every time, and the results are those of the runs that nobody disturbed.
 #   sh kills.sh PROGRAM FOLDER MODELS      FOLDER: scratch, made and removed
 set -eu
-program=$1 folder=$2 models=$3 kills=0 round=0
+program=$1 folder=$2 models=$3 kills=0 here=0 round=0
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
@@ -18,14 +18,17 @@ result() {
   sed 's/"cpu_s":[^,}]*//' "$1"
 }
 
-# A part of a second between 0.03 and 0.13, other in every call.
+# A part of a second between 0.03 and 0.13, other in every call, and longer with every kill of one run: a busy
+# machine may need more to start a program and write its first checkpoint.
 moment() {
-  awk -v seed="$1$(date +%s)" 'BEGIN { srand(seed); printf "%.3f", 0.03 + 0.10 * rand() }'
+  awk -v seed="$1$(date +%s)" -v kill="$2" \
+    'BEGIN { srand(seed); printf "%.3f", (0.03 + 0.10 * rand()) * 1.1 ^ kill }'
 }
 
 # Start, kill after a moment, until the run is at its end.
 disturbed() {
   rm -f run.ck run.ck.part
+  here=0
   while :; do
     if [ -f run.ck ]; then
       "$program" resume run.ck --json --quiet > some.json 2> some.err &
@@ -33,10 +36,10 @@ disturbed() {
       "$program" solve "$@" --checkpoint run.ck --every 0.002 --json --quiet > some.json 2> some.err &
     fi
     pid=$!
-    sleep "$(moment $kills)"
+    sleep "$(moment $kills $here)"
     kill -KILL $pid 2> some.kill || true # it may have come to its end
     if wait $pid; then break; fi 2> some.wait
-    kills=$((kills + 1))
+    kills=$((kills + 1)) here=$((here + 1))
     [ ! -s some.err ] || fail "after $kills kills: $(cat some.err)"
   done
 }

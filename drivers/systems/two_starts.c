@@ -15,7 +15,7 @@ void two_starts_compare(const char *const *name, size_t n, const double *nearest
   char unknown[80];
   for (size_t i = 0; i < n; i++) {
     size = fmax(size, fmax(fabs(plus[i]), fabs(nearest[i])));
-    if (!(fabs(plus[i] - nearest[i]) > most)) continue;
+    if (!(fabs(plus[i] - nearest[i]) > (1 + SAME) * most)) continue; /* the first of equals */
     most = fabs(plus[i] - nearest[i]);
     worst = i;
   }

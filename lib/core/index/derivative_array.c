@@ -124,6 +124,9 @@ static void derivatives(const array_work *w, size_t rows, size_t rank, stf_deriv
   }
 }
 
+/* Lengths that differ by rounding are equal: the first is taken, on every machine. */
+#define SAME_LENGTH 1e-6
+
 /* Start values that can be prescribed: rows of the null space of the constraints, the largest
  * remaining one each time (Gram-Schmidt with pivoting). */
 static void prescribe(array_work *w, stf_derivative_array *a)
@@ -137,7 +140,7 @@ static void prescribe(array_work *w, stf_derivative_array *a)
   for (size_t k = 0; k < dim; k++) {
     size_t at = 0;
     for (size_t j = 1; j < n; j++)
-      if (norm(T + j * dim, dim) > norm(T + at * dim, dim)) at = j;
+      if (norm(T + j * dim, dim) > (1 + SAME_LENGTH) * norm(T + at * dim, dim)) at = j;
     const sunrealtype length = norm(T + at * dim, dim);
     if (!(length > 1e-10)) return;
     a->prescribe[at] = 1;
