@@ -25,8 +25,9 @@ static int run(struct call *call)
   const char *name = call->words ? call->word[0] : "step";
   for (size_t i = 0; i < BENCHMARKS; i++)
     if (!strcmp(name, benchmarks[i].name)) return benchmarks[i].run(call);
-  return unknown_name(call, "no benchmark '%s'; the nearest is '%s'", name,
-                      nearest(name, name_at, NULL));
+  char text[GUESS];
+  return unknown_name(call, "no benchmark '%s'%s 'steif bench --help' lists them", name,
+                      guess(name, name_at, NULL, text));
 }
 
 static const struct option options[] = {

@@ -55,8 +55,9 @@ static int run(struct call *call)
   const steif_hamiltonian_example *e;
   for (size_t i = 0; (e = steif_hamiltonian_example_at(i)); i++)
     if (!strcmp(e->name, name)) return find(call, e->n, e->A);
-  return unknown_name(call, "no example \"%s\", the nearest is %s; files end in .mtx", name,
-                      nearest(name, name_at, NULL));
+  char text[GUESS];
+  return unknown_name(call, "no example \"%s\"%s files end in .mtx", name,
+                      guess(name, name_at, NULL, text));
 }
 
 static const struct option options[] = {

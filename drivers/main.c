@@ -45,6 +45,7 @@ static int dispatch(struct call *call, int argc, char **argv)
 {
   const bool asked = is(argv[1], "help", "--help", "-h");
   const char *name = asked ? argv[2] : argv[1];
+  char text[GUESS];
   if (is(argv[1], "version", "--version", "-V"))
     return printf("steif %s\n", steif_version()) < 0;
   call->verb = name ? verb_find(name) : NULL;
@@ -53,9 +54,8 @@ static int dispatch(struct call *call, int argc, char **argv)
   if (!call->ctx) return no_memory(call, "a context", "give the process more");
   if (!roomy()) return no_memory(call, "the buffers of BLAS, 256 MB", "raise 'ulimit -v'");
   if (name && !call->verb)
-    return unknown_name(call,
-                        "no verb \"%s\"; the nearest is %s, and 'steif --help' lists them",
-                        name, verb_nearest(name));
+    return unknown_name(call, "no verb \"%s\"%s 'steif --help' lists them", name,
+                        verb_guess(name, text));
   return asked ? help(call->verb) : run(call, argc - 2, argv + 2);
 }
 

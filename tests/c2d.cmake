@@ -71,7 +71,7 @@ member("zoh" schemes 0 name)
 
 expect(2 c2d A.mtx B.mtx ERR "--dt H")
 expect(2 c2d A.mtx --dt 0 ERR "above 0")
-expect(2 c2d A.mtx --dt 0.1 --scheme bilinaer ERR "nearest is 'bilinear'")
+expect(2 c2d A.mtx --dt 0.1 --scheme bilinaer ERR "did you mean 'bilinear'")
 expect(2 c2d A.mtx --dt 0.1 --prewarp 2 ERR "no parameter 'w'")
 expect(2 c2d A.mtx --dt 0.1 --prewarp 2 --alpha 1 ERR "contradict")
 expect(2 c2d A.mtx --dt 0.1 --scheme bilinear --prewarp 32 ERR "below pi/dt")

@@ -11,10 +11,10 @@ expect(0 -h OUT "compare +Compare")
 expect(0 help solve OUT "^steif solve")
 expect(0 solve -h OUT "^steif solve")
 expect(0 -V OUT "^steif [0-9.]+\n$")
-expect(2 help slove ERR "nearest is solve")
+expect(2 help slove ERR "did you mean solve")
 
 # Usage, with its reason as JSON; before and after the word that is wrong.
-expect(2 slove --json ERR "nearest is solve")
+expect(2 slove --json ERR "did you mean solve")
 member("unknown name" status)
 expect(2 solve --json)
 member("bad input" status)

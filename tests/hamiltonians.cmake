@@ -30,7 +30,7 @@ expect(5 hamiltonian barely --tol 2e-11 ERR "undecided.*--tol")
 expect(0 hamiltonian --json)
 member(rotation examples 0 name)
 
-expect(2 hamiltonian saddel ERR "nearest is saddle")
+expect(2 hamiltonian saddel ERR "did you mean saddle")
 expect(2 hamiltonian A.mtx --tol 0 ERR "above 0")
 expect(2 hamiltonian A.mtx --tol 3 ERR "tolerance")
 expect(2 hamiltonian A.mtx --plot a.svg ERR "no picture")

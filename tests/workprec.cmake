@@ -81,7 +81,7 @@ member(dahlquist rows 4 problem)
 call(2 workprec --problems rober,robber)
 call(2 workprec --methods radou:s=3)
 call(2 workprek)
-if(NOT err MATCHES "nearest is 'workprec'")
+if(NOT err MATCHES "did you mean workprec")
   message(SEND_ERROR "workprek: ${err}")
 endif()
 

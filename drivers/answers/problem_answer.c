@@ -112,12 +112,13 @@ int problem_shown(struct call *call)
 {
   const char *word = call->word[0];
   steif_problem p;
+  char near[GUESS];
   const int found = steif_problem_find(call->ctx, word, &p);
   if (found == STEIF_UNKNOWN_NAME && !strpbrk(word, ".:"))
     return unknown_name(call,
-                        "\"%s\" is neither methods, problems, schemes or codes nor a problem; "
-                        "the nearest problem is %s",
-                        word, nearest(word, name_at, NULL));
+                        "\"%s\" is neither methods, problems, schemes or codes nor a problem%s "
+                        "'steif list problems' shows those",
+                        word, guess(word, name_at, NULL, near));
   if (found) return fail(call);
   const int code = problem_present(call, &p);
   steif_problem_clear(call->ctx, &p);

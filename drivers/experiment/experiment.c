@@ -115,9 +115,10 @@ int steif_experiment_run(steif_context *ctx, const char *name, steif_findings *f
               "the name of an experiment and room for its findings are needed");
   *f = (steif_findings){0};
   const stf_experiment_entry *entry = find(name);
-  STEIF_CHECK(entry, ctx, STEIF_UNKNOWN_NAME, "no experiment '%s'; the nearest is '%s'", name,
-              stf_nearest(name, stf_experiment_shelf, stf_experiment_count,
-                          sizeof *stf_experiment_shelf));
+  char guess[STF_GUESS];
+  STEIF_CHECK(entry, ctx, STEIF_UNKNOWN_NAME, "no experiment '%s'%s", name,
+              stf_guess(name, stf_experiment_shelf, stf_experiment_count,
+                        sizeof *stf_experiment_shelf, guess));
   stf_trial t = {.ctx = ctx, .data = entry->item->data, .pool = stf_pool_new(ctx)};
   if (!t.pool) return STEIF_NO_MEMORY;
   f->memory = t.pool;

@@ -74,11 +74,11 @@ static int one_option(struct call *call, int argc, char **argv, int *i)
 {
   const char *name = argv[*i], *text = strchr(name, '=');
   const size_t length = text ? (size_t)(text - name) : strlen(name);
+  char near[GUESS];
   const struct option *o = find(call->verb, name, length);
   if (!o)
-    return bad_usage(call,
-                     "no option %.*s; the nearest is %s, and 'steif %s --help' lists them all",
-                     (int)length, name, nearest(name, name_at, call->verb), call->verb->name);
+    return bad_usage(call, "no option %.*s%s 'steif %s --help' lists them all", (int)length,
+                     name, guess(name, name_at, call->verb, near), call->verb->name);
   if (o->kind == FLAG)
     return text ? bad_usage(call, "%s takes no value; leave %s out", o->name, text)
                 : keep(call, o, "");

@@ -171,8 +171,8 @@ static int distance(const char *a, const char *b)
   return row[m];
 }
 
-const char *nearest(const char *wrong, const char *(*name_at)(const void *list, size_t i),
-                    const void *list)
+const char *guess(const char *wrong, const char *(*name_at)(const void *list, size_t i),
+                  const void *list, char text[GUESS])
 {
   const char *best = NULL, *name;
   int least = 0;
@@ -183,5 +183,10 @@ const char *nearest(const char *wrong, const char *(*name_at)(const void *list, 
       least = d;
     }
   }
-  return best;
+  const size_t letters = best && strlen(best) > strlen(wrong) ? strlen(best) : strlen(wrong);
+  if (best && (size_t)least <= (letters + 3) / 3)
+    snprintf(text, GUESS, "; did you mean %.64s?", best);
+  else
+    strcpy(text, ";");
+  return text;
 }

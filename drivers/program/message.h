@@ -30,9 +30,11 @@ int fail(const struct call *call);
 /* The same where a file of the user's is to blame: EXIT_FILE. */
 int fail_file(const struct call *call);
 
-/* The name nearest to `wrong`, by name_at(list, i), NULL past the end. */
-const char *nearest(const char *wrong, const char *(*name_at)(const void *list, size_t i),
-                    const void *list);
+/* "; did you mean NAME?", of the name_at(list, i), NULL past the end, that is nearest to `wrong`; ";" where none is
+ * near: a third of the letters may be wrong. */
+enum { GUESS = 96 };
+const char *guess(const char *wrong, const char *(*name_at)(const void *list, size_t i),
+                  const void *list, char text[GUESS]);
 
 /* A line on a terminal that the next one replaces; NULL wipes it. */
 void progress(const struct call *call, const char *format, ...) STEIF_PRINTF(2, 3);

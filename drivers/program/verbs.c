@@ -36,7 +36,10 @@ static const char *name_at(const void *list, size_t i)
   return v ? v->name : NULL;
 }
 
-const char *verb_nearest(const char *name) { return nearest(name, name_at, NULL); }
+const char *verb_guess(const char *name, char text[GUESS])
+{
+  return guess(name, name_at, NULL, text);
+}
 
 void verbs_overview(FILE *out)
 {

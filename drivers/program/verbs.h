@@ -4,13 +4,14 @@
 #define VERBS_H
 
 #include "command_line.h"
+#include "message.h"
 #include <stdio.h>
 
 /* Verb i in the order of the overview; NULL past the end. */
 const struct verb *verb_at(size_t i);
 /* NULL: there is none of this name; then the nearest name. */
 const struct verb *verb_find(const char *name);
-const char *verb_nearest(const char *name);
+const char *verb_guess(const char *name, char text[GUESS]);
 /* What the verbs are, one line each. */
 void verbs_overview(FILE *out);
 

@@ -138,11 +138,15 @@ static void the_nearest_name_is_found(void)
   CHECK(!strcmp(stf_nearest("radau2a", shelf, count, stride), "radau1a"));
   CHECK(!strcmp(stf_nearest("lobato", shelf, count, stride), "lobatto3c"));
   CHECK(!strcmp(stf_nearest("guass", shelf, count, stride), "gauss"));
-  CHECK(!strcmp(stf_nearest("", shelf, count, stride), "bdf"));
+  CHECK(stf_nearest("", shelf, count, stride) == NULL);
+  CHECK(stf_nearest("nosuch", shelf, count, stride) == NULL);
   CHECK(stf_nearest("gauss", shelf, 0, stride) == NULL);
   char huge[500];
   memset(huge, 'z', sizeof huge - 1), huge[sizeof huge - 1] = 0;
-  CHECK(stf_nearest(huge, shelf, count, stride) != NULL);
+  CHECK(stf_nearest(huge, shelf, count, stride) == NULL);
+  char guess[STF_GUESS];
+  CHECK(!strcmp(stf_guess("guass", shelf, count, stride, guess), "; did you mean 'gauss'?"));
+  CHECK(!*stf_guess("nosuch", shelf, count, stride, guess));
 }
 
 CU_TestInfo tests_of_spec[] = {

@@ -30,8 +30,8 @@ static void steps_and_names(void)
   one(4, "zoh", -0.25, STEIF_BAD_INPUT, "dt = -0.25");
   one(4, "zoh", NAN, STEIF_BAD_INPUT, "dt = ");
   one(4, "zoh", INFINITY, STEIF_BAD_INPUT, "dt = inf");
-  one(4, "zho", 0.1, STEIF_UNKNOWN_NAME, "nearest is 'zoh'");
-  one(4, "bilinaer", 0.1, STEIF_UNKNOWN_NAME, "nearest is 'bilinear'");
+  one(4, "zho", 0.1, STEIF_UNKNOWN_NAME, "did you mean 'zoh'");
+  one(4, "bilinaer", 0.1, STEIF_UNKNOWN_NAME, "did you mean 'bilinear'");
   one(4, "zoh:w=2", 0.1, STEIF_UNKNOWN_NAME, "no parameter 'w'");
   one(4, "gbt", 0.1, STEIF_BAD_INPUT, "gbt:alpha=");
   one(4, "gbt:alpha=1.5", 0.1, STEIF_BAD_INPUT, "alpha");

@@ -197,7 +197,7 @@ static void wrong_calls_are_told(void)
   o.parameters = &named;
   CHECK(steif_parameter_find(s.ctx, &o, "beta") == 1);
   CHECK(steif_parameter_find(s.ctx, &o, "bet") == -1);
-  CHECK(strstr(steif_message(s.ctx), "nearest is 'beta'") != NULL);
+  CHECK(strstr(steif_message(s.ctx), "did you mean 'beta'") != NULL);
   CHECK(steif_parameter_slope(s.ctx, &o, 2, 0, s.y, s.yp, s.out) == STEIF_BAD_INPUT);
   CHECK(steif_parameter_slope(s.ctx, &o, 0, 0, NULL, s.yp, s.out) == STEIF_BAD_INPUT);
   const double before = p[0];

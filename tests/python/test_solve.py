@@ -107,7 +107,7 @@ class Solve(unittest.TestCase):
         self.assertEqual(s.t[-1], 1e11)
         self.assertAlmostEqual(s.y[0, -1] / 2.0833401497e-8, 1, 5)
         self.assertEqual(steif.solve(lambda t, y: -y, (0, 1), [1]).names, None)
-        with self.assertRaisesRegex(steif.SteifError, "nearest is 'rober'"):
+        with self.assertRaisesRegex(steif.SteifError, "did you mean 'rober'"):
             steif.solve("rober1")
 
     def test_model_file(self):

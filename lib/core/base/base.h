@@ -75,9 +75,14 @@ const char *stf_spec_word(const steif_spec *spec, const char *key);
 /* Refuse parameters not in `keys`, a NULL-terminated list ("" allows a bare word). */
 int stf_spec_only(steif_context *ctx, const steif_spec *spec, const char *const *keys);
 
-/* The name of the list nearest to `wrong` in edit distance; NULL for an empty list. `list[i]` is
- * read through `stride` bytes so that the names may be the first member of structs. */
+/* The name of the list nearest to `wrong` in edit distance; NULL where none is near: a third of the letters may be
+ * wrong. `list[i]` is read through `stride` bytes so that the names may be the first member of structs. */
 const char *stf_nearest(const char *wrong, const void *list, size_t count, size_t stride);
+/* "; did you mean 'NAME'?" of that name; nothing where none is near. */
+enum { STF_GUESS = STEIF_SPEC_WORD + 32 };
+const char *stf_guess(const char *wrong, const void *list, size_t count, size_t stride,
+                      char text[STF_GUESS]);
+bool stf_near(const char *wrong, const char *name);
 /* That distance. */
 int stf_distance(const char *a, const char *b);
 

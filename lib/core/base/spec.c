@@ -152,5 +152,20 @@ const char *stf_nearest(const char *wrong, const void *list, size_t count, size_
     const int d = stf_distance(wrong, name);
     if (!best || d < least) best = name, least = d;
   }
-  return best;
+  return best && stf_near(wrong, best) ? best : NULL;
+}
+
+bool stf_near(const char *wrong, const char *name)
+{
+  const int m = (int)strnlen(wrong, STEIF_SPEC_WORD), n = (int)strnlen(name, STEIF_SPEC_WORD);
+  return stf_distance(wrong, name) <= ((m > n ? m : n) + 3) / 3;
+}
+
+const char *stf_guess(const char *wrong, const void *list, size_t count, size_t stride,
+                      char text[STF_GUESS])
+{
+  const char *near = stf_nearest(wrong, list, count, stride);
+  text[0] = 0;
+  if (near) snprintf(text, STF_GUESS, "; did you mean '%.*s'?", STEIF_SPEC_WORD, near);
+  return text;
 }

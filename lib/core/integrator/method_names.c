@@ -83,6 +83,9 @@ static int unknown(steif_context *ctx, const steif_spec *spec)
     least = distance;
     strcpy(best, text);
   }
+  if (!stf_near(spec->name, best))
+    return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "no method '%s'; 'steif list methods' shows all",
+                      spec->name);
   return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME,
                     "no method '%s'; did you mean '%s'? 'steif list "
                     "methods' shows all",

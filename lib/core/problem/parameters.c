@@ -139,10 +139,11 @@ int steif_parameter_find(steif_context *ctx, const steif_problem *p, const char 
     snprintf(own, sizeof own, "p%d", k + 1);
     if (!strcmp(own, name)) return k;
   }
-  const char *near =
-    q->name ? stf_nearest(name, q->name, (size_t)q->count, sizeof *q->name) : "p1";
-  STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "problem '%s' has no parameter '%s'; the nearest is '%s'",
-             p->name, name, near);
+  char guess[STF_GUESS] = "; they are p1, p2, ...";
+  if (q->name) stf_guess(name, q->name, (size_t)q->count, sizeof *q->name, guess);
+  if (q->name && !*guess) snprintf(guess, sizeof guess, "; the first one is '%.40s'", *q->name);
+  STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "problem '%s' has no parameter '%s'%s", p->name, name,
+             guess);
   return -1;
 }
 

@@ -37,8 +37,9 @@ static const steif_table *find(steif_context *ctx, const char *name)
 {
   for (size_t i = 0; i < stf_table_count; i++)
     if (!strcmp(stf_table_shelf[i].name, name)) return stf_table_shelf[i].item;
-  STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "no table is named '%s'; did you mean '%s'?", name,
-             stf_nearest(name, stf_table_shelf, stf_table_count, sizeof *stf_table_shelf));
+  char guess[STF_GUESS];
+  STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "no table is named '%s'%s", name,
+             stf_guess(name, stf_table_shelf, stf_table_count, sizeof *stf_table_shelf, guess));
   return NULL;
 }
 

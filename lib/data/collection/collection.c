@@ -79,10 +79,12 @@ int steif_problem_find(steif_context *ctx, const char *text, steif_problem *prob
   STEIF_TRY(steif_spec_parse(ctx, text, &spec));
   const stf_problem_entry *entry = look_up(spec.name);
   if (!entry) {
-    const char *near =
-      stf_nearest(spec.name, stf_problem_shelf, stf_problem_count, sizeof *stf_problem_shelf);
-    return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "no problem is called '%s'; the nearest is '%s'",
-                      spec.name, near ? near : "none: there are no problems");
+    char guess[STF_GUESS];
+    stf_guess(spec.name, stf_problem_shelf, stf_problem_count, sizeof *stf_problem_shelf,
+              guess);
+    return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME,
+                      "no problem is called '%s'%s 'steif list problems' shows all", spec.name,
+                      *guess ? guess : ";");
   }
   if (!entry->item->build) STEIF_TRY(stf_spec_only(ctx, &spec, (const char *const[]){NULL}));
   *problem = *entry->item;

@@ -212,8 +212,9 @@ static int name(parser *p, int *degree)
   int which = 0;
   while (which < KNOWN && strcmp(known[which].name, word)) which++;
   if (which == KNOWN) {
-    snprintf(sentence, sizeof sentence, "unknown name '%s'; did you mean '%s'?", word,
-             stf_nearest(word, known, KNOWN, sizeof *known));
+    char guess[STF_GUESS];
+    snprintf(sentence, sizeof sentence, "unknown name '%s'%s", word,
+             stf_guess(word, known, KNOWN, sizeof *known, guess));
     return reject(p, start, STEIF_UNKNOWN_NAME, sentence);
   }
   *degree = known[which].operation == STF_TIME ? LINEAR : FIXED;

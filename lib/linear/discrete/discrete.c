@@ -74,8 +74,9 @@ static int find(steif_context *ctx, const char *text, steif_spec *spec, const st
   for (*rule = rules; *rule < rules + RULES; ++*rule)
     if (!strcmp(spec->name, (*rule)->scheme.name))
       return stf_spec_only(ctx, spec, (const char *const[]){(*rule)->key[0], NULL});
-  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "no scheme '%s'; the nearest is '%s'", spec->name,
-                    stf_nearest(spec->name, rules, RULES, sizeof *rules));
+  char guess[STF_GUESS];
+  return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "no scheme '%s'%s", spec->name,
+                    stf_guess(spec->name, rules, RULES, sizeof *rules, guess));
 }
 
 int stf_state_space_check(steif_context *ctx, const steif_state_space *s)

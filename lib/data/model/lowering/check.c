@@ -116,11 +116,12 @@ static void check(stf_model *m, int32_t index, const stf_expression *e)
 static void check_target(stf_model *m, const stf_statement *s)
 {
   const stf_symbol *f = stf_symbol_of(m, s->name);
+  char guess[STF_GUESS];
   if (!f)
     stf_complain(
-      &m->syntax.sources, s->at, STEIF_UNKNOWN_NAME, "unknown name '%s'; did you mean '%s'?",
+      &m->syntax.sources, s->at, STEIF_UNKNOWN_NAME, "unknown name '%s'%s",
       stf_named(m, s->name),
-      stf_nearest(stf_named(m, s->name), m->names.data, m->names.count, sizeof(char *)));
+      stf_guess(stf_named(m, s->name), m->names.data, m->names.count, sizeof(char *), guess));
   else if (f->kind != STF_IS_STATE && f->kind != STF_IS_DISCRETE && f->kind != STF_IS_PARAMETER)
     stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
                  "'%s' cannot be assigned; only states, discrete values and "

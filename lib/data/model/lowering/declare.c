@@ -100,9 +100,12 @@ static int unknown_parameter(stf_model *m, const char *key)
   const char *near = stf_nearest(key, list, count, sizeof *list);
   stf_release(m->ctx, list);
   const char *file = STF_AT(m->syntax.sources.texts, stf_text, 0)->name;
-  if (!near)
+  if (!count)
     return STEIF_FAIL(m->ctx, STEIF_UNKNOWN_NAME, "%s has no parameters, so no '%s'", file,
                       key);
+  if (!near)
+    return STEIF_FAIL(m->ctx, STEIF_UNKNOWN_NAME, "%s has no parameter '%s'. It has %s", file,
+                      key, all);
   return STEIF_FAIL(m->ctx, STEIF_UNKNOWN_NAME,
                     "%s has no parameter '%s'; the nearest is '%s'. It has %s", file, key, near,
                     all);

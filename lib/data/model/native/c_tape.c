@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char stf_table_functions[] =
+static const char finding_functions[] =
   "static long interval(const struct table *l, double x)\n"
   "{\n"
   "  long low = 0, high = l->count - 1;\n"
@@ -20,7 +20,8 @@ static const char stf_table_functions[] =
   "static inline int outside(const struct table *l, double x)\n"
   "{\n"
   "  return !(x == x) || (l->error && !(x >= l->x[0] && x <= l->x[l->count - 1]));\n"
-  "}\n"
+  "}\n";
+static const char value_function[] =
   "static inline double value(const struct table *l, double x)\n"
   "{\n"
   "  if (outside(l, x)) return NAN;\n"
@@ -33,7 +34,8 @@ static const char stf_table_functions[] =
   "  if (l->kind == 0) return l->y[i] + s * rise;\n"
   "  const double a = h * l->slope[i] - rise, b = rise - h * l->slope[i + 1];\n"
   "  return l->y[i] + s * rise + s * (1 - s) * (a * (1 - s) + b * s);\n"
-  "}\n"
+  "}\n";
+static const char slope_function[] =
   "static inline double tilt(const struct table *l, double x)\n"
   "{\n"
   "  if (outside(l, x)) return NAN;\n"
@@ -72,8 +74,8 @@ static void array(stf_writer *w, const char *name, size_t which, size_t count, c
   stf_write(w, "};\n");
 }
 
-/* The functions of tables.c. */
-static void tables(stf_writer *w, const stf_model *m)
+/* The functions of tables.c that occur. */
+static void tables(stf_writer *w, const stf_model *m, const bool *used)
 {
   for (int32_t i = 0; i < m->tables; i++) {
     const stf_lookup *l = m->lookups + i;
@@ -91,7 +93,9 @@ static void tables(stf_writer *w, const stf_model *m)
     stf_write(w, l->kind == 1 ? "table_slope%d},\n" : "0},\n", (int)i);
   }
   stf_write_text(w, "};\n");
-  stf_write_text(w, stf_table_functions);
+  stf_write_text(w, finding_functions);
+  if (used[STF_OP_LOOKUP]) stf_write_text(w, value_function);
+  if (used[STF_OP_TILT]) stf_write_text(w, slope_function);
 }
 
 /* Those that occur, by the same table of values as the machine's. */
@@ -105,7 +109,7 @@ void stf_write_functions(stf_writer *w, const stf_model *m, size_t count,
       mark_used(&t->code, used);
       mark_used(&t->wide, used);
     }
-  if (used[STF_OP_LOOKUP] || used[STF_OP_TILT]) tables(w, m);
+  if (used[STF_OP_LOOKUP] || used[STF_OP_TILT]) tables(w, m, used);
   if (used[STF_OP_TIMES_PLUS] || used[STF_OP_TIMES_MINUS] || used[STF_OP_MINUS_TIMES])
     stf_write(w, "static inline double plus(double a, double b) { return a + b; }\n");
   for (int k = 0; k < STF_OP_KINDS; k++) {

@@ -101,11 +101,11 @@ static int choose(steif_context *ctx, const steif_spec *spec, const variant **ki
   if (!word) return STEIF_OK;
   for (*kind = variants; *kind < variants + VARIANTS; ++*kind)
     if (!strcmp((*kind)->name, word)) return STEIF_OK;
+  char guess[STF_GUESS];
   return STEIF_FAIL(
     ctx, STEIF_UNKNOWN_NAME,
-    "case=%s of '%s' is not known; the nearest of H-inc, N-inc, N-cons, sin-inc "
-    "and sin-cons is %s",
-    word, spec->name, stf_nearest(word, variants, VARIANTS, sizeof *variants));
+    "case=%s of '%s' is not one of H-inc, N-inc, N-cons, sin-inc and sin-cons%s", word,
+    spec->name, stf_guess(word, variants, VARIANTS, sizeof *variants, guess));
 }
 
 static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self)
