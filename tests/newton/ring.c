@@ -115,7 +115,7 @@ void room_open(stage_room *s, const ring *r, const char *spec, int linear, doubl
   N_VConst(1, s->weights);
   stf_transform transform;
   CU_ASSERT_FATAL(!stf_system_open(s->pool, s->ctx, &s->problem, STEIF_ODE, STEIF_DENSE, 1,
-                                   s->y, s->yp, &s->system));
+                                   NULL, s->y, s->yp, &s->system));
   CU_ASSERT_FATAL(!open_transform(s, spec, &transform));
   CU_ASSERT_FATAL(!stf_newton_open(s->pool, &s->system, &transform, s->weights, &s->newton));
   s->newton.tolerance = 1e-12, s->newton.iterations = 60;

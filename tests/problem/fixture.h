@@ -31,7 +31,7 @@ static inline int fixture_open(fixture *s, const steif_problem *p, enum steif_st
   bool known;
   stf_space_open(&space, s->y);
   STEIF_TRY(stf_system_start(s->ctx, p, form, &space, s->y, s->yp, &known));
-  return stf_system_open(s->pool, s->ctx, p, form, storage, 1, s->y, s->yp, &s->system);
+  return stf_system_open(s->pool, s->ctx, p, form, storage, 1, NULL, s->y, s->yp, &s->system);
 }
 
 static inline void fixture_close(fixture *s)

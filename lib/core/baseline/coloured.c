@@ -21,6 +21,11 @@ int stf_coloured_open(stf_baseline *base)
   s->form = run->form;
   s->storage = STEIF_SPARSE;
   s->scale = run->options->atol / run->options->rtol;
+  const sunrealtype *atols = run->options->atols;
+  sunrealtype *floors = atols ? stf_pool_array(run->pool, (size_t)p->n, sizeof *floors) : NULL;
+  if (atols && !floors) return STEIF_NO_MEMORY;
+  for (sunindextype j = 0; floors && j < p->n; j++) floors[j] = atols[j] / run->options->rtol;
+  s->floors = floors;
   stf_space_open(&s->space, run->y);
   for (int i = 0; i < 6; i++)
     if (!(s->work[i] = stf_pool_vector(run->pool, run->y))) return STEIF_NO_MEMORY;

@@ -171,6 +171,8 @@ static int evaluate(steif_solver *s)
               begun);
   clear_counts(system);
   system->scale = s->options.atol / s->options.rtol;
+  for (sunindextype j = 0; s->floors && j < p->n; j++)
+    s->floors[j] = STF_ARRAY(s->atols)[j] / s->options.rtol;
   system->filled = false;
   int code = STEIF_OK;
   if (!step->yp_known && system->form == STEIF_ODE) {

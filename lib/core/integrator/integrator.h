@@ -47,7 +47,8 @@ struct steif_solver {
   steif_options options; /* complete */
   sunrealtype t1;
   N_Vector serial, shown, dense,
-    atols; /* serial: our own prototype vector, if none was given */
+    atols;             /* serial: our own prototype vector, if none was given */
+  sunrealtype *floors; /* atols / rtol; NULL without atols */
   sunrealtype t_shown;
   sunrealtype end;      /* the solution is known up to here */
   stf_detector *events; /* of events; NULL: none */

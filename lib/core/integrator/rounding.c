@@ -52,7 +52,7 @@ int stf_rounding_open(steif_solver *s)
   N_VConst(0, r->error);
   r->state = 1, r->t = step->t;
   STEIF_TRY(stf_system_open(s->pool, s->ctx, s->problem, from->form, from->storage, from->scale,
-                            step->y, step->yp, &r->system));
+                            from->floors, step->y, step->yp, &r->system));
   s->rounding = r;
   return STEIF_OK;
 }

@@ -37,7 +37,11 @@ static int open_vectors(steif_solver *s, N_Vector *y, N_Vector *yp)
   if (!s->atols) return STEIF_NO_MEMORY;
   sunrealtype *a = N_VGetArrayPointer(s->atols);
   STEIF_CHECK(a, s->ctx, STEIF_UNSUPPORTED, "options.atols needs vectors with a host array");
-  memcpy(a, s->options.atols, (size_t)s->problem->n * sizeof *a);
+  const size_t n = (size_t)s->problem->n;
+  memcpy(a, s->options.atols, n * sizeof *a);
+  s->floors = stf_pool_array(s->pool, n, sizeof *s->floors);
+  if (!s->floors) return STEIF_NO_MEMORY;
+  for (size_t j = 0; j < n; j++) s->floors[j] = a[j] / s->options.rtol;
   return STEIF_OK;
 }
 
@@ -147,6 +151,7 @@ static int take_system(steif_solver *s, N_Vector y, N_Vector yp)
 {
   stf_system *system = &s->step.system;
   *system = s->repair.point.system;
+  system->floors = s->floors;
   system->problem = s->problem;
   if (s->problem->index) STEIF_TRY(stf_index_check(system));
   if (s->repair.point.views <= 1) return STEIF_OK;
@@ -164,11 +169,12 @@ static int open_system(steif_solver *s, int form, N_Vector y, N_Vector yp)
   if (s->repair.point.pool && !o->force_storage && !(step->method->traits & other))
     return take_system(s, y, yp);
   if (!(step->method->traits & STF_EXPLICIT))
-    return stf_system_open(
-      s->pool, s->ctx, step->method->traits & STF_SEMILINEAR ? semilinear(s) : s->problem, form,
-      o->force_storage ? o->storage : s->problem->storage, scale, y, yp, &step->system);
+    return stf_system_open(s->pool, s->ctx,
+                           step->method->traits & STF_SEMILINEAR ? semilinear(s) : s->problem,
+                           form, o->force_storage ? o->storage : s->problem->storage, scale,
+                           s->floors, y, yp, &step->system);
   step->system.ctx = s->ctx, step->system.problem = s->problem, step->system.form = form;
-  step->system.scale = scale, step->system.weight = 1;
+  step->system.scale = scale, step->system.floors = s->floors, step->system.weight = 1;
   return STEIF_OK;
 }
 

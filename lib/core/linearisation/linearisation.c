@@ -80,8 +80,8 @@ static int open(stf_point *s, const steif_point *q, int form)
   STEIF_TRY(put_point(s, q, form));
   s->analytic = form == STEIF_IMPLICIT ? p->idajac || (p->E && p->A)
                                        : form == STEIF_DESCRIPTOR || p->A || p->jac;
-  STEIF_TRY(stf_system_open(s->pool, s->ctx, p, form, p->storage, s->floor[0], s->y, s->yp,
-                            &s->system));
+  STEIF_TRY(stf_system_open(s->pool, s->ctx, p, form, p->storage, s->floor[0], s->floor, s->y,
+                            s->yp, &s->system));
   return stf_constant_matrices(s->ctx, p, form, p->t1, s->y, "this analysis");
 }
 

@@ -117,13 +117,32 @@ static int find_oscillation(stf_step *s)
 
 static bool oscillates(const state *e, sunrealtype h) { return e->omega * h > 1; }
 
+/* What rounding leaves in algebraic unknowns is no error that shorter steps make smaller: Newton's iteration
+ * may stall there, and estimates, which amplify it by up to 2^(k+1) - 1, may come to that. */
+static int find_noise(stf_step *s)
+{
+  state *e = s->state;
+  const sunrealtype times = 4;
+  if (!s->newton.factored || s->system.nje == e->noise_of) return STEIF_OK;
+  e->noise_of = s->system.nje;
+  STEIF_TRY(stf_algebraic_noise(s, e->Z, e->other, e->offset, &e->noise));
+  s->newton.rounding = fmax(s->newton.rounding, times * e->noise);
+  return STEIF_OK;
+}
+
+static sunrealtype amplified(const state *e, int k)
+{
+  return fmin(1, e->noise * (pow(2, k + 1) - 1) / (k + 1));
+}
+
 /* What errors may be, by those before this step. */
 static int share(stf_step *s)
 {
   state *e = s->state;
   STEIF_TRY(stf_carried_retry(s, &e->carried));
+  STEIF_TRY(find_noise(s));
   for (int k = 1; k <= HIGHEST; k++)
-    e->allowed[k] = stf_carried_share(&e->carried, e->wanted[k]);
+    e->allowed[k] = fmax(stf_carried_share(&e->carried, e->wanted[k]), amplified(e, k));
   s->control.order = e->k, s->control.tolerance = e->allowed[e->k];
   return STEIF_OK;
 }
@@ -265,6 +284,8 @@ static void keep(stf_step *s, stf_image *m)
   STF_KEEP(m, e->seen);
   STF_KEEP(m, e->since);
   STF_KEEP(m, e->omega_of);
+  STF_KEEP(m, e->noise);
+  STF_KEEP(m, e->noise_of);
   STF_KEEP(m, e->alpha);
   STF_KEEP(m, e->allowed);
   stf_carried_keep(&e->carried, m);

@@ -14,6 +14,8 @@ typedef struct stf_bdf {
   sunrealtype omega; /* frequency of the fastest part if that oscillates; 0: it does not */
   long seen, since;  /* Jacobians made, and the step of the last one */
   long omega_of;     /* Jacobians made when omega was found */
+  sunrealtype noise; /* of algebraic unknowns, in tolerances */
+  long noise_of;     /* Jacobians made when it was found */
   N_Vector y[STF_BDF_POINTS + 1];
   sunrealtype t[STF_BDF_POINTS + 1];
   sunrealtype alpha[STF_BDF_HIGHEST + 1];

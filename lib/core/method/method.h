@@ -170,6 +170,11 @@ void stf_share_newton(stf_step *s, sunrealtype rounding);
 /* Both for a method of one order, which refuses what is below rounding. */
 int stf_share_open(stf_step *s, const char *name, int q, int p);
 
+/* What rounding of algebraic equations leaves in algebraic unknowns, in tolerances; 0 without factors, and where
+ * matrices are operators. Three vectors of scratch. */
+int stf_algebraic_noise(stf_step *s, N_Vector work, N_Vector other, N_Vector third,
+                        sunrealtype *noise);
+
 /* The errors of all steps so far as the problem carries them on (carried_error.c). */
 typedef struct stf_carried {
   N_Vector e, work, other; /* e NULL: not followed */

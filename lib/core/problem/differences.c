@@ -167,12 +167,11 @@ static void put(stf_system *s, SUNMatrix M, sunindextype j, const sunrealtype *d
 
 /* An increment that a double represents exactly. Differences of linear systems are exact for any:
  * from 0 the increment 1 leaves them the rounding of their own column only. */
-static sunrealtype increment(const stf_system *s, sunrealtype at)
+static sunrealtype increment(const stf_system *s, sunindextype j, sunrealtype at)
 {
-  const sunrealtype scale = s->scale;
   if (s->linear) return 1;
   const sunrealtype part = s->central ? cbrt(STF_EPS) : sqrt(STF_EPS);
-  const sunrealtype wanted = part * fmax(fabs(at), scale);
+  const sunrealtype wanted = part * fmax(fabs(at), stf_floor(s, j));
   const volatile sunrealtype moved = at + (at < 0 ? -wanted : wanted);
   return moved - at;
 }
@@ -193,7 +192,7 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
     const sunindextype from = g->start[group], to = g->start[group + 1];
     for (sunindextype k = from; k < to; k++) {
       const sunindextype j = g->column[k];
-      g->step[j] = increment(s, m[j]);
+      g->step[j] = increment(s, j, m[j]);
       m[j] += g->step[j];
     }
     STEIF_TRY(which == 'A' ? stf_groups_evaluate(s, t, moved, yp, changed)

@@ -33,7 +33,7 @@ static int shove(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector 
     state = state * 1103515245u + 12345u;
     const sunrealtype factor = 0.5 + (sunrealtype)(state >> 16 & 1023) / 2048;
     const bool asked = j >= from && j < to && (row < 0 || !in_pattern(s, row, j));
-    v[j] = asked ? move * factor * fmax(fabs(at[j]), s->scale) : 0;
+    v[j] = asked ? move * factor * fmax(fabs(at[j]), stf_floor(s, j)) : 0;
     m[j] = at[j] + v[j];
   }
   STEIF_TRY(which == 'A' ? stf_groups_evaluate(s, t, moved, yp, d)

@@ -27,10 +27,11 @@ typedef struct stf_system {
   enum steif_storage storage; /* of E and A */
   bool krylov;                /* the pencil is an operator */
   steif_pencil *pencil;
-  steif_pencil *near; /* operators: ILU(0) of E and A; NULL: there are no matrices */
-  SUNMatrix E, A;     /* owned; E NULL: identity */
-  sunrealtype scale;  /* floor of |y_j| in difference increments: atol / rtol */
-  stf_groups *groups; /* columns that may be moved together */
+  steif_pencil *near;        /* operators: ILU(0) of E and A; NULL: there are no matrices */
+  SUNMatrix E, A;            /* owned; E NULL: identity */
+  sunrealtype scale;         /* floor of |y_j| in difference increments: atol / rtol ... */
+  const sunrealtype *floors; /* ... or that of each component; NULL: scale for all */
+  stf_groups *groups;        /* columns that may be moved together */
   N_Vector work[6];
   N_Vector at_y, at_yp, at_f; /* point of the last linearisation (operators only) */
   sunrealtype at_t;
@@ -41,11 +42,17 @@ typedef struct stf_system {
   long nfe, nje;
 } stf_system;
 
+/* The floor of component j. */
+static inline sunrealtype stf_floor(const stf_system *s, sunindextype j)
+{
+  return s->floors ? s->floors[j] : s->scale;
+}
+
 /* Everything is claimed from the pool. The first linearisation is made at (t0, y, yp), the
  * start values that stf_system_start has filled in. */
 int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem, int form,
-                    enum steif_storage storage, sunrealtype scale, N_Vector y, N_Vector yp,
-                    stf_system *system);
+                    enum steif_storage storage, sunrealtype scale, const sunrealtype *floors,
+                    N_Vector y, N_Vector yp, stf_system *system);
 
 /* r = F(t, y, yp). r must differ from y and yp. */
 int stf_system_residual(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp, N_Vector r);

@@ -273,12 +273,12 @@ static int open_pencil(stf_pool *pool, stf_system *s)
 }
 
 int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem, int form,
-                    enum steif_storage storage, sunrealtype scale, N_Vector y, N_Vector yp,
-                    stf_system *s)
+                    enum steif_storage storage, sunrealtype scale, const sunrealtype *floors,
+                    N_Vector y, N_Vector yp, stf_system *s)
 {
   *s = (stf_system){.ctx = ctx, .problem = problem, .form = form, .storage = storage};
   s->linear = problem->linear || form == STEIF_DESCRIPTOR;
-  s->scale = scale, s->weight = 1;
+  s->scale = scale, s->floors = floors, s->weight = 1;
   stf_space_open(&s->space, y);
   s->krylov = storage == STEIF_KRYLOV;
   const bool near = stf_operator_has_near(s);
