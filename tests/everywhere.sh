@@ -1,12 +1,12 @@
 #!/bin/sh
 # everywhere.sh BUILD: the tests as on other machines. Each stage says what was run, or why it was
 # skipped; the exit code is the number of stages that failed.
-#   STEIF_CHECK_MINUTES   no stage begins later than this after the start (default 50)
+#   STEIF_CHECK_MINUTES   no stage begins later than this after the start (default 35)
 # SPDX-License-Identifier: BSD-3-Clause
 set -u
 build=$(cd "${1:?the build folder of bootstrap test}" && pwd)
 source=$(cd "$(dirname "$0")/.." && pwd)
-minutes=${STEIF_CHECK_MINUTES:-50}
+minutes=${STEIF_CHECK_MINUTES:-35}
 jobs=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 begun=$(date +%s)
 failed=0
@@ -70,6 +70,9 @@ for core in Haswell Zen SkylakeX Nehalem Prescott; do
   fi
 done
 
+stage "build with AddressSanitizer and UBSan" make "$build/check-sanitize" -DSTEIF_SANITIZE=ON &&
+  stage "tests under AddressSanitizer and UBSan" rooms "$build/check-sanitize"
+
 reference=''
 for folder in /usr/lib/*/blas /usr/lib/*/lapack /usr/lib64/blas /usr/lib64/lapack; do
   if [ -e "$folder/libblas.so.3" ] || [ -e "$folder/liblapack.so.3" ]; then
@@ -99,9 +102,6 @@ if command -v clang >/dev/null 2>&1; then
 else
   note "skipped  clang and the fuzzers: no clang (./bootstrap tools)"
 fi
-
-stage "build with AddressSanitizer and UBSan" make "$build/check-sanitize" -DSTEIF_SANITIZE=ON &&
-  stage "tests under AddressSanitizer and UBSan" rooms "$build/check-sanitize"
 
 echo "check: after $(elapsed) minutes$summary"
 exit $failed
