@@ -56,6 +56,8 @@ if(TARGET steif_program)
   find_program(PYTHON3 python3)
   house_test(output -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/output
              -DPYTHON=$<$<BOOL:${PYTHON3}>:${PYTHON3}>)
+  house_test(sweeps -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/sweeps
+             -DMODELS=${PROJECT_SOURCE_DIR}/examples/models)
   house_test(energy -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/energy)
   house_test(experiments -DPROGRAM=$<TARGET_FILE:steif_program>
              -DFOLDER=${PROJECT_BINARY_DIR}/experiments)

@@ -60,8 +60,10 @@ static void set_common(struct call *call, const char *name, const char *text)
 
 static int keep(struct call *call, const struct option *o, const char *text)
 {
-  if (given(call, o->name))
+  if (o->kind != REPEATED && given(call, o->name))
     return bad_usage(call, "%s is given twice; leave one of them out", o->name);
+  if (call->options == GIVEN)
+    return bad_usage(call, "more than %d options; leave some out", GIVEN);
   set_common(call, o->name, text);
   call->given[call->options].option = o;
   call->given[call->options].text = text;

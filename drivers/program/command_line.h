@@ -17,10 +17,11 @@ enum option_kind {
   NATURAL,  /* whole, >= 0 */
   COUNT,    /* whole, >= 1 */
   WORD,
-  CHOICE, /* one of the words of `argument`, separated by | */
-  REALS,  /* finite, > 0, separated by commas */
-  TIMES,  /* finite, separated by commas */
-  OUTPUT  /* a file to be written */
+  REPEATED, /* a word; the option may be given several times */
+  CHOICE,   /* one of the words of `argument`, separated by | */
+  REALS,    /* finite, > 0, separated by commas */
+  TIMES,    /* finite, separated by commas */
+  OUTPUT    /* a file to be written */
 };
 struct option {
   const char *name; /* "--rtol"; NULL ends a table */
@@ -92,6 +93,8 @@ const char *option_objection(const struct option *option, const char *text);
 void call_help(const struct verb *verb);
 
 bool given(const struct call *call, const char *name);
+/* Value i of a REPEATED option; NULL past the last. */
+const char *repeated_of(const struct call *call, const char *name, int i);
 /* The value given, else the one in the table; NULL and 0 where there is neither. */
 const char *word_of(const struct call *call, const char *name);
 double real_of(const struct call *call, const char *name);

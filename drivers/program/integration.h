@@ -23,6 +23,8 @@ typedef struct outcome {
   SET_OPTION,                                                                                  \
   {"--compile", FLAG, NULL,                                                                    \
    "a model by the C compiler of CC (else cc), kept in the cache folder of the user", NULL},   \
+  INTERPRETED_OPTIONS
+#define INTERPRETED_OPTIONS                                                                    \
   {"--t1", POSITIVE, "T", "end of the integration (default: the problem's)", NULL},            \
   {"--h0", POSITIVE, "H", "first step of an adaptive step size (default: automatic)", NULL},   \
   {"--h-max", POSITIVE, "H", "largest step of an adaptive step size (default: none)", NULL},   \

@@ -55,7 +55,8 @@ const char *option_objection(const struct option *o, const char *text)
     return are_reals(text, true) ? NULL : "numbers above 0 separated by commas, at most 32";
   case TIMES: return are_reals(text, false) ? NULL : "times separated by commas, at most 32";
   case CHOICE: return word_place(o->argument, text) >= 0 ? NULL : o->argument;
-  case WORD: return *text ? NULL : "a word";
+  case WORD:
+  case REPEATED: return *text ? NULL : "a word";
   case OUTPUT: return *text ? NULL : "a file name";
   default: return NULL;
   }
@@ -67,6 +68,13 @@ static const char *text_of(const struct call *call, const char *name)
 {
   for (int i = 0; i < call->options; i++)
     if (!strcmp(call->given[i].option->name, name)) return call->given[i].text;
+  return NULL;
+}
+
+const char *repeated_of(const struct call *call, const char *name, int i)
+{
+  for (int k = 0; k < call->options; k++)
+    if (!strcmp(call->given[k].option->name, name) && !i--) return call->given[k].text;
   return NULL;
 }
 

@@ -10,6 +10,7 @@
 #include <steif/supervisor.h>
 #include <steif/energy.h>
 #include <steif/hamiltonian.h>
+#include <steif/ensemble.h>
 #include <steif/failure.h>
 
 #endif

@@ -24,6 +24,16 @@ STEIF_EXPORT int steif_problem_find(steif_context *ctx, const char *spec,
                                     steif_problem *problem);
 STEIF_EXPORT void steif_problem_clear(steif_context *ctx, steif_problem *problem);
 
+/* The problem `like`, of steif_problem_find or steif_model_parse, with other values of parameters, as a problem
+ * of its own for steif_problem_clear: `like` stays as it is, may be of another context, and what comes out
+ * depends on these values only. Of a model, parameters of its text, all at once; else numbers of
+ * problem.parameters, or parameters of the spec, "mu" of vdpol:mu=30. Values of problem.parameters leave neither
+ * reference nor exact solution: these belong to the published ones. On failure *out is zero;
+ * STEIF_UNKNOWN_NAME: the problem has no such parameter. */
+STEIF_EXPORT int steif_problem_vary(steif_context *ctx, const steif_problem *like, int count,
+                                    const char *const *name, const sunrealtype *value,
+                                    steif_problem *out);
+
 /* Digits of y against the problem's reference or exact solution at time t:
  *   scd   = -log10 max_i |y_i - ref_i| / |ref_i|                 (components with ref_i = 0 left out)
  *   mescd = -log10 max_i |y_i - ref_i| / (atol/rtol + |ref_i|)

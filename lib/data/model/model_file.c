@@ -156,11 +156,12 @@ static int build(stf_model *m, const char *path, const char *text, const steif_s
   return stf_model_fill(m, p);
 }
 
-/* Values of another model of the text, and one more. */
+/* Values of another model of the text, and `count` more. */
 typedef struct change {
   const stf_vector *settings;
-  const char *name;
-  double value;
+  int count;
+  const char *const *name;
+  const double *value;
 } change;
 
 static int take_settings(stf_model *m, const change *with)
@@ -169,7 +170,9 @@ static int take_settings(stf_model *m, const change *with)
     const stf_setting *s = STF_AT(*with->settings, stf_setting, i);
     STEIF_TRY(stf_setting_add(m->ctx, &m->settings, s->name, s->value));
   }
-  return stf_setting_add(m->ctx, &m->settings, with->name, with->value);
+  for (int k = 0; k < with->count; k++)
+    STEIF_TRY(stf_setting_add(m->ctx, &m->settings, with->name[k], with->value[k]));
+  return STEIF_OK;
 }
 
 static int open_model(steif_context *ctx, const char *path, const char *text,
@@ -228,17 +231,45 @@ int steif_model_parse(steif_context *ctx, const char *text, const char *name,
   return code;
 }
 
+/* The text of m with other values, as a problem that stf_model_close ends. */
+static int moved(steif_context *ctx, const stf_model *m, const char *path, int count,
+                 const char *const *name, const double *value, steif_problem *p)
+{
+  const stf_text *text = STF_AT(m->syntax.sources.texts, stf_text, 0);
+  *p = (steif_problem){.name = path, .destroy = stf_model_close};
+  for (int k = 0; k < count; k++)
+    STEIF_CHECK(strlen(name[k]) <= STF_NAME_BYTES, ctx, STEIF_UNKNOWN_NAME,
+                "%s has no parameter '%.40s...'; names have at most %d characters", path,
+                name[k], STF_NAME_BYTES);
+  const change with = {&m->settings, count, name, value};
+  const int code = open_model(ctx, path, text->text, NULL, &with, p);
+  if (code) stf_model_close(ctx, p);
+  return code;
+}
+
 int stf_model_moved(const stf_model *m, const char *name, double value, steif_problem *p)
 {
   const stf_text *text = STF_AT(m->syntax.sources.texts, stf_text, 0);
-  *p = (steif_problem){.name = text->name, .destroy = stf_model_close};
-  STEIF_CHECK(strlen(name) <= STF_NAME_BYTES, m->ctx, STEIF_UNKNOWN_NAME,
-              "%s has no parameter '%.40s...'; names have at most %d characters", text->name,
-              name, STF_NAME_BYTES);
-  const change with = {&m->settings, name, value};
-  const int code = open_model(m->ctx, text->name, text->text, NULL, &with, p);
-  if (code) stf_model_close(m->ctx, p);
-  return code;
+  return moved(m->ctx, m, text->name, 1, &name, &value, p);
+}
+
+bool stf_model_is(const steif_problem *p) { return p->destroy == stf_model_close; }
+
+int stf_model_vary(steif_context *ctx, const steif_problem *p, int count,
+                   const char *const *name, const sunrealtype *value, steif_problem *out)
+{
+  char *own = stf_allocate(ctx, strlen(p->name) + 1, 1);
+  if (!own) return STEIF_NO_MEMORY;
+  strcpy(own, p->name);
+  const int code = moved(ctx, p->user, own, count, name, value, out);
+  if (code) {
+    stf_release(ctx, own);
+    *out = (steif_problem){0};
+    return code;
+  }
+  out->name = own;
+  out->build = no_build;
+  return STEIF_OK;
 }
 
 int steif_model_set(steif_context *ctx, steif_problem *p, const char *name, sunrealtype value)

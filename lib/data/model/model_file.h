@@ -12,4 +12,10 @@ int stf_model_open(steif_context *ctx, const char *path, const steif_spec *spec,
                    steif_problem *problem);
 void stf_model_close(steif_context *ctx, steif_problem *problem);
 
+/* Was the problem made from a text? */
+bool stf_model_is(const steif_problem *problem);
+/* The text of a problem with other values of parameters, as a problem of its own for steif_problem_clear. */
+int stf_model_vary(steif_context *ctx, const steif_problem *problem, int count,
+                   const char *const *name, const sunrealtype *value, steif_problem *out);
+
 #endif

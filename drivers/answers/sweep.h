@@ -1,0 +1,81 @@
+/* sweep.h: many members of one problem: axes, rows, files that go on.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SWEEP_H
+#define SWEEP_H
+
+#include "integration.h"
+#include <stdint.h>
+
+enum { AXES = 8, AXIS_VALUES = 64, COLUMN = 128 };
+
+/* --p NAME=FROM:TO:COUNT[:log] or NAME=V,V,...; with --random NAME=FROM:TO[:log] or a list. */
+struct axis {
+  char name[STEIF_SPEC_KEY];
+  double from, to;
+  long count; /* 0: of no list and without a count */
+  bool log, list;
+  double value[AXIS_VALUES];
+};
+struct axes {
+  int count;
+  struct axis axis[AXES];
+  const char *name[AXES];
+  long long members;
+  bool random;
+  unsigned long long seed;
+};
+/* From the options; EXIT_OK, or an exit code after a sentence. */
+int axes_read(const struct call *call, struct axes *axes);
+/* The parameters of member i, the last axis fastest. */
+void axes_at(const struct axes *axes, long long i, double *value);
+
+enum collect { COLLECT_Y, COLLECT_DIGITS, COLLECT_STATS };
+/* What a member leaves. */
+struct member_record {
+  int code;
+  double t, scd, mescd;
+  steif_stats stats;
+  char message[320];
+  double y[]; /* n */
+};
+
+struct old_rows; /* of --resume */
+struct sweep {
+  struct call *call;
+  const steif_problem *problem;
+  steif_options options;
+  struct axes axes;
+  enum collect collect;
+  size_t n;  /* columns of y */
+  FILE *csv; /* NULL: none */
+  char *line;
+  size_t room;
+  struct old_rows *old; /* NULL: none */
+  long long rows, ok;
+  int first_code; /* of the first failure */
+  long long first_member;
+  char first_message[320];
+  uint64_t fingerprint; /* FNV-1a of the rows as --csv has them */
+};
+
+/* A row on stdout, in the file and in the fingerprint; nonzero when it cannot be written. */
+int sweep_head(struct sweep *s);
+int sweep_row(struct sweep *s, long long i, const struct member_record *r);
+/* A row of an earlier run, as its file has it. */
+int sweep_row_kept(struct sweep *s, const char *line);
+int sweep_foot(struct sweep *s, bool stopped);
+/* The header and the member of a line of the file. */
+size_t sweep_header(const struct sweep *s, char *text, size_t room);
+size_t sweep_begin(const struct sweep *s, long long i, char *text, size_t room);
+
+/* --resume: EXIT_OK or an exit code. The members still to be run: how many, and number k of them. */
+int old_open(struct sweep *s, const char *path);
+long long old_missing(const struct sweep *s);
+long long old_number(const struct sweep *s, long long k);
+/* Rows before member i; nonzero when they cannot be written. */
+int old_before(struct sweep *s, long long i);
+void old_close(struct sweep *s);
+
+int sweep_run(struct call *call, const steif_problem *p);
+
+#endif

@@ -1,0 +1,178 @@
+/* sweep_run.c: the members of a sweep, and what becomes of it.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "sweep.h"
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- callbacks of the ensemble ---------------------------------------------------------------- */
+
+static int open_problem(steif_context *ctx, steif_problem *problem, void *user)
+{
+  const struct sweep *s = user;
+  return steif_problem_vary(ctx, s->problem, 0, NULL, NULL, problem);
+}
+
+static int vary(steif_context *ctx, const struct sweep *s, long long i,
+                const steif_problem *like, steif_problem *to)
+{
+  double value[AXES];
+  axes_at(&s->axes, i, value);
+  return steif_problem_vary(ctx, like, s->axes.count, s->axes.name, value, to);
+}
+
+static int member(steif_context *ctx, long long k, steif_problem *problem, steif_options *o,
+                  void *user)
+{
+  const struct sweep *s = user;
+  steif_problem varied;
+  (void)o;
+  const int code = vary(ctx, s, old_number(s, k), problem, &varied);
+  if (!code) *problem = varied;
+  return code;
+}
+
+/* One line. */
+static void take_message(struct member_record *r, const char *text)
+{
+  snprintf(r->message, sizeof r->message, "%s", text);
+  for (char *at = r->message; *at; at++)
+    if (*at == '\n' || *at == '\r') *at = ' ';
+}
+
+static int done(steif_context *ctx, long long k, const steif_problem *p, steif_solver *solver,
+                int code, void *record, void *user)
+{
+  const struct sweep *s = user;
+  struct member_record *r = record;
+  (void)k;
+  *r = (struct member_record){.code = code, .t = NAN, .scd = NAN, .mescd = NAN};
+  for (size_t j = 0; j < s->n; j++) r->y[j] = NAN;
+  if (code < 0) take_message(r, steif_message(ctx));
+  if (!solver) return STEIF_OK;
+  r->t = steif_time(solver);
+  r->stats = *steif_statistics(solver);
+  N_Vector y = steif_solution(solver);
+  if (s->collect == COLLECT_Y && p->n == (sunindextype)s->n)
+    memcpy(r->y, N_VGetArrayPointer(y), s->n * sizeof *r->y);
+  else if (s->collect == COLLECT_Y) {
+    r->code = STEIF_UNSUPPORTED;
+    snprintf(r->message, sizeof r->message,
+             "%ld unknowns where the columns are for %zu; "
+             "--collect digits or stats takes members of any size [STEIF_UNSUPPORTED]",
+             (long)p->n, s->n);
+  }
+  if (s->collect == COLLECT_DIGITS && code >= 0)
+    steif_problem_digits(ctx, p, r->t, y, tolerance_ratio(p, &s->options), &r->scd, &r->mescd);
+  return STEIF_OK;
+}
+
+static int row(long long k, const void *record, void *user)
+{
+  struct sweep *s = user;
+  const long long i = old_number(s, k);
+  return old_before(s, i) || sweep_row(s, i, record);
+}
+
+/* ---- the whole --------------------------------------------------------------------------------- */
+
+/* Is every name a parameter of the problem, and that of the method one? Values are a matter of the members. */
+static int check_names(struct sweep *s)
+{
+  steif_context *ctx = s->call->ctx;
+  steif_problem varied = {0};
+  int code = vary(ctx, s, 0, s->problem, &varied);
+  const steif_problem *first = code ? s->problem : &varied;
+  if (code != STEIF_UNKNOWN_NAME) {
+    steif_forget(ctx);
+    steif_solver *solver = steif_solver_new(ctx, first, s->call->word[1], &s->options);
+    code = solver ? STEIF_OK : steif_status(ctx);
+    steif_solver_free(&solver);
+  }
+  s->n = s->collect == COLLECT_Y ? (size_t)first->n : 0;
+  steif_problem_clear(ctx, &varied);
+  if (code == STEIF_UNKNOWN_NAME) return fail(s->call);
+  steif_forget(ctx);
+  return EXIT_OK;
+}
+
+static int conclude(struct sweep *s, int code)
+{
+  const bool stopped = code == STEIF_STOPPED;
+  if (code && !stopped) return fail(s->call);
+  int shown = old_before(s, s->axes.members) ? EXIT_FAILED : sweep_foot(s, stopped);
+  if (stopped) return interruption_exit();
+  const long long failed = s->rows - s->ok;
+  if (!shown && failed && (given(s->call, "--strict") || !s->ok)) {
+    say(s->call, "%lld of %lld members failed%s%s", failed, s->rows,
+        s->first_code ? "; the first of them: " : "", s->first_message);
+    return EXIT_FAILED;
+  }
+  return shown;
+}
+
+static int run_members(struct sweep *s)
+{
+  const steif_ensemble_options e = {.open = open_problem,
+                                    .method = s->call->word[1],
+                                    .options = &s->options,
+                                    .threads = (int)whole_of(s->call, "--threads"),
+                                    .record =
+                                      sizeof(struct member_record) + s->n * sizeof(double),
+                                    .row = row,
+                                    .user = s,
+                                    .stop = interruption_poll()};
+  const long long missing = old_missing(s);
+  if (sweep_head(s)) return STEIF_IO;
+  return missing ? steif_ensemble(s->call->ctx, missing, member, done, &e) : STEIF_OK;
+}
+
+/* Over the rows that are kept goes a new file, by renaming, when all is written. */
+static int write_file(struct sweep *s, const char *path)
+{
+  char part[4096];
+  const int length = snprintf(part, sizeof part, "%s%s", path, s->old ? ".part" : "");
+  s->csv = length > 0 && (size_t)length < sizeof part ? fopen(part, "w") : NULL;
+  if (!s->csv) {
+    say(s->call, "cannot write \"%s\": %s [STEIF_IO]", part, strerror(errno));
+    return EXIT_FAILED;
+  }
+  int code = conclude(s, run_members(s));
+  const bool closed = !fclose(s->csv);
+  if (!closed || (s->old && rename(part, path))) {
+    say(s->call, "cannot write \"%s\": %s [STEIF_IO]", path, strerror(errno));
+    code = code ? code : EXIT_FAILED;
+  }
+  return code;
+}
+
+static int begin(struct sweep *s)
+{
+  int code = axes_read(s->call, &s->axes);
+  if (!code) code = check_names(s);
+  if (code) return code;
+  s->room = (size_t)1000 + (s->n + AXES) * (COLUMN + 2);
+  s->line = malloc(s->room);
+  if (!s->line) return no_memory(s->call, "a row", "collect digits or stats");
+  const char *old = word_of(s->call, "--resume");
+  if (old) code = old_open(s, old);
+  if (code) return code;
+  return s->call->csv ? write_file(s, s->call->csv) : conclude(s, run_members(s));
+}
+
+int sweep_run(struct call *call, const steif_problem *p)
+{
+  struct sweep *s = calloc(1, sizeof *s);
+  if (!s) return no_memory(call, "the sweep", "give the process more");
+  s->call = call;
+  s->problem = p;
+  s->options = options_of(call);
+  s->collect = (enum collect)choice_of(call, "--collect");
+  if (!given(call, "--csv") && given(call, "--resume")) call->csv = word_of(call, "--resume");
+  const int code = begin(s);
+  old_close(s);
+  free(s->line);
+  free(s);
+  return code;
+}

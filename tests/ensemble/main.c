@@ -1,0 +1,8 @@
+/* main.c: the suites of the ensemble room.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_ensembles[], tests_of_varied[];
+
+SUITE_MAIN({.pName = "ensembles", .pTests = tests_of_ensembles},
+           {.pName = "varied", .pTests = tests_of_varied})

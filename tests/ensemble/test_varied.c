@@ -1,0 +1,85 @@
+/* test_varied.c: problems with other values of parameters.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+#include <nvector/nvector_serial.h>
+#include <steif/data.h>
+#include <steif/ensemble.h>
+#include <steif/steif.h>
+#include <string.h>
+
+static const char decay[] = "model \"decay\"\nparam k = 2, n = 2 whole\nstate x[1:n] = k\n"
+                            "for i in 1:n\n  x[i]' = -k*i*x[i]\nend\ntime 0 to 1\n";
+
+/* f_0 at the start. */
+static double slope(steif_context *ctx, const steif_problem *p)
+{
+  N_Vector y = N_VNew_Serial(p->n, steif_sundials(ctx)), d = N_VClone(y);
+  memcpy(NV_DATA_S(y), p->y0, (size_t)p->n * sizeof *p->y0);
+  CHECK(p->f(p->t0, y, d, p->user) == 0);
+  const double value = NV_Ith_S(d, 0);
+  N_VDestroy(y), N_VDestroy(d);
+  return value;
+}
+
+static void models(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p, q;
+  const char *const name[] = {"k", "n"};
+  const double value[] = {3, 5};
+  CHECK(steif_model_parse(ctx, decay, "decay", NULL, &p) == STEIF_OK);
+  CHECK(steif_problem_vary(ctx, &p, 2, name, value, &q) == STEIF_OK);
+  CHECK(p.n == 2 && q.n == 5 && q.y0[0] == 3);
+  CLOSE(slope(ctx, &p), -4, 0);
+  CLOSE(slope(ctx, &q), -9, 0);
+  steif_problem_clear(ctx, &q);
+  CHECK(steif_problem_vary(ctx, &p, 1, (const char *const[]){"kk"}, value, &q) ==
+        STEIF_UNKNOWN_NAME);
+  CHECK(strstr(steif_message(ctx), "nearest is 'k'") && !q.name && !q.user);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+static void numbers(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p, q;
+  const char *const name[] = {"k1"};
+  const double other[] = {0.05}, own[] = {0.04};
+  CHECK(steif_problem_find(ctx, "rober", &p) == STEIF_OK);
+  CHECK(steif_problem_vary(ctx, &p, 1, name, other, &q) == STEIF_OK);
+  CHECK(p.reference && !q.reference);
+  CLOSE(slope(ctx, &p), -0.04, 0);
+  CLOSE(slope(ctx, &q), -0.05, 0);
+  steif_problem_clear(ctx, &q);
+  CHECK(steif_problem_vary(ctx, &p, 1, name, own, &q) == STEIF_OK && q.reference);
+  steif_problem_clear(ctx, &q);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* Parameters of the spec: another value, or one more beside those there. */
+static void specs(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p, q;
+  const char *const name[] = {"n"};
+  const double value[] = {30};
+  CHECK(steif_problem_find(ctx, "heat:n=20", &p) == STEIF_OK);
+  CHECK(steif_problem_vary(ctx, &p, 1, name, value, &q) == STEIF_OK);
+  CHECK(p.n == 20 && q.n == 30);
+  steif_problem_clear(ctx, &q);
+  CHECK(steif_problem_vary(ctx, &p, 1, (const char *const[]){"nn"}, value, &q) < 0);
+  CHECK(!q.name && !q.user);
+  steif_problem_clear(ctx, &p);
+  CHECK(steif_problem_find(ctx, "hires", &p) == STEIF_OK);
+  CHECK(steif_problem_vary(ctx, &p, 1, name, value, &q) < 0);
+  CHECK(steif_problem_vary(ctx, &p, 1, name, (const double[]){NAN}, &q) == STEIF_BAD_INPUT);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+CU_TestInfo tests_of_varied[] = {{"models, all values at once", models},
+                                 {"numbers of problems, which leave no reference", numbers},
+                                 {"parameters of specs", specs},
+                                 CU_TEST_INFO_NULL};
