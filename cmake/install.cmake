@@ -71,8 +71,12 @@ set(matio_file "")
 if(steif_matio)
   set(matio_file ${MATIO_LIBRARY} ${ZLIB_LIBRARY})
 endif()
+set(cminpack_file "")
+if(steif_cminpack)
+  set(cminpack_file ${CMINPACK_LIBRARY})
+endif()
 steif_flags(pc_libs_private ${private_files} ${KLU_LIBRARIES} ${LAPACK_LIBRARIES} ${JANSSON_LIBRARY}
-            ${matio_file} ${CMAKE_THREAD_LIBS_INIT} ${CMAKE_DL_LIBS} m)
+            ${matio_file} ${cminpack_file} ${CMAKE_THREAD_LIBS_INIT} ${CMAKE_DL_LIBS} m)
 # The folders of SUNDIALS' headers (and of MPI's, where it was built with MPI), known when generating.
 string(REPLACE ";" "|" implicit "${CMAKE_C_IMPLICIT_INCLUDE_DIRECTORIES}")
 set(folders $<TARGET_PROPERTY:steif::sundials,INTERFACE_INCLUDE_DIRECTORIES>)

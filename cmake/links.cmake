@@ -1,5 +1,6 @@
 # What steif links, as two targets; read by steif's own build and by its installed package, after
-# SUNDIALS, KLU, LAPACK, Threads, jansson and, where steif_matio is set, matio have been looked for.
+# SUNDIALS, KLU, LAPACK, Threads, jansson and, where steif_matio
+# and steif_cminpack are set, matio and cminpack have been looked for.
 #
 #   steif::sundials   vectors and matrices: part of steif's interface
 #   steif::private    the rest: to build steif, or to link libsteif.a
@@ -33,4 +34,7 @@ if(steif_matio)
                ${MATIO_LIBRARY} ${ZLIB_LIBRARY})
   set_property(TARGET steif::private APPEND PROPERTY
                INTERFACE_INCLUDE_DIRECTORIES ${MATIO_INCLUDE_DIR} ${ZLIB_INCLUDE_DIR})
+endif()
+if(steif_cminpack)
+  set_property(TARGET steif::private APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${CMINPACK_LIBRARY})
 endif()

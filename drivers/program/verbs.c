@@ -7,7 +7,7 @@
 /* clang-format off */
 #define VERBS(X)                                                                               \
   X(list) X(model) X(solve) X(resume) X(compare) X(order) X(layer) X(weak) X(pencil) X(impulse) X(region) X(c2d)  \
-  X(d2c) X(diagnose) X(energy) X(hamiltonian) X(lyapunov) X(sensitivity) X(sweep) X(supervise) X(counterexample)       \
+  X(d2c) X(diagnose) X(energy) X(hamiltonian) X(lyapunov) X(sensitivity) X(sweep) X(fit) X(supervise) X(counterexample)       \
   X(experiment) X(demo) X(bench)
 /* clang-format on */
 

@@ -1,4 +1,4 @@
-/* steif/analysis.h: stability regions and orders, Lyapunov exponents, energy, failures.
+/* steif/analysis.h: stability regions and orders, Lyapunov exponents, energy, failures, fits.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_ANALYSIS_H
 #define STEIF_ANALYSIS_H
@@ -12,5 +12,6 @@
 #include <steif/hamiltonian.h>
 #include <steif/ensemble.h>
 #include <steif/failure.h>
+#include <steif/fit.h>
 
 #endif

@@ -1,0 +1,60 @@
+/* descent.h: shared inside the room: one descent, its runs, and what is made of them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_FIT_H
+#define STF_FIT_H
+
+#include "base.h"
+#include <steif/fit.h>
+
+/* A datum and where it stands in the order of the user. */
+typedef struct stf_datum {
+  sunrealtype t;
+  size_t place;
+} stf_datum;
+
+/* theta is counted from the start of the descent: p = p0 exp(x), or p0 + x unit. */
+typedef struct stf_descent {
+  steif_context *ctx;
+  stf_pool *pool;
+  steif_problem *problem;
+  const char *method;
+  steif_options run;
+  const steif_measurements *data;
+  stf_datum *sorted;
+  int P;
+  const int *parameter;
+  bool log;
+  const sunrealtype *unit, *low, *high; /* of p; bounds may be infinite */
+  sunrealtype *p0, *p;
+  N_Vector S;
+  sunrealtype *at;    /* x of the last good run ... */
+  sunrealtype *r, *J; /* ... its residuals, and dr/dx by columns */
+  bool known;
+  sunrealtype chi2;
+  sunrealtype *values; /* of all parameters when it began */
+  int evaluations;
+  long runs, failed, iterations;
+  int stopped; /* the code of a failed run that other parameters do not cure; 0 */
+  char failure[500];
+} stf_descent;
+
+/* --- fit_run.c --- */
+/* r and J at x, projected to the bounds: STEIF_OK, or STEIF_RETRY where the run failed: the sentence is kept, and
+ * `stopped` set where other parameters would not cure it. */
+int stf_fit_run(stf_descent *d, const sunrealtype *x);
+/* Parameter i at x; *bound: at -1 low, 1 high, 0 between. */
+sunrealtype stf_fit_value(const stf_descent *d, const sunrealtype *x, int i, int *bound);
+int stf_fit_restore(stf_descent *d);
+
+/* --- fit_descent.c --- */
+/* From p0: p, r, J, chi2 at the end; *exhausted: evaluations were used up. STEIF_RETRY: the first run failed. */
+int stf_fit_descend(stf_descent *d, int *exhausted);
+
+/* --- fit_statistics.c --- */
+/* Everything of `fit` that follows from p, r and J. */
+int stf_fit_judge(stf_descent *d, steif_fit *fit);
+
+/* --- fit_sentence.c --- */
+void stf_fit_say(const stf_descent *d, steif_fit *fit);
+
+#endif

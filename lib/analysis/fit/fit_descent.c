@@ -1,0 +1,132 @@
+/* fit_descent.c: one descent by MINPACK's lmder, in x = theta - theta_0 with the unit matrix as scaling: the
+ * first step changes p by a factor of e at most.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "descent.h"
+#include <math.h>
+#include <string.h>
+
+#ifdef STEIF_HAVE_CMINPACK
+#include <cminpack.h>
+
+enum { ROUNDS = 20 };
+
+/* A failed run has residuals a hundred times those of the last good one: lmder takes a tenth of the step. */
+static int residuals(stf_descent *d, const sunrealtype *x, sunrealtype *out)
+{
+  const size_t m = d->data->count;
+  const sunrealtype before = d->chi2;
+  const int code = stf_fit_run(d, x);
+  if (code && (d->stopped || !isfinite(before))) return -1;
+  if (code)
+    for (size_t j = 0; j < m; j++) out[j] = 100 * sqrt(before / (sunrealtype)m) + 1e-100;
+  else
+    memcpy(out, d->r, m * sizeof *out);
+  if (code) d->chi2 = before;
+  return 0;
+}
+
+/* lmder asks for J where it has the residuals from, but for runs that were rejected since. */
+static int derivatives(stf_descent *d, const sunrealtype *x, sunrealtype *out)
+{
+  const size_t P = (size_t)d->P;
+  if ((!d->known || memcmp(x, d->at, P * sizeof *x)) && stf_fit_run(d, x)) return -1;
+  memcpy(out, d->J, P * d->data->count * sizeof *out);
+  return 0;
+}
+
+static int evaluate(void *descent, int m, int n, const sunrealtype *x, sunrealtype *fvec,
+                    sunrealtype *fjac, int ldfjac, int flag)
+{
+  (void)m, (void)n, (void)ldfjac;
+  return flag == 1 ? residuals(descent, x, fvec) : derivatives(descent, x, fjac);
+}
+
+typedef struct work {
+  sunrealtype *x, *r, *J, *diag, *qtf, *wa;
+  int *pivot;
+} work;
+
+static int open(stf_descent *d, work *w)
+{
+  const size_t m = d->data->count, P = (size_t)d->P;
+  w->x = stf_pool_array(d->pool, P, sizeof *w->x);
+  w->r = stf_pool_array(d->pool, m, sizeof *w->r);
+  w->J = stf_pool_array(d->pool, m * P, sizeof *w->J);
+  w->diag = stf_pool_array(d->pool, P, sizeof *w->diag);
+  w->qtf = stf_pool_array(d->pool, P, sizeof *w->qtf);
+  w->wa = stf_pool_array(d->pool, 3 * P + m, sizeof *w->wa);
+  w->pivot = stf_pool_array(d->pool, P, sizeof *w->pivot);
+  if (!w->x || !w->r || !w->J || !w->diag || !w->qtf || !w->wa || !w->pivot)
+    return STEIF_NO_MEMORY;
+  for (size_t i = 0; i < P; i++) w->diag[i] = 1;
+  return STEIF_OK;
+}
+
+/* One call of lmder from p0; its return value. */
+static int round_of(stf_descent *d, work *w, sunrealtype radius)
+{
+  const int m = (int)d->data->count, P = d->P;
+  const sunrealtype tolerance = d->run.rtol;
+  int calls = 0, slopes = 0;
+  const int info = lmder(evaluate, d, m, P, w->x, w->r, w->J, m, tolerance, tolerance, 0,
+                         d->evaluations, w->diag, 2, radius, 0, &calls, &slopes, w->pivot,
+                         w->qtf, w->wa, w->wa + P, w->wa + 2 * P, w->wa + 3 * P);
+  d->iterations += slopes;
+  return info;
+}
+
+/* p0 becomes what was found, on the bounds where it is beyond them. */
+static void move(stf_descent *d, work *w)
+{
+  int bound;
+  for (int i = 0; i < d->P; i++) d->p[i] = stf_fit_value(d, w->x, i, &bound);
+  memcpy(d->p0, d->p, (size_t)d->P * sizeof *d->p);
+  memset(w->x, 0, (size_t)d->P * sizeof *w->x);
+}
+
+/* lmder again from where it has stopped, as long as a bound is left and chi2 falls. */
+static int rounds(stf_descent *d, work *w, int *exhausted)
+{
+  sunrealtype before = INFINITY;
+  *exhausted = 0;
+  for (int k = 0; k < ROUNDS; k++) {
+    const int info = round_of(d, w, 1);
+    if (info < 0) return d->stopped ? d->stopped : STEIF_RETRY;
+    move(d, w);
+    STEIF_TRY(stf_fit_run(d, w->x));
+    *exhausted = info == 5;
+    bool bounded = false;
+    for (int i = 0; i < d->P; i++) {
+      int bound;
+      stf_fit_value(d, w->x, i, &bound);
+      bounded |= bound != 0;
+    }
+    if (*exhausted || !bounded || d->chi2 >= before * (1 - d->run.rtol)) return STEIF_OK;
+    before = d->chi2;
+  }
+  return STEIF_OK;
+}
+
+int stf_fit_descend(stf_descent *d, int *exhausted)
+{
+  const stf_pool_mark mark = stf_pool_here(d->pool);
+  work w;
+  steif_forget(d->ctx);
+  d->known = false, d->chi2 = INFINITY, d->iterations = 0, d->stopped = 0;
+  int code = open(d, &w);
+  if (!code) code = rounds(d, &w, exhausted);
+  stf_pool_release(d->pool, mark);
+  return code;
+}
+
+#else
+
+int stf_fit_descend(stf_descent *d, int *exhausted)
+{
+  *exhausted = 0;
+  return STEIF_FAIL(d->ctx, STEIF_UNSUPPORTED,
+                    "steif was built without cminpack, which fits; install it (Debian: "
+                    "libcminpack-dev) and build again");
+}
+
+#endif

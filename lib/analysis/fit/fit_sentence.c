@@ -1,0 +1,100 @@
+/* fit_sentence.c: what was found and what there is to doubt, in words.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "descent.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const sunrealtype unlikely = 3.09; /* normal deviations: probability 1e-3 */
+
+static void add(steif_fit *f, const char *format, ...) STEIF_PRINTF(2, 3);
+static void add(steif_fit *f, const char *format, ...)
+{
+  const size_t used = strlen(f->message);
+  va_list list;
+  va_start(list, format);
+  vsnprintf(f->message + used, sizeof f->message - used, format, list);
+  va_end(list);
+}
+
+static const char *name_of(const stf_descent *d, int i, char *room)
+{
+  const steif_parameters *q = d->problem->parameters;
+  if (q->name) return q->name[d->parameter[i]];
+  snprintf(room, STEIF_SPEC_WORD, "p%d", d->parameter[i] + 1);
+  return room;
+}
+
+/* E. B. Wilson and M. M. Hilferty, Proc. Nat. Acad. Sci. 17 (1931) 684-688: the cube root of chi2/dof is nearly
+ * normal. */
+static void judge(const stf_descent *d, steif_fit *f)
+{
+  add(f, "chi2 = %.6g with %ld degrees of freedom", f->chi2, f->dof);
+  if (f->dof < 1) {
+    add(f, ": as many parameters as measurements, and no intervals");
+    return;
+  }
+  const sunrealtype dof = (sunrealtype)f->dof, ratio = f->chi2 / dof, spread = 2 / (9 * dof);
+  const sunrealtype z = (cbrt(ratio) - (1 - spread)) / sqrt(spread);
+  if (!d->data->sd)
+    add(f, "; the standard deviation of the measurements comes out as %.3g", sqrt(ratio));
+  else if (z > unlikely)
+    add(f,
+        ": chi2/dof = %.4g is far above 1, so this is a local minimum, or the model does not "
+        "describe the data, or their standard deviations are too small: try other values to "
+        "begin with, or several starts",
+        ratio);
+  else if (z < -unlikely)
+    add(
+      f,
+      ": chi2/dof = %.3g is far below 1, so the standard deviations of the data are too large",
+      ratio);
+  else
+    add(f, ": chi2/dof = %.3g is what the standard deviations let expect", ratio);
+}
+
+static void undetermined(const stf_descent *d, steif_fit *f)
+{
+  char room[STEIF_SPEC_WORD];
+  const int P = f->count;
+  int fixed = 0;
+  for (int i = 0; i < P; i++) fixed += f->bound[i] != 0;
+  for (int k = P - fixed - f->undetermined; k < P - fixed; k++) {
+    const char *before = " (";
+    add(f, ". The data do not determine the direction");
+    for (int i = 0; i < P; i++) {
+      const sunrealtype part = f->direction[k * P + i];
+      if (fabs(part) <= 1e-3) continue;
+      add(f, "%s%.3g of %s", before, part, name_of(d, i, room));
+      before = ", ";
+    }
+    add(f, ") in %s: its singular value is %.1e of the largest; fix a parameter of it",
+        f->log ? "log p" : "p / scale",
+        f->singular[0] > 0 ? f->singular[k] / f->singular[0] : 0);
+  }
+}
+
+static void rest(const stf_descent *d, steif_fit *f)
+{
+  char room[STEIF_SPEC_WORD];
+  int same = 0;
+  for (int i = 0; i < f->count; i++)
+    if (f->bound[i]) add(f, ". %s is at its bound %.6g", name_of(d, i, room), f->p[i]);
+  for (int i = 0; i < f->starts; i++) same += f->chi2_of[i] <= f->chi2 * (1 + 1e-3) + 1e-300;
+  if (f->starts > 1) add(f, ". %d of %d starts came to this chi2", same, f->starts);
+  if (f->exhausted)
+    add(f, ". %d runs were not enough: go on from here, or raise options.evaluations",
+        d->evaluations);
+  if (f->failed)
+    add(f, ". %ld of %ld runs failed and were steps too long, the last: %.200s", f->failed,
+        f->runs, f->failure);
+}
+
+void stf_fit_say(const stf_descent *d, steif_fit *f)
+{
+  f->message[0] = 0;
+  judge(d, f);
+  undetermined(d, f);
+  rest(d, f);
+}

@@ -1,0 +1,117 @@
+/* fit_statistics.c: covariance, intervals and what the data do not determine, by the singular values of J.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "descent.h"
+#include "jacobi_svd.h"
+#include <math.h>
+#include <string.h>
+
+static const sunrealtype undetermined = 1e-8; /* of the largest singular value */
+static const sunrealtype part = 1e-3;         /* of a unit vector: less is none */
+
+/* sum_k v_ki v_kj / sigma_k^2 over what is determined. */
+static sunrealtype covariance(const steif_fit *f, int i, int j)
+{
+  const int P = f->count;
+  sunrealtype sum = 0;
+  for (int k = 0; k < P; k++)
+    if (f->singular[k] > undetermined * f->singular[0])
+      sum +=
+        f->direction[k * P + i] / f->singular[k] * (f->direction[k * P + j] / f->singular[k]);
+  return sum;
+}
+
+/* Has parameter i a part in a direction that is not determined? */
+static bool loose(const steif_fit *f, int i)
+{
+  if (f->bound[i]) return false;
+  for (int k = 0; k < f->count; k++)
+    if (!(f->singular[k] > undetermined * f->singular[0]) &&
+        fabs(f->direction[k * f->count + i]) > part)
+      return true;
+  return false;
+}
+
+/* The direction of a parameter at a bound alone? */
+static bool held(const steif_fit *f, int k)
+{
+  for (int i = 0; i < f->count; i++)
+    if (f->bound[i] && f->direction[k * f->count + i] != 0) return true;
+  return false;
+}
+
+/* Columns of parameters at bounds are 0, and so are their singular values: they come last. */
+static int hold(steif_fit *f)
+{
+  const int P = f->count;
+  int last = P;
+  for (int k = P - 1; k >= 0; k--) {
+    if (!held(f, k)) continue;
+    last--;
+    for (int i = 0; i < P; i++) {
+      const sunrealtype kept = f->direction[k * P + i];
+      f->direction[k * P + i] = f->direction[last * P + i];
+      f->direction[last * P + i] = kept;
+    }
+    f->singular[k] = f->singular[last], f->singular[last] = 0;
+  }
+  return P - last;
+}
+
+static void decompose(stf_descent *d, steif_fit *f)
+{
+  const int P = f->count;
+  stf_jacobi_svd(d->data->count, (size_t)P, d->J, f->singular, f->direction);
+  const int fixed = hold(f);
+  f->undetermined = 0;
+  for (int k = 0; k < P - fixed; k++)
+    f->undetermined += !(f->singular[k] > undetermined * f->singular[0]);
+  f->dof = (long)d->data->count - (P - fixed);
+}
+
+static void spread(const stf_descent *d, steif_fit *f)
+{
+  const int P = f->count;
+  const sunrealtype known = d->data->sd || f->dof < 1 ? 1 : f->chi2 / (sunrealtype)f->dof;
+  for (int i = 0; i < P; i++)
+    for (int j = 0; j < P; j++) f->covariance[i * P + j] = known * covariance(f, i, j);
+  for (int i = 0; i < P; i++)
+    for (int j = 0; j < P; j++) {
+      const sunrealtype a = f->covariance[i * P + i], b = f->covariance[j * P + j];
+      const sunrealtype c = f->covariance[i * P + j] / sqrt(a) / sqrt(b);
+      f->correlation[i * P + j] = i == j ? 1 : a > 0 && b > 0 ? c : 0;
+    }
+}
+
+static int intervals(const stf_descent *d, steif_fit *f)
+{
+  sunrealtype t = INFINITY, factor = 1;
+  if (f->dof > 0) {
+    STEIF_TRY(steif_student(d->ctx, 0.95, f->dof, &t));
+    const sunrealtype ratio = f->chi2 / (sunrealtype)f->dof;
+    if (d->data->sd && ratio > 1) factor = sqrt(ratio);
+  }
+  for (int i = 0; i < f->count; i++) {
+    const sunrealtype theta = loose(f, i) ? INFINITY : sqrt(f->covariance[i * f->count + i]);
+    const sunrealtype p = f->p[i], half = theta > 0 ? t * factor * theta : 0;
+    f->sd[i] = theta * (d->log ? p : d->unit[i]);
+    f->low[i] = d->log ? p * exp(-half) : p - half * d->unit[i];
+    f->high[i] = d->log ? p * exp(half) : p + half * d->unit[i];
+  }
+  return STEIF_OK;
+}
+
+int stf_fit_judge(stf_descent *d, steif_fit *f)
+{
+  const size_t m = d->data->count;
+  f->chi2 = d->chi2;
+  memcpy(f->residual, d->r, m * sizeof *d->r);
+  for (int i = 0; i < d->P; i++) {
+    sunrealtype size = 0;
+    for (size_t j = 0; j < m; j++) size = fmax(size, fabs(d->J[(size_t)i * m + j]));
+    const sunrealtype p = f->p[i] = d->p0[i];
+    f->bound[i] = size > 0 ? 0 : p <= d->low[i] ? -1 : p >= d->high[i];
+  }
+  decompose(d, f);
+  spread(d, f);
+  return intervals(d, f);
+}

@@ -1,0 +1,9 @@
+/* main.c: the tests of fits.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_fits[], tests_of_statistics[], tests_of_measurements[];
+
+SUITE_MAIN({.pName = "fits", .pTests = tests_of_fits},
+           {.pName = "statistics", .pTests = tests_of_statistics},
+           {.pName = "measurements", .pTests = tests_of_measurements})

@@ -1,0 +1,376 @@
+/* test_fits.c: fits whose minima are known, and what is said of bad ones.
+ * Minima: Gauss-Newton in two other integrators at rtol 1e-12, which agree in the digits given.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "base/failing.h"
+#include "made_data.h"
+#include "suite.h"
+#include <steif/collection.h>
+#include <steif/model.h>
+#include <string.h>
+
+static const double prey_sd[] = {0.05, 0.05};
+
+static void prey_data(steif_context *ctx, made_data *made)
+{
+  prey P;
+  double t[20];
+  for (int k = 0; k < 20; k++) t[k] = 0.5 * (k + 1);
+  prey_open(&P, 1.5, 1, 3, 1);
+  made_data_open(ctx, &P.problem, 20, t, prey_sd, made);
+}
+
+static void is_least(const steif_fit *fit)
+{
+  static const double p[] = {1.5022084384, 0.99979448359, 2.9962898094, 0.99749699966};
+  static const double sd[] = {4.6379901e-3, 6.3215090e-3, 6.7603838e-3, 7.4394841e-3};
+  static const double r[] = {0.68911908,  -0.97587916, -0.98198502,
+                             -0.62038997, -0.66984278, 0.94512468};
+  CLOSE(fit->chi2, 28.7204189315, 1e-7);
+  CHECK(fit->dof == 36 && fit->log && !fit->undetermined && !fit->exhausted);
+  for (int i = 0, k = 0; i < 4; i++) {
+    CLOSE(fit->p[i], p[i], 1e-7);
+    CLOSE(sqrt(fit->covariance[5 * i]), sd[i], 1e-6);
+    CLOSE(fit->sd[i], sd[i] * p[i], 1e-6);
+    for (int j = i + 1; j < 4; j++, k++) CLOSE(fit->correlation[4 * i + j], r[k], 1e-6);
+  }
+}
+
+static void prey_and_predators(void)
+{
+  static const char *const methods[] = {"radau:s=3", "radau:s=5", "dirk:hw43"};
+  steif_context *ctx = steif_context_new(NULL);
+  made_data made;
+  prey P;
+  steif_fit fit;
+  prey_data(ctx, &made);
+  CLOSE(made.value[0], 1.5581042492, 1e-9);
+  CLOSE(made.value[1], 0.37634802336, 1e-9);
+  CLOSE(made.value[38], 1.0516252907, 1e-9);
+  CLOSE(made.value[39], 0.94719763188, 1e-9);
+  steif_options run = steif_defaults();
+  run.rtol = 1e-10;
+  const steif_fit_options o = {.run = &run};
+  for (int m = 0; m < 3; m++) {
+    prey_open(&P, 1.6, 0.9, 2.8, 1.1);
+    CHECK(steif_fit_find(ctx, &P.problem, methods[m], &made.data, &o, &fit) == STEIF_OK);
+    if (!fit.p) puts(steif_message(ctx));
+    if (fit.p) is_least(&fit);
+    CHECK(strstr(fit.message, "let expect") != NULL);
+    CHECK(P.p[0] == 1.6 && P.p[3] == 1.1);
+    steif_fit_free(ctx, &fit);
+  }
+  steif_context_free(&ctx);
+}
+
+/* From far away a descent ends at another minimum, and says so; several descents find the least one. */
+static void a_local_minimum_is_said(void)
+{
+  static const double minimum[] = {3.1905, 2.0699, 0.34305, 0.17897};
+  static const double low[] = {0.5, 0.5, 1, 0.5}, high[] = {3, 3, 5, 3};
+  steif_context *ctx = steif_context_new(NULL);
+  made_data made;
+  prey P;
+  steif_fit fit;
+  prey_data(ctx, &made);
+  steif_options run = steif_defaults();
+  run.rtol = 1e-10;
+  steif_fit_options o = {.run = &run};
+  prey_open(&P, 1.2, 0.8, 2.4, 0.8);
+  CHECK(steif_fit_find(ctx, &P.problem, "radau:s=3", &made.data, &o, &fit) == STEIF_OK);
+  CLOSE(fit.chi2, 44890.35, 1e-7);
+  for (int i = 0; i < 4; i++) CLOSE(fit.p[i], minimum[i], 1e-4);
+  CHECK(strstr(fit.message, "chi2/dof = 1247 is far above 1") != NULL);
+  CHECK(fit.high[0] > fit.p[0] + 60 * fit.sd[0]); /* sqrt(1247) sd, times 2.03 of Student */
+  steif_fit_free(ctx, &fit);
+  o.starts = 6, o.low = low, o.high = high;
+  CHECK(steif_fit_find(ctx, &P.problem, "radau:s=3", &made.data, &o, &fit) == STEIF_OK);
+  is_least(&fit);
+  CHECK(fit.best > 0 && fit.chi2_of[fit.best] <= fit.chi2 * (1 + 1e-9));
+  CHECK(strstr(fit.message, "starts came to this chi2") != NULL);
+  steif_fit_free(ctx, &fit);
+  steif_context_free(&ctx);
+}
+
+static void robertson(void)
+{
+  static const double sd[] = {0.01, 5e-7, 0.01}, start[] = {0.02, 3e4, 1e7};
+  static const double p[] = {0.03849604309, 9468.105434, 29452318.42};
+  static const double spread[] = {0.036120358, 0.047459694, 0.021148094};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem rober;
+  made_data made;
+  steif_fit fit;
+  double t[17];
+  for (int k = 0; k < 17; k++) t[k] = 0.4 * pow(10, k / 4.0);
+  CHECK(steif_problem_find(ctx, "rober", &rober) == STEIF_OK);
+  made_data_open(ctx, &rober, 17, t, sd, &made);
+  steif_options run = steif_defaults();
+  run.rtol = 1e-10, run.atol = 1e-16;
+  const steif_fit_options o = {.run = &run, .start = start};
+  CHECK(steif_fit_find(ctx, &rober, "radau:s=3", &made.data, &o, &fit) == STEIF_OK);
+  if (fit.p) {
+    CLOSE(fit.chi2, 37.643177397, 1e-7);
+    CHECK(fit.dof == 48 && fit.iterations <= 12);
+    for (int i = 0; i < 3; i++) {
+      CLOSE(fit.p[i], p[i], 1e-7);
+      CLOSE(sqrt(fit.covariance[4 * i]), spread[i], 1e-6);
+    }
+    CLOSE(fit.correlation[1], 0.96875385, 1e-6);
+    CLOSE(fit.correlation[2], 0.73452551, 1e-6);
+    CLOSE(fit.correlation[5], 0.77428144, 1e-6);
+    const double ratio = fit.singular[0] / fit.singular[2];
+    CLOSE(ratio * ratio, 77.957, 1e-4);
+  }
+  steif_fit_free(ctx, &fit);
+  steif_problem_clear(ctx, &rober);
+  steif_context_free(&ctx);
+}
+
+/* ---- what the data do not tell --------------------------------------------------------------- */
+
+static const char product[] = "param a = 2, b = 0.5, c = 3\n"
+                              "state x = c\n"
+                              "x' = -a*b*x\n"
+                              "time 0 to 2\n";
+
+/* x = 3 exp(-a b t) with errors of at most 1e-3 and no sign. */
+static void decay(made_data *made, double rate)
+{
+  for (size_t j = 0; j < 8; j++) {
+    made->t[j] = 0.25 * (double)j, made->component[j] = 0, made->sd[j] = 1e-3;
+    made->value[j] = 3 * exp(-rate * made->t[j]) + (j % 3 == 0 ? 1e-3 : -5e-4);
+  }
+  made->data = (steif_measurements){.count = 8,
+                                    .t = made->t,
+                                    .value = made->value,
+                                    .sd = made->sd,
+                                    .component = made->component};
+}
+
+/* Only a b is told: log a - log b is not, and c is. */
+static void a_product_alone_is_named(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  made_data made;
+  steif_problem p;
+  steif_fit fit;
+  decay(&made, 1.3);
+  CHECK(steif_model_parse(ctx, product, "product", NULL, &p) == STEIF_OK);
+  CHECK(steif_fit_find(ctx, &p, "radau:s=3", &made.data, NULL, &fit) == STEIF_OK);
+  if (fit.p) {
+    CLOSE(fit.p[0] * fit.p[1], 1.3, 1e-3);
+    CLOSE(fit.p[2], 3, 1e-3);
+    CHECK(fit.undetermined == 1 && fit.singular[2] < 1e-8 * fit.singular[0]);
+    CLOSE(fabs(fit.direction[6]), sqrt(0.5), 1e-6);
+    CLOSE(fit.direction[7], -fit.direction[6], 1e-6);
+    CHECK(isinf(fit.sd[0]) && isinf(fit.sd[1]) && fit.sd[2] > 0 && fit.sd[2] < 0.01);
+    CHECK(fit.low[0] == 0 && isinf(fit.high[0]));
+    CHECK(strstr(fit.message, "do not determine the direction") != NULL);
+    CHECK(strstr(fit.message, "of a,") && strstr(fit.message, "of b)"));
+    CHECK(!strstr(fit.message, "of c"));
+  }
+  steif_fit_free(ctx, &fit);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* The least squares on the bound a b = 1 have c = sum d e / sum e^2, e = exp(-t). */
+static void bounds_hold(void)
+{
+  static const int which[] = {0, 2};
+  static const double start[] = {1, 2}, low[] = {0.5, 0.1}, high[] = {2, 10};
+  const steif_fit_options o = {
+    .count = 2, .parameter = which, .start = start, .low = low, .high = high};
+  steif_context *ctx = steif_context_new(NULL);
+  made_data made;
+  steif_problem p;
+  steif_fit fit;
+  double above = 0, below = 0;
+  decay(&made, 1.3);
+  for (size_t j = 0; j < 8; j++)
+    above += made.value[j] * exp(-made.t[j]), below += exp(-2 * made.t[j]);
+  CHECK(steif_model_parse(ctx, product, "product", NULL, &p) == STEIF_OK);
+  CHECK(steif_fit_find(ctx, &p, "radau:s=3", &made.data, &o, &fit) == STEIF_OK);
+  if (fit.p) {
+    CHECK(fit.p[0] == 2 && fit.bound[0] == 1 && fit.bound[1] == 0);
+    CLOSE(fit.p[1], above / below, 1e-6);
+    CHECK(fit.dof == 7 && fit.sd[0] == 0 && fit.undetermined == 0);
+    CLOSE(fit.sd[1], 1e-3 / sqrt(below), 1e-6);
+    CHECK(strstr(fit.message, "a is at its bound 2") != NULL);
+  }
+  steif_fit_free(ctx, &fit);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* A linear model: c of c exp(-t), linear scale, sd not known: the formulas of linear regression. */
+static void linear_regression(void)
+{
+  static const int which[] = {2};
+  const steif_fit_options o = {.count = 1, .parameter = which, .scale = STEIF_FIT_LINEAR};
+  steif_context *ctx = steif_context_new(NULL);
+  made_data made;
+  steif_problem p;
+  steif_fit fit;
+  double above = 0, below = 0, rest = 0, t;
+  decay(&made, 1);
+  made.data.sd = NULL;
+  for (size_t j = 0; j < 8; j++)
+    above += made.value[j] * exp(-made.t[j]), below += exp(-2 * made.t[j]);
+  for (size_t j = 0; j < 8; j++)
+    rest += pow(made.value[j] - above / below * exp(-made.t[j]), 2);
+  CHECK(steif_model_parse(ctx, product, "product", NULL, &p) == STEIF_OK);
+  CHECK(steif_fit_find(ctx, &p, "radau:s=3", &made.data, &o, &fit) == STEIF_OK);
+  CHECK(!steif_student(ctx, 0.95, 7, &t));
+  if (fit.p) {
+    CHECK(!fit.log && fit.dof == 7);
+    CLOSE(fit.p[0], above / below, 1e-8);
+    CLOSE(fit.sd[0], sqrt(rest / 7 / below), 1e-4);
+    CLOSE(fit.high[0] - fit.p[0], t * fit.sd[0], 1e-8);
+    CLOSE(fit.p[0] - fit.low[0], t * fit.sd[0], 1e-8);
+    CHECK(strstr(fit.message, "comes out as") != NULL);
+  }
+  steif_fit_free(ctx, &fit);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* ---- failures -------------------------------------------------------------------------------- */
+
+/* x' = a x^2, x(0) = 1 blows up at 1/a: steps to a > 1/1.5 make the run fail. */
+static void failing_runs_are_rejected_steps(void)
+{
+  static const char text[] = "param a = 0.05\nstate x = 1\nx' = a*x^2\ntime 0 to 2\n";
+  steif_context *ctx = steif_context_new(NULL);
+  double t[] = {1.0, 1.25, 1.5}, value[3], sd[] = {1e-2, 1e-2, 1e-2};
+  sunindextype component[] = {0, 0, 0};
+  const steif_measurements data = {
+    .count = 3, .t = t, .value = value, .sd = sd, .component = component};
+  steif_problem p;
+  steif_fit fit;
+  for (int j = 0; j < 3; j++) value[j] = 1 / (1 - 0.65 * t[j]);
+  CHECK(steif_model_parse(ctx, text, "pole", NULL, &p) == STEIF_OK);
+  CHECK(steif_fit_find(ctx, &p, "radau:s=3", &data, NULL, &fit) == STEIF_OK);
+  if (fit.p) {
+    CLOSE(fit.p[0], 0.65, 1e-7);
+    CHECK(fit.failed > 0 && *fit.failure && strstr(fit.message, "runs failed"));
+  }
+  steif_fit_free(ctx, &fit);
+  const double beyond[] = {0.8};
+  const steif_fit_options o = {.start = beyond};
+  CHECK(steif_fit_find(ctx, &p, "radau:s=3", &data, &o, &fit) < 0 && !fit.p);
+  CHECK(strstr(steif_message(ctx), "t = 1.2") != NULL);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+static void refused(steif_problem *p, const steif_measurements *data,
+                    const steif_fit_options *o, const char *method, int code, const char *part)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_fit fit;
+  CHECK(steif_fit_find(ctx, p, method, data, o, &fit) == code && !fit.p);
+  const int said = strstr(steif_message(ctx), part) != NULL;
+  if (!said) printf("\n  no '%s' in '%s'", part, steif_message(ctx));
+  CHECK(said);
+  steif_context_free(&ctx);
+}
+
+static void bad_input(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  static const int twice[] = {1, 1}, far[] = {7};
+  static const double low[] = {5, 0, 0, 0}, minus[] = {-1, 1, 1, 1};
+  made_data made;
+  prey P;
+  prey_data(ctx, &made);
+  prey_open(&P, 1.6, 0.9, 2.8, 1.1);
+  steif_problem *p = &P.problem, bare = P.problem;
+  bare.parameters = NULL;
+  steif_measurements d = made.data;
+  const steif_fit_options two = {.parameter = twice, .count = 2},
+                          none = {.parameter = far, .count = 1}, out = {.low = low},
+                          log = {.start = minus, .scale = STEIF_FIT_LOG},
+                          few = {.evaluations = -1};
+  refused(&bare, &d, NULL, "bdf", STEIF_BAD_INPUT, "has no parameters");
+  refused(p, &d, &two, "bdf", STEIF_BAD_INPUT, "named twice");
+  refused(p, &d, &none, "bdf", STEIF_BAD_INPUT, "must lie in 0 .. 3");
+  refused(p, &d, &out, "bdf", STEIF_BAD_INPUT, "outside its bounds");
+  refused(p, &d, &log, "bdf", STEIF_BAD_INPUT, "linear scale");
+  refused(p, &d, &few, "bdf", STEIF_BAD_INPUT, "evaluations = -1");
+  refused(p, &d, NULL, "rodas4", STEIF_UNSUPPORTED, "carries no sensitivities");
+  refused(p, &d, NULL, "radao", STEIF_UNKNOWN_NAME, "radau");
+  d.count = 3;
+  refused(p, &d, NULL, "bdf", STEIF_BAD_INPUT, "3 measurements do not determine 4 parameters");
+  d.count = 0;
+  refused(p, &d, NULL, "bdf", STEIF_BAD_INPUT, "no measurements");
+  d = made.data, made.t[3] = 10.5;
+  refused(p, &d, NULL, "bdf", STEIF_BAD_INPUT, "measurement 4 at t = 10.5 lies outside");
+  made.t[3] = 1, made.sd[5] = 0;
+  refused(p, &d, NULL, "bdf", STEIF_BAD_INPUT, "deviation 0 of measurement 6");
+  made.sd[5] = 1, made.value[2] = NAN;
+  refused(p, &d, NULL, "bdf", STEIF_NOT_FINITE, "measurement 3 is nan");
+  steif_context_free(&ctx);
+}
+
+static void few_evaluations_leave_the_best(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  made_data made;
+  prey P;
+  steif_fit fit;
+  prey_data(ctx, &made);
+  prey_open(&P, 1.6, 0.9, 2.8, 1.1);
+  const steif_fit_options o = {.evaluations = 2};
+  CHECK(steif_fit_find(ctx, &P.problem, "radau:s=3", &made.data, &o, &fit) ==
+        STEIF_NO_CONVERGENCE);
+  CHECK(fit.p && fit.exhausted && fit.chi2 < 1e5);
+  CHECK(strstr(steif_message(ctx), "were not enough") != NULL);
+  steif_fit_free(ctx, &fit);
+  steif_context_free(&ctx);
+}
+
+static int fit_product(steif_context *ctx)
+{
+  made_data made;
+  steif_problem p;
+  steif_fit fit;
+  decay(&made, 1.3);
+  int code = steif_model_parse(ctx, product, "product", NULL, &p);
+  if (code) return code;
+  code = steif_fit_find(ctx, &p, "radau:s=3", &made.data, NULL, &fit);
+  steif_fit_free(ctx, &fit);
+  steif_problem_clear(ctx, &p);
+  return code;
+}
+
+static void failing_memory_leaks_nothing(void)
+{
+  failing count = {0};
+  steif_setup setup = failing_setup(&count);
+  steif_context *ctx = steif_context_new(&setup);
+  CHECK(fit_product(ctx) == STEIF_OK);
+  steif_context_free(&ctx);
+  const long served = count.served, stride = served / 150 + 1;
+  for (long k = 1; k <= served; k += k < 60 ? 1 : stride) {
+    failing f = {.refuse_at = k};
+    setup = failing_setup(&f);
+    ctx = steif_context_new(&setup);
+    if (ctx) CHECK(fit_product(ctx) == STEIF_NO_MEMORY);
+    steif_context_free(&ctx);
+    CHECK(f.alive == 0);
+  }
+}
+
+CU_TestInfo tests_of_fits[] = {
+  {"prey and predators", prey_and_predators},
+  {"a local minimum is said", a_local_minimum_is_said},
+  {"Robertson's reaction", robertson},
+  {"a product alone is named", a_product_alone_is_named},
+  {"bounds hold", bounds_hold},
+  {"linear regression", linear_regression},
+  {"failing runs are rejected steps", failing_runs_are_rejected_steps},
+  {"bad input", bad_input},
+  {"few evaluations leave the best", few_evaluations_leave_the_best},
+  {"failing memory leaks nothing", failing_memory_leaks_nothing},
+  CU_TEST_INFO_NULL};

@@ -1,0 +1,50 @@
+/* test_statistics.c: quantiles and singular values.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "jacobi_svd.h"
+#include "suite.h"
+#include <steif/fit.h>
+
+/* dof = 1 is Cauchy's distribution, t = tan(pi p / 2); of two, t = p sqrt(2 / (1 - p^2)); the others, to their digits,
+ * of Abramowitz and Stegun, table 26.10. */
+static void quantiles_of_student(void)
+{
+  static const struct {
+    long dof;
+    double t, digits;
+  } known[] = {{5, 2.571, 5e-4},  {10, 2.228, 5e-4},  {30, 2.042, 5e-4},
+               {60, 2.000, 5e-4}, {120, 1.980, 5e-4}, {1000000000, 1.959963985, 1e-8}};
+  steif_context *ctx = steif_context_new(NULL);
+  double t, u;
+  CHECK(!steif_student(ctx, 0.95, 1, &t));
+  CLOSE(t, tan(0.475 * 3.14159265358979323846), 1e-9);
+  CHECK(!steif_student(ctx, 0.95, 2, &t));
+  CLOSE(t, 0.95 * sqrt(2 / (1 - 0.95 * 0.95)), 1e-9);
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    CHECK(!steif_student(ctx, 0.95, known[i].dof, &t));
+    CHECK(fabs(t - known[i].t) <= known[i].digits);
+  }
+  CHECK(!steif_student(ctx, 0.95, 2000, &t) && !steif_student(ctx, 0.95, 2001, &u));
+  CHECK(t > u && t - u < 1e-6); /* the sum and the expansion meet */
+  CHECK(steif_student(ctx, 1.5, 3, &t) == STEIF_BAD_INPUT);
+  CHECK(steif_student(ctx, 0.5, 0, &t) == STEIF_BAD_INPUT);
+  steif_context_free(&ctx);
+}
+
+/* A = U diag(s) V^T of two rotations and a column that is a multiple of another. */
+static void singular_values(void)
+{
+  double A[] = {3, 0, 4, 0, 1e-9, 0}, sigma[2], V[4];
+  stf_jacobi_svd(3, 2, A, sigma, V);
+  CLOSE(sigma[0], 5, 1e-15);
+  CLOSE(sigma[1], 1e-9, 1e-15);
+  double B[] = {1, 2, 2, -2, -4, -4};
+  stf_jacobi_svd(3, 2, B, sigma, V);
+  CLOSE(sigma[0], sqrt(45), 1e-15);
+  CHECK(sigma[1] < 1e-15);
+  CLOSE(fabs(V[2] * 2 / V[3]), 4, 1e-14); /* the null vector is (2, 1) / sqrt(5) */
+  CHECK(V[2] * V[3] > 0);
+}
+
+CU_TestInfo tests_of_statistics[] = {{"quantiles of Student", quantiles_of_student},
+                                     {"singular values", singular_values},
+                                     CU_TEST_INFO_NULL};
