@@ -9,7 +9,16 @@
 #define STF_ENGINE_H
 
 #include "base.h"
-#include <steif/solver.h>
+#include <steif/sensitivity.h>
+
+/* Derivatives by parameters that an engine carries; count 0: none. */
+typedef struct stf_engine_columns {
+  int count;
+  int *parameter;     /* numbers, from 0 */
+  sunrealtype *value; /* of all parameters of the problem, where its callbacks read them */
+  sunrealtype *scale; /* count */
+  N_Vector *S;        /* at the start */
+} stf_engine_columns;
 
 /* The run as an engine sees it. */
 typedef struct stf_run {
@@ -22,6 +31,7 @@ typedef struct stf_run {
   sunrealtype t;                /* time of y */
   N_Vector y, yp;               /* in: start values (yp 0 where not known); out: after a step */
   steif_stats stats;            /* the engine keeps it current after every step */
+  stf_engine_columns columns;   /* set before `carry` */
 } stf_run;
 
 typedef struct steif_engine {
@@ -41,6 +51,10 @@ typedef struct steif_engine {
   /* The next step begins anew from (run->t, run->y); run->yp holds slopes, or 0 where unknown. */
   int (*renew)(stf_run *run, void *state);
   void (*close)(stf_run *run, void *state);
+  /* Carry the columns from the start on; column i at a time of the last step; what they have cost. NULL: no. */
+  int (*carry)(stf_run *run, void *state);
+  int (*carried)(stf_run *run, void *state, sunrealtype t, int column, N_Vector out);
+  void (*cost)(const stf_run *run, void *state, steif_sensitivity_cost *cost);
 } steif_engine;
 
 /* Filled by the shelf of the baseline room. */

@@ -143,6 +143,9 @@ void stf_rounding_keep(steif_solver *s, stf_image *m);
 
 /* Derivatives by parameters, where options.sensitivities asks for them. */
 int stf_sensitivity_open(steif_solver *s);
+/* engine_columns.c: the same of an engine that carries them. */
+int stf_engine_carry(steif_solver *s);
+int stf_engine_carried(steif_solver *s, sunrealtype t, int k, N_Vector dy);
 
 /* The invariants at the start. */
 int stf_drift_open(steif_solver *s);

@@ -1,20 +1,12 @@
 /* cvode.c: CVODE's variable-order BDF for y' = f(t, y).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "baseline.h"
-#include <cvode/cvode.h>
-#include <cvode/cvode_ls.h>
+#include "cvode_calls.h"
+#include "cvode_family.h"
 #include <math.h>
 #include <string.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-typedef struct cvode {
-  stf_baseline base;
-  void *memory;
-  int order, stald;
-  bool adams; /* with fixed-point iteration: no matrix */
-  SUNNonlinearSolver iteration;
-  sunrealtype newton; /* coefficient of its convergence test; 0: its default */
-} cvode;
+typedef stf_cvode cvode;
 
 static const stf_flag flags[] = {
   STF_FLAG(CV_TOO_MUCH_WORK, STEIF_STEP_LIMIT, "too many internal steps",
@@ -57,8 +49,8 @@ static int verdict(cvode *s, int flag)
   sunrealtype h = 0;
   int order = 0;
   if (flag < 0 && s->memory) {
-    CVodeGetCurrentStep(s->memory, &h);
-    CVodeGetCurrentOrder(s->memory, &order);
+    s->call->CVodeGetCurrentStep(s->memory, &h);
+    s->call->CVodeGetCurrentOrder(s->memory, &order);
   }
   stf_baseline_leave(&s->base);
   return stf_baseline_verdict(&s->base, flag, h, order);
@@ -68,14 +60,15 @@ static int attach(cvode *s)
 {
   stf_baseline *b = &s->base;
   const steif_problem *p = b->run->problem;
-  if (s->adams) return CVodeSetNonlinearSolver(s->memory, s->iteration);
-  int flag = CVodeSetLinearSolver(s->memory, b->solver, b->J);
+  if (s->adams) return s->call->CVodeSetNonlinearSolver(s->memory, s->iteration);
+  int flag = s->call->CVodeSetLinearSolver(s->memory, b->solver, b->J);
   if (b->J && stf_baseline_has_jac(b))
-    STF_CALL(flag, CVodeSetJacFn(s->memory, stf_baseline_jac));
-  if (!b->J && p->Av) STF_CALL(flag, CVodeSetJacTimes(s->memory, NULL, stf_baseline_jv));
+    STF_CALL(flag, s->call->CVodeSetJacFn(s->memory, stf_baseline_jac));
+  if (!b->J && p->Av)
+    STF_CALL(flag, s->call->CVodeSetJacTimes(s->memory, NULL, stf_baseline_jv));
   if (b->preconditioned)
-    STF_CALL(flag,
-             CVodeSetPreconditioner(s->memory, stf_baseline_precsetup, stf_baseline_precsolve));
+    STF_CALL(flag, s->call->CVodeSetPreconditioner(s->memory, stf_baseline_precsetup,
+                                                   stf_baseline_precsolve));
   return flag;
 }
 
@@ -84,19 +77,19 @@ static int configure(cvode *s)
   stf_run *run = s->base.run;
   const steif_options *o = run->options;
   void *m = s->memory;
-  int flag = STF_SILENCE(CVodeSetErrHandlerFn, m, &s->base);
-  STF_CALL(flag, CVodeInit(m, stf_baseline_rhs, run->t, run->y));
-  STF_CALL(flag, CVodeSetUserData(m, s));
-  STF_CALL(flag, o->ewt         ? CVodeWFtolerances(m, stf_baseline_weights)
-                 : s->base.atol ? CVodeSVtolerances(m, o->rtol, s->base.atol)
-                                : CVodeSStolerances(m, o->rtol, o->atol));
-  STF_CALL(flag, CVodeSetMaxOrd(m, s->order));
-  if (s->newton > 0) STF_CALL(flag, CVodeSetNonlinConvCoef(m, s->newton));
-  if (s->stald) STF_CALL(flag, CVodeSetStabLimDet(m, 1));
-  if (s->base.constraint) STF_CALL(flag, CVodeSetConstraints(m, s->base.constraint));
-  STF_CALL(flag, CVodeSetMaxHnilWarns(m, -1));
-  if (o->h0 > 0) STF_CALL(flag, CVodeSetInitStep(m, o->h0));
-  if (o->h_max > 0) STF_CALL(flag, CVodeSetMaxStep(m, o->h_max));
+  int flag = STF_SILENCE(s->call->CVodeSetErrHandlerFn, m, &s->base);
+  STF_CALL(flag, s->call->CVodeInit(m, stf_baseline_rhs, run->t, run->y));
+  STF_CALL(flag, s->call->CVodeSetUserData(m, s));
+  STF_CALL(flag, o->ewt         ? s->call->CVodeWFtolerances(m, stf_baseline_weights)
+                 : s->base.atol ? s->call->CVodeSVtolerances(m, o->rtol, s->base.atol)
+                                : s->call->CVodeSStolerances(m, o->rtol, o->atol));
+  STF_CALL(flag, s->call->CVodeSetMaxOrd(m, s->order));
+  if (s->newton > 0) STF_CALL(flag, s->call->CVodeSetNonlinConvCoef(m, s->newton));
+  if (s->stald) STF_CALL(flag, s->call->CVodeSetStabLimDet(m, 1));
+  if (s->base.constraint) STF_CALL(flag, s->call->CVodeSetConstraints(m, s->base.constraint));
+  STF_CALL(flag, s->call->CVodeSetMaxHnilWarns(m, -1));
+  if (o->h0 > 0) STF_CALL(flag, s->call->CVodeSetInitStep(m, o->h0));
+  if (o->h_max > 0) STF_CALL(flag, s->call->CVodeSetMaxStep(m, o->h_max));
   STF_CALL(flag, attach(s));
   return flag;
 }
@@ -105,7 +98,7 @@ static int settings(stf_run *run, const steif_spec *spec, cvode *s)
 {
   static const char *const keys[] = {"lmm", "order", "stald", "newton", NULL};
   const char *lmm = stf_spec_word(spec, "lmm");
-  STEIF_TRY(stf_spec_only(run->ctx, spec, keys));
+  STEIF_TRY(stf_spec_only(run->ctx, spec, s->keys ? s->keys : keys));
   STEIF_CHECK(!lmm || !strcmp(lmm, "bdf") || !strcmp(lmm, "adams"), run->ctx, STEIF_BAD_INPUT,
               "lmm=%s is not known to cvode: bdf or adams", lmm);
   s->adams = lmm && !strcmp(lmm, "adams");
@@ -141,12 +134,13 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
 {
   cvode *s = state;
   stf_baseline *b = &s->base;
+  if (!s->call) s->call = &stf_cvode_linked;
   STEIF_TRY(settings(run, spec, s));
-  STEIF_TRY(stf_baseline_open(b, run, "CVODE", flags));
+  STEIF_TRY(stf_baseline_open(b, run, s->call->package, flags));
   STEIF_TRY(stf_baseline_adaptive(b));
   STEIF_TRY(s->adams ? open_iteration(s) : open_newton(b));
   stf_baseline_enter(b, run);
-  s->memory = CVodeCreate(s->adams ? CV_ADAMS : CV_BDF, steif_sundials(run->ctx));
+  s->memory = s->call->CVodeCreate(s->adams ? CV_ADAMS : CV_BDF, steif_sundials(run->ctx));
   return verdict(s, s->memory ? configure(s) : CV_MEM_FAIL);
 }
 
@@ -155,19 +149,19 @@ static void collect(cvode *s)
   steif_stats n = {0};
   void *m = s->memory;
   long more = 0;
-  CVodeGetNumSteps(m, &n.steps);
-  CVodeGetNumErrTestFails(m, &n.rejected);
-  CVodeGetNumRhsEvals(m, &n.nfe);
+  s->call->CVodeGetNumSteps(m, &n.steps);
+  s->call->CVodeGetNumErrTestFails(m, &n.rejected);
+  s->call->CVodeGetNumRhsEvals(m, &n.nfe);
   if (!s->adams) {
-    CVodeGetNumLinRhsEvals(m, &more);
-    CVodeGetNumJacEvals(m, &n.nje);
-    CVodeGetNumLinIters(m, &n.nli);
+    s->call->CVodeGetNumLinRhsEvals(m, &more);
+    s->call->CVodeGetNumJacEvals(m, &n.nje);
+    s->call->CVodeGetNumLinIters(m, &n.nli);
   }
   n.nfe += more;
-  CVodeGetNumLinSolvSetups(m, &n.nlu);
-  CVodeGetNumNonlinSolvIters(m, &n.newton);
-  CVodeGetNumStepSolveFails(m, &n.newton_fails);
-  CVodeGetLastStep(m, &n.h_last);
+  s->call->CVodeGetNumLinSolvSetups(m, &n.nlu);
+  s->call->CVodeGetNumNonlinSolvIters(m, &n.newton);
+  s->call->CVodeGetNumStepSolveFails(m, &n.newton_fails);
+  s->call->CVodeGetLastStep(m, &n.h_last);
   stf_baseline_count(&s->base, &n);
 }
 
@@ -176,9 +170,10 @@ static int step(stf_run *run, void *state, sunrealtype t_stop)
   cvode *s = state;
   STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
   int flag = 0;
-  if (s->base.restart) flag = CVodeReInit(s->memory, stf_baseline_renew(&s->base), run->y);
-  STF_CALL(flag, CVodeSetStopTime(s->memory, t_stop));
-  STF_CALL(flag, CVode(s->memory, t_stop, run->y, &run->t, CV_ONE_STEP));
+  if (s->base.restart)
+    flag = s->call->CVodeReInit(s->memory, stf_baseline_renew(&s->base), run->y);
+  STF_CALL(flag, s->call->CVodeSetStopTime(s->memory, t_stop));
+  STF_CALL(flag, s->call->CVode(s->memory, t_stop, run->y, &run->t, CV_ONE_STEP));
   collect(s);
   return verdict(s, flag);
 }
@@ -188,10 +183,10 @@ static int last_step(cvode *s, int flag)
 {
   stf_run *run = s->base.run;
   sunrealtype tn = run->t;
-  CVodeGetCurrentTime(s->memory, &tn);
+  s->call->CVodeGetCurrentTime(s->memory, &tn);
   if (flag == CV_TOO_MUCH_WORK) flag = 0;
   if (flag >= 0 && tn <= run->t) return flag;
-  if (CVodeGetDky(s->memory, tn, 0, run->y) >= 0) run->t = tn;
+  if (s->call->CVodeGetDky(s->memory, tn, 0, run->y) >= 0) run->t = tn;
   return flag;
 }
 
@@ -202,9 +197,9 @@ static int advance(stf_run *run, void *state, sunrealtype t, sunrealtype t_stop,
   if (s->base.restart || !run->stats.steps || run->options->h > 0)
     return step(run, state, t_stop); /* the first step is scaled by all of the interval */
   STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
-  int flag = CVodeSetStopTime(s->memory, t_stop);
-  STF_CALL(flag, CVodeSetMaxNumSteps(s->memory, steps < left ? steps : left));
-  STF_CALL(flag, CVode(s->memory, fmin(t, t_stop), run->y, &run->t, CV_NORMAL));
+  int flag = s->call->CVodeSetStopTime(s->memory, t_stop);
+  STF_CALL(flag, s->call->CVodeSetMaxNumSteps(s->memory, steps < left ? steps : left));
+  STF_CALL(flag, s->call->CVode(s->memory, fmin(t, t_stop), run->y, &run->t, CV_NORMAL));
   flag = last_step(s, flag);
   collect(s);
   return verdict(s, flag);
@@ -215,7 +210,7 @@ static int dense(stf_run *run, void *state, sunrealtype t, N_Vector y)
   cvode *s = state;
   STEIF_TRY(stf_baseline_inside(&s->base, &t));
   stf_baseline_enter(&s->base, run);
-  const int flag = CVodeGetDky(s->memory, t, 0, y);
+  const int flag = s->call->CVodeGetDky(s->memory, t, 0, y);
   return stf_baseline_dense(&s->base, flag, t);
 }
 
@@ -223,7 +218,7 @@ static void close(stf_run *run, void *state)
 {
   (void)run;
   cvode *s = state;
-  if (s->memory) CVodeFree(&s->memory);
+  if (s->memory) s->call->CVodeFree(&s->memory);
 }
 
 const steif_engine steif_engine_cvode = {

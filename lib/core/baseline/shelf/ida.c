@@ -1,19 +1,12 @@
 /* ida.c: IDA's variable-order BDF for F(t, y, y') = 0 and the forms that lower to it.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "baseline.h"
+#include "ida_calls.h"
+#include "ida_family.h"
 #include "problem.h"
-#include <ida/ida.h>
-#include <ida/ida_ls.h>
 #include <math.h>
 #include <stdio.h>
 
-typedef struct ida {
-  stf_baseline base;
-  void *memory;
-  int order, suppress, ic; /* ic: 0 none, 1 YA_YDP_INIT, 2 Y_INIT */
-  const char *id;          /* of the spec, "E" when absent */
-  sunrealtype newton;      /* coefficient of its convergence test; 0: its default */
-} ida;
+typedef stf_ida ida;
 
 #define INDEX "The system may have an index above 1, or its start values are inconsistent: "
 
@@ -89,8 +82,8 @@ static int verdict(ida *s, int flag)
   sunrealtype h = 0;
   int order = 0;
   if (flag < 0 && s->memory) {
-    IDAGetCurrentStep(s->memory, &h);
-    IDAGetCurrentOrder(s->memory, &order);
+    s->call->IDAGetCurrentStep(s->memory, &h);
+    s->call->IDAGetCurrentOrder(s->memory, &order);
     name_equation(s);
   }
   stf_baseline_leave(&s->base);
@@ -115,10 +108,12 @@ static int attach(ida *s)
 {
   stf_baseline *b = &s->base;
   const steif_problem *p = b->run->problem;
-  int flag = IDASetLinearSolver(s->memory, b->solver, b->J);
-  if (b->J && stf_lower_has_jac(b)) STF_CALL(flag, IDASetJacFn(s->memory, stf_lower_jac));
-  if (!b->J && p->Av) STF_CALL(flag, IDASetJacTimes(s->memory, NULL, stf_lower_jv));
-  if (b->preconditioned) STF_CALL(flag, IDASetPreconditioner(s->memory, precsetup, precsolve));
+  int flag = s->call->IDASetLinearSolver(s->memory, b->solver, b->J);
+  if (b->J && stf_lower_has_jac(b))
+    STF_CALL(flag, s->call->IDASetJacFn(s->memory, stf_lower_jac));
+  if (!b->J && p->Av) STF_CALL(flag, s->call->IDASetJacTimes(s->memory, NULL, stf_lower_jv));
+  if (b->preconditioned)
+    STF_CALL(flag, s->call->IDASetPreconditioner(s->memory, precsetup, precsolve));
   return flag;
 }
 
@@ -127,17 +122,17 @@ static int configure(ida *s)
   stf_run *run = s->base.run;
   const steif_options *o = run->options;
   void *m = s->memory;
-  int flag = STF_SILENCE(IDASetErrHandlerFn, m, &s->base);
-  STF_CALL(flag, IDAInit(m, stf_lower_residual, run->t, run->y, run->yp));
-  STF_CALL(flag, IDASetUserData(m, s));
-  STF_CALL(flag, o->ewt         ? IDAWFtolerances(m, stf_baseline_weights)
-                 : s->base.atol ? IDASVtolerances(m, o->rtol, s->base.atol)
-                                : IDASStolerances(m, o->rtol, o->atol));
-  STF_CALL(flag, IDASetMaxOrd(m, s->order));
-  if (s->newton > 0) STF_CALL(flag, IDASetNonlinConvCoef(m, s->newton));
-  if (s->base.constraint) STF_CALL(flag, IDASetConstraints(m, s->base.constraint));
-  if (o->h0 > 0) STF_CALL(flag, IDASetInitStep(m, o->h0));
-  if (o->h_max > 0) STF_CALL(flag, IDASetMaxStep(m, o->h_max));
+  int flag = STF_SILENCE(s->call->IDASetErrHandlerFn, m, &s->base);
+  STF_CALL(flag, s->call->IDAInit(m, stf_lower_residual, run->t, run->y, run->yp));
+  STF_CALL(flag, s->call->IDASetUserData(m, s));
+  STF_CALL(flag, o->ewt         ? s->call->IDAWFtolerances(m, stf_baseline_weights)
+                 : s->base.atol ? s->call->IDASVtolerances(m, o->rtol, s->base.atol)
+                                : s->call->IDASStolerances(m, o->rtol, o->atol));
+  STF_CALL(flag, s->call->IDASetMaxOrd(m, s->order));
+  if (s->newton > 0) STF_CALL(flag, s->call->IDASetNonlinConvCoef(m, s->newton));
+  if (s->base.constraint) STF_CALL(flag, s->call->IDASetConstraints(m, s->base.constraint));
+  if (o->h0 > 0) STF_CALL(flag, s->call->IDASetInitStep(m, o->h0));
+  if (o->h_max > 0) STF_CALL(flag, s->call->IDASetMaxStep(m, o->h_max));
   STF_CALL(flag, attach(s));
   return flag;
 }
@@ -147,8 +142,9 @@ static int consistent(ida *s)
 {
   stf_run *run = s->base.run;
   if (!s->ic) return 0;
-  int flag = IDACalcIC(s->memory, s->ic == 1 ? IDA_YA_YDP_INIT : IDA_Y_INIT, run->options->t1);
-  STF_CALL(flag, IDAGetConsistentIC(s->memory, run->y, run->yp));
+  int flag =
+    s->call->IDACalcIC(s->memory, s->ic == 1 ? IDA_YA_YDP_INIT : IDA_Y_INIT, run->options->t1);
+  STF_CALL(flag, s->call->IDAGetConsistentIC(s->memory, run->y, run->yp));
   return flag;
 }
 
@@ -160,7 +156,7 @@ static int settings(stf_run *run, const steif_spec *spec, ida *s)
   STEIF_CHECK(o->consistent >= 0 && o->consistent <= 2, run->ctx, STEIF_BAD_INPUT,
               "options.consistent = %d must be 0, 1 (IDACalcIC with YA_YDP_INIT) or 2 (Y_INIT)",
               o->consistent);
-  STEIF_TRY(stf_spec_only(run->ctx, spec, keys));
+  STEIF_TRY(stf_spec_only(run->ctx, spec, s->keys ? s->keys : keys));
   STEIF_TRY(stf_spec_int(run->ctx, spec, "order", 1, 5, 5, &s->order));
   STEIF_TRY(
     stf_spec_int(run->ctx, spec, "suppress", 0, 1, o->suppress_algebraic != 0, &s->suppress));
@@ -186,18 +182,19 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
   ida *s = state;
   stf_baseline *b = &s->base;
   N_Vector id = NULL;
+  if (!s->call) s->call = &stf_ida_linked;
   STEIF_TRY(settings(run, spec, s));
-  STEIF_TRY(stf_baseline_open(b, run, "IDA", flags));
+  STEIF_TRY(stf_baseline_open(b, run, s->call->package, flags));
   STEIF_TRY(stf_baseline_adaptive(b));
   if (!(b->start = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
   STEIF_TRY(stf_lower_open(b));
   STEIF_TRY(stf_start_slopes(b));
   STEIF_TRY(identify(s, &id));
   stf_baseline_enter(b, run);
-  s->memory = IDACreate(steif_sundials(run->ctx));
+  s->memory = s->call->IDACreate(steif_sundials(run->ctx));
   int flag = s->memory ? configure(s) : IDA_MEM_FAIL;
-  if (id) STF_CALL(flag, IDASetId(s->memory, id));
-  if (s->suppress) STF_CALL(flag, IDASetSuppressAlg(s->memory, 1));
+  if (id) STF_CALL(flag, s->call->IDASetId(s->memory, id));
+  if (s->suppress) STF_CALL(flag, s->call->IDASetSuppressAlg(s->memory, 1));
   STF_CALL(flag, consistent(s));
   return verdict(s, flag);
 }
@@ -207,17 +204,17 @@ static void collect(ida *s)
   steif_stats n = {0};
   void *m = s->memory;
   long more = 0;
-  IDAGetNumSteps(m, &n.steps);
-  IDAGetNumErrTestFails(m, &n.rejected);
-  IDAGetNumResEvals(m, &n.nfe);
-  IDAGetNumLinResEvals(m, &more);
+  s->call->IDAGetNumSteps(m, &n.steps);
+  s->call->IDAGetNumErrTestFails(m, &n.rejected);
+  s->call->IDAGetNumResEvals(m, &n.nfe);
+  s->call->IDAGetNumLinResEvals(m, &more);
   n.nfe += more;
-  IDAGetNumJacEvals(m, &n.nje);
-  IDAGetNumLinSolvSetups(m, &n.nlu);
-  IDAGetNumNonlinSolvIters(m, &n.newton);
-  IDAGetNumStepSolveFails(m, &n.newton_fails);
-  IDAGetNumLinIters(m, &n.nli);
-  IDAGetLastStep(m, &n.h_last);
+  s->call->IDAGetNumJacEvals(m, &n.nje);
+  s->call->IDAGetNumLinSolvSetups(m, &n.nlu);
+  s->call->IDAGetNumNonlinSolvIters(m, &n.newton);
+  s->call->IDAGetNumStepSolveFails(m, &n.newton_fails);
+  s->call->IDAGetNumLinIters(m, &n.nli);
+  s->call->IDAGetLastStep(m, &n.h_last);
   stf_baseline_count(&s->base, &n);
 }
 
@@ -227,7 +224,7 @@ static int renew(ida *s)
   stf_run *run = s->base.run;
   run->t = stf_baseline_renew(&s->base);
   if (stf_start_slopes(&s->base)) return IDA_FIRST_RES_FAIL;
-  int flag = IDAReInit(s->memory, run->t, run->y, run->yp);
+  int flag = s->call->IDAReInit(s->memory, run->t, run->y, run->yp);
   STF_CALL(flag, consistent(s));
   return flag;
 }
@@ -238,8 +235,8 @@ static int step(stf_run *run, void *state, sunrealtype t_stop)
   STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
   int flag = 0;
   if (s->base.restart) flag = renew(s);
-  STF_CALL(flag, IDASetStopTime(s->memory, t_stop));
-  STF_CALL(flag, IDASolve(s->memory, t_stop, &run->t, run->y, run->yp, IDA_ONE_STEP));
+  STF_CALL(flag, s->call->IDASetStopTime(s->memory, t_stop));
+  STF_CALL(flag, s->call->IDASolve(s->memory, t_stop, &run->t, run->y, run->yp, IDA_ONE_STEP));
   collect(s);
   return verdict(s, flag);
 }
@@ -249,10 +246,11 @@ static int last_step(ida *s, int flag)
 {
   stf_run *run = s->base.run;
   sunrealtype tn = run->t;
-  IDAGetCurrentTime(s->memory, &tn);
+  s->call->IDAGetCurrentTime(s->memory, &tn);
   if (flag == IDA_TOO_MUCH_WORK) flag = 0;
   if (flag >= 0 && tn <= run->t) return flag;
-  if (IDAGetDky(s->memory, tn, 0, run->y) >= 0 && IDAGetDky(s->memory, tn, 1, run->yp) >= 0)
+  if (s->call->IDAGetDky(s->memory, tn, 0, run->y) >= 0 &&
+      s->call->IDAGetDky(s->memory, tn, 1, run->yp) >= 0)
     run->t = tn;
   return flag;
 }
@@ -264,9 +262,10 @@ static int advance(stf_run *run, void *state, sunrealtype t, sunrealtype t_stop,
   if (s->base.restart || !run->stats.steps || run->options->h > 0)
     return step(run, state, t_stop); /* the first step is scaled by all of the interval */
   STEIF_TRY(stf_baseline_ready(&s->base, run, &t_stop));
-  int flag = IDASetStopTime(s->memory, t_stop);
-  STF_CALL(flag, IDASetMaxNumSteps(s->memory, steps < left ? steps : left));
-  STF_CALL(flag, IDASolve(s->memory, fmin(t, t_stop), &run->t, run->y, run->yp, IDA_NORMAL));
+  int flag = s->call->IDASetStopTime(s->memory, t_stop);
+  STF_CALL(flag, s->call->IDASetMaxNumSteps(s->memory, steps < left ? steps : left));
+  STF_CALL(flag,
+           s->call->IDASolve(s->memory, fmin(t, t_stop), &run->t, run->y, run->yp, IDA_NORMAL));
   flag = last_step(s, flag);
   collect(s);
   return verdict(s, flag);
@@ -277,7 +276,7 @@ static int dense(stf_run *run, void *state, sunrealtype t, N_Vector y)
   ida *s = state;
   STEIF_TRY(stf_baseline_inside(&s->base, &t));
   stf_baseline_enter(&s->base, run);
-  const int flag = IDAGetDky(s->memory, t, 0, y);
+  const int flag = s->call->IDAGetDky(s->memory, t, 0, y);
   return stf_baseline_dense(&s->base, flag, t);
 }
 
@@ -285,7 +284,7 @@ static void close(stf_run *run, void *state)
 {
   (void)run;
   ida *s = state;
-  if (s->memory) IDAFree(&s->memory);
+  if (s->memory) s->call->IDAFree(&s->memory);
 }
 
 const steif_engine steif_engine_ida = {

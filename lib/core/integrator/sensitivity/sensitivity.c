@@ -123,6 +123,7 @@ int stf_sensitivity_open(steif_solver *s)
   sunrealtype *scale;
   s->step.carry = NULL;
   if (!o->sensitivities) return STEIF_OK;
+  if (s->engine && s->engine->carry) return stf_engine_carry(s);
   STEIF_TRY(check_method(s));
   STEIF_TRY(check_problem(s));
   STEIF_TRY(check_parameters(s));
@@ -150,6 +151,7 @@ int stf_sensitivity_open(steif_solver *s)
 int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy)
 {
   if (!s) return STEIF_BAD_INPUT;
+  if (s->run.columns.count) return stf_engine_carried(s, t, k, dy);
   const stf_carry *T = s->step.carry;
   STEIF_CHECK(T, s->ctx, STEIF_BAD_INPUT,
               "this run carries no sensitivities: set options.sensitivities");
@@ -174,6 +176,7 @@ int steif_sensitivity_costs(const steif_solver *s, steif_sensitivity_cost *cost)
   if (!s || !cost) return STEIF_BAD_INPUT;
   const stf_carry *T = s->step.carry;
   *cost = (steif_sensitivity_cost){0};
+  if (s->run.columns.count) s->engine->cost(&s->run, s->engine_state, cost);
   if (!T) return STEIF_OK;
   const bool tested = s->step.adaptive && !s->options.untested_sensitivities;
   *cost = (steif_sensitivity_cost){T->count, tested, T->sweeps, T->at.made};
