@@ -4,7 +4,8 @@
  *     steif_parameters par = {.count = 3, .value = k};
  *     problem.parameters = &par;
  *
- * Change k[i] between runs as you like; a run reads what is there. A model as text has its numbers as
+ * Change k[i] between runs as you like; a run reads what is there (problems of the collection: by
+ * steif_parameter_set, their starts follow). A model as text has its numbers as
  * parameters, with exact derivatives: those are changed by steif_model_set, which makes form and start
  * follow. Derivatives by p are those of the residual F(t, y, y'; p), whatever the form of the problem:
  *
@@ -35,11 +36,27 @@ struct steif_parameters {
   /* out_k += w . dF/dp_k for all k at once; NULL: one k after the other. */
   int (*dFdp_transposed)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector w, sunrealtype *out,
                          void *user);
+  /* Of what problem.handle_event makes of y at an event, y+ = R(t, y; p), with y before the event:
+   * out = R_y dy + R_t dt + dR/dp_k. NULL: differences of handle_event, which is then called several times at
+   * an event, as if it had not been called before: what it remembers is put back by begin and restore. */
+  int (*reset)(sunrealtype t, N_Vector y, const int *fired, N_Vector dy, sunrealtype dt, int k,
+               N_Vector out, void *user);
+  /* *slope = d breaks[i]/dp_k; NULL: 0. */
+  int (*break_slope)(int i, int k, sunrealtype *slope, void *user);
+  /* What the problem keeps of p, start values too, is to be made anew: called when differences have moved a value and
+   * when it is put back, and by steif_parameter_set; NULL: callbacks read p. Returns 0, or < 0: it cannot be. */
+  int (*moved)(void *user);
+  const char *
+    obstacle; /* why derivatives of solutions cannot be had, a sentence; NULL: nothing is in their way */
 };
 
 /* The number k of a name; -1 with the nearest name as message, STEIF_UNKNOWN_NAME. */
 STEIF_EXPORT int steif_parameter_find(steif_context *ctx, const steif_problem *problem,
                                       const char *name);
+/* value[k] = value for the runs to come, and what the problem keeps of it follows. Models as text are changed by
+ * steif_model_set. */
+STEIF_EXPORT int steif_parameter_set(steif_context *ctx, const steif_problem *problem, int k,
+                                     sunrealtype value);
 /* out = dF/dp_k at (t, y, yp): by the callback, else by central differences, to about 1e-10 of the size
  * of F/p_k; value[k] is moved and restored exactly meanwhile. Where F cannot be evaluated on one side of
  * p_k the difference is one-sided. STEIF_RETRY: on neither. */

@@ -22,10 +22,21 @@
  *
  * Served: collocation (gauss, radau, radau1a, lobatto3c, any number of stages), DIRK and BDF with dense, band
  * and sparse matrices, index 0 and 1. STEIF_UNSUPPORTED: other families and `auto`; Krylov
- * storage; index above 1; event handlers, breaks, constraints, options.reinitialise, options.ewt; starts that had to
+ * storage; index above 1; constraints, options.ewt; starts that had to
  * be repaired, or whose derivative does not fulfil algebraic equations (give parameters.start). Where dF/dy
  * or dF/dp are made by differences, S has their relative error too, about 1e-10: tolerances of one step near
  * that are not kept, and BDF at rtol below 1e-6 may then make far too many steps: give dFdp and jac.
+ *
+ * Events and breaks. At an event g(tau, y, p) = 0 with y+ = R(tau, y-, p) after it,
+ *   dtau/dp = -(g_y S- + g_p) / (g_y f- + g_t),   S+ = R_y S- + R_p + (R_y f- + R_t - f+) dtau/dp,
+ * f- and f+ being the slopes of y on both sides, f- that of dense output. Derivatives of g are differences of two
+ * lengths, extrapolated, to about 1e-12; those of R come from parameters.reset or are such differences of
+ * handle_event (and options.reinitialise), which must then be the same each time: problems with `begin` need
+ * `save` and `restore`. At the time of an event S is that after it where the run begins anew, else that before it. Breaks move
+ * with p where parameters.break_slope says so. STEIF_UNSUPPORTED: events that graze (|g_y f- + g_t| below 1e-6 of
+ * |g_y| |f-|), two of them at once whose times have different derivatives, functions without derivatives.
+ * Infinitely many events in a finite time end the run, as without S.
+ *
  * Checkpoints, copies and restarts of such runs: STEIF_UNSUPPORTED.
  *
  * Sources: U. Maly and L. R. Petzold, Appl. Numer. Math. 20 (1996) 57-79; L. Petzold, S. Li, Y. Cao and R. Serban,
@@ -45,6 +56,11 @@ extern "C" {
 /* dy = dy(t)/dp_k, k from 0, at t inside the last step, by the dense output of the method differentiated; before the
  * first step at t0. STEIF_BAD_INPUT: k is not carried, or t lies elsewhere. */
 STEIF_EXPORT int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy);
+
+/* The time tau(p) of the last event: *dt = dtau/dp_k, and dy = d y(tau(p); p)/dp_k with y before the event, dy/dp_k +
+ * y' dtau/dp_k; either may be NULL. In on_event, observe and until the next step. STEIF_BAD_INPUT: there was no event;
+ * STEIF_UNSUPPORTED: its function grazes, or has no derivative. */
+STEIF_EXPORT int steif_sensitivity_event(steif_solver *s, int k, sunrealtype *dt, N_Vector dy);
 
 /* What S has cost so far, beside the statistics of the run, which count its solves and factors. */
 typedef struct steif_sensitivity_cost {

@@ -2,8 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_forward[], tests_of_same_mesh[], tests_of_sensitivity_input[];
+extern CU_TestInfo tests_of_events[], tests_of_forward[], tests_of_same_mesh[],
+  tests_of_sensitivity_input[];
 
-SUITE_MAIN({.pName = "forward", .pTests = tests_of_forward},
+SUITE_MAIN({.pName = "events", .pTests = tests_of_events},
+           {.pName = "forward", .pTests = tests_of_forward},
            {.pName = "same mesh", .pTests = tests_of_same_mesh},
            {.pName = "input", .pTests = tests_of_sensitivity_input})

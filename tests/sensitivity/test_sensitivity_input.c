@@ -88,6 +88,12 @@ static int values(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
   return 0;
 }
 
+static int begin(sunrealtype t, void *user)
+{
+  (void)t, (void)user;
+  return 0;
+}
+
 static void other_families_are_refused(void)
 {
   static const char *const methods[] = {"rodas4", "dopri87", "cvode", "glm:irks,p=2",
@@ -107,16 +113,13 @@ static void other_problems_are_refused(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   struct forcing F;
-  const sunrealtype breaks[] = {1};
   const int positive[] = {1};
   steif_options o = steif_defaults();
   o.sensitivities = 1;
   forcing_open(&F, 0);
   F.problem.events = 1, F.problem.event = values, F.problem.handle_event = handler;
-  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_UNSUPPORTED, "handler");
-  forcing_open(&F, 0);
-  F.problem.breaks = breaks, F.problem.break_count = 1;
-  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_UNSUPPORTED, "breaks");
+  F.problem.begin = begin;
+  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_UNSUPPORTED, "save and restore");
   forcing_open(&F, 0);
   F.problem.constraint = positive;
   refused(ctx, &F.problem, "radau:s=3", &o, STEIF_UNSUPPORTED, "constraints");

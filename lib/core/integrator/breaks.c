@@ -36,7 +36,8 @@ static int reinitialise(steif_solver *s)
 static int restart(steif_solver *s)
 {
   stf_step *step = &s->step;
-  const bool broken = at_break(s);
+  const bool broken = at_break(s), carried = broken && s->saltation;
+  if (carried) STEIF_TRY(stf_saltation_break(s, s->next_break));
   step->t = nextafter(step->t, INFINITY);
   step->yp_known = s->events && s->events->settled;
   if (s->events) s->events->settled = false;
@@ -46,6 +47,7 @@ static int restart(steif_solver *s)
     if (code < 0) return code;
     step->yp_known = code == STEIF_OK;
   }
+  if (carried) STEIF_TRY(stf_saltation_broken(s));
   s->h_next = fmin(s->h_next, stf_first_step(s));
   s->h_old = 0;
   return STEIF_OK;

@@ -11,6 +11,7 @@
 
 typedef struct stf_switching stf_switching;
 typedef struct stf_rounding stf_rounding;
+typedef struct stf_saltation stf_saltation;
 
 /* Constant steps h from t0: `whole` of them end at `end`, `rest` > 0 before t1, or at t1 with rest 0. */
 typedef struct stf_constant {
@@ -71,9 +72,10 @@ struct steif_solver {
   sunrealtype h_next, h_old, h_tried, error_old; /* chosen steps */
   bool after_reject, failed;
   stf_pace pace;
-  int constraint_moves;   /* steps in a row that a constraint has moved */
-  stf_rounding *rounding; /* of runs near it; NULL: not followed */
-  sunrealtype rounded;    /* in tolerances */
+  int constraint_moves;     /* steps in a row that a constraint has moved */
+  stf_rounding *rounding;   /* of runs near it; NULL: not followed */
+  sunrealtype rounded;      /* in tolerances */
+  stf_saltation *saltation; /* derivatives through events and breaks; NULL: none */
   int failure;
   char why[400];               /* the sentence of the failure */
   sunrealtype *invariants;     /* at the start, then room for as many */
@@ -146,6 +148,15 @@ int stf_sensitivity_open(steif_solver *s);
 /* engine_columns.c: the same of an engine that carries them. */
 int stf_engine_carry(steif_solver *s);
 int stf_engine_carried(steif_solver *s, sunrealtype t, int k, N_Vector dy);
+/* saltation.c: them through events and breaks, s->saltation, where there are any. Another event has come, at t; before
+ * handle_event is called there; after it, when the run restarts; and when the next step begins. Before and after break i. */
+int stf_saltation_open(steif_solver *s);
+void stf_saltation_forget(steif_solver *s, sunrealtype t);
+int stf_saltation_before(steif_solver *s, sunrealtype t);
+int stf_saltation_after(steif_solver *s, sunrealtype t);
+void stf_saltation_renew(steif_solver *s);
+int stf_saltation_break(steif_solver *s, int i);
+int stf_saltation_broken(steif_solver *s);
 
 /* The invariants at the start. */
 int stf_drift_open(steif_solver *s);

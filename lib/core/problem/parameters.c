@@ -80,6 +80,18 @@ static sunrealtype increment(const steif_parameters *q, int k)
   return cbrt(STF_EPS) * (typical > 0 ? typical : 1);
 }
 
+/* what(p_k = value) into out. */
+static int with(const steif_parameters *q, int k, sunrealtype value,
+                int (*what)(const point *at, N_Vector out), const point *at, N_Vector out)
+{
+  const sunrealtype p = q->value[k];
+  q->value[k] = value;
+  int code = q->moved ? q->moved(at->problem->user) : 0;
+  if (!code) code = what(at, out);
+  q->value[k] = p;
+  return q->moved && q->moved(at->problem->user) ? -1 : code;
+}
+
 /* Values on both sides, or on one and here: their quotient. what(data, out) is the function of p. */
 static int differ(const steif_parameters *q, int k, int (*what)(const point *at, N_Vector out),
                   const point *at, N_Vector out)
@@ -87,23 +99,10 @@ static int differ(const steif_parameters *q, int k, int (*what)(const point *at,
   N_Vector other = at->other;
   const sunrealtype p = q->value[k], d = increment(q, k);
   volatile sunrealtype up = p + d, down = p - d;
-  q->value[k] = up;
-  int code = what(at, out);
-  if (code > 0) {
-    up = p;
-    q->value[k] = p;
-    code = what(at, out);
-  }
-  if (!code) {
-    q->value[k] = down;
-    code = what(at, other);
-    if (code > 0 && up > p) {
-      down = p;
-      q->value[k] = p;
-      code = what(at, other);
-    }
-  }
-  q->value[k] = p;
+  int code = with(q, k, up, what, at, out);
+  if (code > 0) code = with(q, k, up = p, what, at, out);
+  if (!code) code = with(q, k, down, what, at, other);
+  if (code > 0 && up > p) code = with(q, k, down = p, what, at, other);
   if (!code) N_VLinearSum(1 / (up - down), out, -1 / (up - down), other, out);
   return code;
 }
@@ -145,6 +144,20 @@ int steif_parameter_find(steif_context *ctx, const steif_problem *p, const char 
   STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "problem '%s' has no parameter '%s'%s", p->name, name,
              guess);
   return -1;
+}
+
+int steif_parameter_set(steif_context *ctx, const steif_problem *p, int k, sunrealtype value)
+{
+  STEIF_TRY(check(ctx, p, k));
+  STEIF_CHECK(isfinite(value), ctx, STEIF_NOT_FINITE, "parameter %d of problem '%s' is %g",
+              k + 1, p->name, value);
+  const steif_parameters *q = p->parameters;
+  q->value[k] = value;
+  const int returned = q->moved ? q->moved(p->user) : 0;
+  STEIF_CHECK(returned == 0, ctx, STEIF_CALLBACK,
+              "parameters.moved of problem '%s' returned %d for parameter %d = %g", p->name,
+              returned, k + 1, value);
+  return STEIF_OK;
 }
 
 /* A failure of the library in the callback, of which there have been more than `before`, is told by it. */

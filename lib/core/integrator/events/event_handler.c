@@ -86,6 +86,7 @@ static int react(steif_solver *s, sunrealtype t)
   stf_detector *w = s->events;
   const steif_problem *p = s->problem;
   stf_observe(s, t, w->after);
+  if (s->saltation) STEIF_TRY(stf_saltation_before(s, t));
   N_VScale(1, w->after, w->y);
   const int wish = p->handle_event(t, w->after, w->fired, p->user);
   N_VLinearSum(1, w->after, -1, w->y, w->y);
@@ -103,6 +104,7 @@ static int react(steif_solver *s, sunrealtype t)
   STEIF_CHECK(stf_finite(&space, w->after), s->ctx, STEIF_NOT_FINITE,
               "handle_event of problem '%s' left a component that is not finite, at t = %.12g",
               p->name, t);
+  if (w->cut && s->saltation) STEIF_TRY(stf_saltation_after(s, t));
   return w->cut ? check_gathering(s, t) : STEIF_OK;
 }
 
@@ -144,6 +146,7 @@ int stf_event_fire(steif_solver *s, sunrealtype t, sunrealtype to)
   STEIF_TRY(collect(s, t, to));
   STEIF_TRY(stf_dense(s, t, w->after));
   s->shown = w->after, s->t_shown = t;
+  stf_saltation_forget(s, t);
   if (o->on_event && o->on_event(s, t, w->after, w->fired, o->observer))
     s->observer_stopped = true;
   if (terminal(s)) {
@@ -179,6 +182,7 @@ static int renew_step(steif_solver *s)
   stf_copy(&step->system.space, s->events->after, step->y);
   step->yp_known = s->events->settled;
   if (step->yp_known) stf_copy(&step->system.space, s->events->slope, step->yp);
+  if (s->saltation) stf_saltation_renew(s);
   step->t = s->end;
   step->restart = step->newton.jacobian_wanted = true;
   step->system.filled = false;

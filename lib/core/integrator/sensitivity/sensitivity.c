@@ -1,9 +1,7 @@
 /* sensitivity.c: derivatives by parameters beside a run: what is served, their start, and what is shown.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "integrator.h"
-#include "carry.h"
+#include "saltation.h"
 #include <math.h>
-#include <steif/sensitivity.h>
 #include <stdio.h>
 
 /* ---- what is refused ------------------------------------------------------------------------ */
@@ -27,18 +25,10 @@ static int check_problem(const steif_solver *s)
   REFUSE(p->dae_index > 1,
          "sensitivities of problem '%s' of index %d are not served: index 0 and 1", p->name,
          p->dae_index);
-  REFUSE(
-    p->events > 0 && p->handle_event,
-    "sensitivities do not pass events with a handler such as those of problem '%s': what it "
-    "does at a time that depends on p would have to be differentiated",
-    p->name);
-  REFUSE(p->break_count > 0, "sensitivities do not pass breaks such as those of problem '%s'",
-         p->name);
   REFUSE(p->constraint,
          "sensitivities are not served beside the constraints of problem '%s', which "
          "move the solution",
          p->name);
-  REFUSE(o->reinitialise, "sensitivities do not pass options.reinitialise");
   REFUSE(o->ewt, "sensitivities need tolerances, not options.ewt");
   REFUSE(!s->step.system.space.serial, "sensitivities of problem '%s' need serial vectors",
          p->name);
@@ -56,6 +46,7 @@ static int check_parameters(const steif_solver *s)
   const steif_parameters *q = p->parameters;
   STEIF_CHECK(q && q->count > 0 && q->value, s->ctx, STEIF_BAD_INPUT,
               "problem '%s' has no parameters: set .parameters", p->name);
+  REFUSE(q->obstacle, "sensitivities of problem '%s' cannot be had: %s", p->name, q->obstacle);
   for (int k = 0; k < q->count; k++) {
     STEIF_CHECK(isfinite(q->value[k]), s->ctx, STEIF_NOT_FINITE,
                 "parameter %d of problem '%s' is %g", k + 1, p->name, q->value[k]);
@@ -121,7 +112,7 @@ int stf_sensitivity_open(steif_solver *s)
   const steif_options *o = &s->options;
   int *parameter;
   sunrealtype *scale;
-  s->step.carry = NULL;
+  s->step.carry = NULL, s->saltation = NULL;
   if (!o->sensitivities) return STEIF_OK;
   if (s->engine && s->engine->carry) return stf_engine_carry(s);
   STEIF_TRY(check_method(s));
@@ -143,31 +134,57 @@ int stf_sensitivity_open(steif_solver *s)
   }
   STEIF_TRY(check_start(s, T));
   s->step.carry = T;
-  return STEIF_OK;
+  return stf_saltation_open(s);
 }
 
 /* ---- what is shown -------------------------------------------------------------------------- */
 
-int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy)
+/* The place of parameter k in the list. */
+static int column(const steif_solver *s, int k, int *i)
 {
   if (!s) return STEIF_BAD_INPUT;
   if (s->run.columns.count) return stf_engine_carried(s, t, k, dy);
   const stf_carry *T = s->step.carry;
   STEIF_CHECK(T, s->ctx, STEIF_BAD_INPUT,
               "this run carries no sensitivities: set options.sensitivities");
+  for (*i = 0; *i < T->count && T->parameter[*i] != k;) ++*i;
+  STEIF_CHECK(*i < T->count, s->ctx, STEIF_BAD_INPUT,
+              "the derivative by parameter %d is not carried by this run", k);
+  return STEIF_OK;
+}
+
+int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy)
+{
+  int i = 0;
+  STEIF_TRY(column(s, k, &i));
+  const stf_carry *T = s->step.carry;
   STEIF_CHECK(dy && N_VGetLength(dy) == s->problem->n, s->ctx, STEIF_BAD_INPUT,
               "a vector of %lld components is needed for dy/dp", (long long)s->problem->n);
-  int i = 0;
-  while (i < T->count && T->parameter[i] != k) i++;
-  STEIF_CHECK(i < T->count, s->ctx, STEIF_BAD_INPUT,
-              "the derivative by parameter %d is not carried by this run", k);
   const stf_step *step = &s->step;
   const sunrealtype slack = 1e-12 * (fabs(step->t) + step->h);
   STEIF_CHECK(t >= step->t - step->h - slack && t <= s->end + slack, s->ctx, STEIF_BAD_INPUT,
               "t = %.17g lies outside the last step [%.17g, %.17g]", t, step->t - step->h,
               s->end);
-  if (t != step->t) return T->carrier->dense(T, i, t, dy);
-  N_VScale(1, T->S[i], dy);
+  const bool behind = s->saltation && s->saltation->pending && t >= s->end;
+  if (t != step->t && !behind) return T->carrier->dense(T, i, t, dy);
+  N_VScale(1, behind ? s->saltation->jump[i] : T->S[i], dy);
+  return STEIF_OK;
+}
+
+int steif_sensitivity_event(steif_solver *s, int k, sunrealtype *dt, N_Vector dy)
+{
+  int i = 0;
+  STEIF_TRY(column(s, k, &i));
+  stf_saltation *w = s->saltation;
+  STEIF_CHECK(w && isfinite(w->t), s->ctx, STEIF_BAD_INPUT, "no event has happened yet");
+  STEIF_CHECK(
+    w->known || w->t >= s->step.t - s->step.h, s->ctx, STEIF_BAD_INPUT,
+    "the event at t = %.12g lies before the last step: ask in on_event, or before the "
+    "next step",
+    w->t);
+  if (!w->known) STEIF_TRY(stf_saltation_times(s, w->t));
+  if (dt) *dt = w->tau[i];
+  if (dy) N_VLinearSum(1, w->S[i], w->tau[i], w->slope, dy);
   return STEIF_OK;
 }
 

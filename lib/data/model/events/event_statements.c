@@ -37,32 +37,26 @@ static int ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-static int instants(stf_model *m, stf_reaction *r, int32_t statement)
+/* Times of the statement as they are with the present parameters; their number where r->times is NULL. */
+static int instants(stf_model *m, stf_reaction *r)
 {
-  size_t count = 0;
-  for (int pass = 0; pass < 2; pass++) {
-    count = 0;
-    for (size_t i = (size_t)statement + 1; i < m->syntax.statements.count; i++) {
-      const stf_statement *s = stf_statement_at(m, (int32_t)i);
-      if (s->parent != statement) break;
-      if (s->kind != STF_SAY_INSTANT) continue;
-      if (pass) STEIF_TRY(stf_number_of(m, &s->value, r->times + count));
-      count++;
-    }
-    if (!pass) r->times = stf_pool_array(m->pool, count, sizeof *r->times);
-    if (!r->times) return STEIF_NO_MEMORY;
+  int32_t count = 0;
+  for (size_t i = (size_t)r->statement + 1; i < m->syntax.statements.count; i++) {
+    const stf_statement *s = stf_statement_at(m, (int32_t)i);
+    if (s->parent != r->statement) break;
+    if (s->kind != STF_SAY_INSTANT) continue;
+    if (r->times) STEIF_TRY(stf_number_of(m, &s->value, r->times + count));
+    count++;
   }
-  qsort(r->times, count, sizeof *r->times, ascending);
-  r->time_count = (int32_t)count;
+  if (r->times) qsort(r->times, (size_t)count, sizeof *r->times, ascending);
+  r->time_count = count;
   return STEIF_OK;
 }
 
-static int timer(stf_model *m, stf_reaction *r, const stf_statement *s)
+int stf_timer_read(stf_model *m, stf_reaction *r)
 {
-  r->trigger = STF_TIMER;
-  r->memory = m->memories++;
-  m->timers++;
-  if (s->kind == STF_SAY_AT) return instants(m, r, r->statement);
+  const stf_statement *s = stf_statement_at(m, r->statement);
+  if (s->kind == STF_SAY_AT) return instants(m, r);
   r->from = m->t0;
   STEIF_TRY(stf_number_of(m, &s->value, &r->period));
   if (s->other.to > s->other.from) STEIF_TRY(stf_number_of(m, &s->other, &r->from));
@@ -70,6 +64,17 @@ static int timer(stf_model *m, stf_reaction *r, const stf_statement *s)
   stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
                "the period %.12g; it must be positive", r->period);
   return stf_complaints(&m->syntax.sources);
+}
+
+static int timer(stf_model *m, stf_reaction *r, const stf_statement *s)
+{
+  r->trigger = STF_TIMER;
+  r->memory = m->memories++;
+  m->timers++;
+  if (s->kind != STF_SAY_AT) return stf_timer_read(m, r);
+  STEIF_TRY(instants(m, r));
+  r->times = stf_pool_array(m->pool, (size_t)r->time_count, sizeof *r->times);
+  return r->times ? instants(m, r) : STEIF_NO_MEMORY;
 }
 
 /* ---- actions
@@ -93,6 +98,16 @@ static int target(stf_model *m, stf_builder *b, int32_t statement)
   return STEIF_OK;
 }
 
+/* A discrete value that depends on y, t or p would have derivatives of its own. */
+static void note_varying(stf_model *m, const stf_builder *b, const stf_statement *s,
+                         int32_t node)
+{
+  const stf_symbol *symbol = stf_symbol_of(m, s->name);
+  const int varying = STF_ON_STATE | STF_ON_SLOPE | STF_ON_TIME | STF_ON_PARAMETER;
+  if (symbol->kind != STF_IS_STATE && (stf_node_at(b->g, node)->on & varying))
+    m->varying = stf_named(m, s->name);
+}
+
 static int actions(stf_model *m, stf_builder *b, stf_reaction *r)
 {
   stf_vector stores = {0};
@@ -107,6 +122,7 @@ static int actions(stf_model *m, stf_builder *b, stf_reaction *r)
     stf_store *to = stf_vector_push(m->ctx, &stores, sizeof *to);
     code = to ? stf_build(b, &s->value, &node) : STEIF_NO_MEMORY;
     if (!code) code = target(m, b, (int32_t)i);
+    if (!code) note_varying(m, b, s, node);
     if (!code)
       *STF_AT(stores, stf_store, stores.count - 1) = (stf_store){.from = node, .a = r->count++};
   }
@@ -261,6 +277,19 @@ static int starts(stf_model *m)
   return STEIF_OK;
 }
 
+static int look_at_starts(stf_model *m, stf_builder *b)
+{
+  for (size_t i = 0; i < m->symbols.count; i++) {
+    const stf_symbol *s = stf_symbol_at(m, (int32_t)i);
+    if (s->kind != STF_IS_DISCRETE) continue;
+    int32_t node;
+    const stf_statement *said = stf_statement_at(m, s->statement);
+    STEIF_TRY(stf_build(b, &said->value, &node));
+    if (stf_node_at(b->g, node)->on & STF_ON_PARAMETER) m->varying = stf_named(m, s->word);
+  }
+  return STEIF_OK;
+}
+
 int stf_build_events(stf_model *m)
 {
   stf_builder b;
@@ -270,6 +299,7 @@ int stf_build_events(stf_model *m)
   b.block = m->event_block;
   for (size_t i = 0; code != STEIF_NO_MEMORY && i < m->syntax.statements.count; i++)
     code = statement(m, &b, &conditions, (int32_t)i);
+  if (!code && !m->syntax.sources.errors) code = look_at_starts(m, &b);
   stf_builder_close(&b);
   if (m->syntax.sources.errors) code = stf_complaints(&m->syntax.sources);
   if (!code) code = arrays(m);

@@ -47,6 +47,20 @@ static void set_timer(const stf_model *m, stf_reaction *r)
     m->memory[r->memory] = r->from + r->done * r->period;
 }
 
+int stf_reactions_follow(stf_model *m)
+{
+  stf_reactions *r = m->reactions;
+  for (size_t i = 0; r && i < r->list.count; i++) {
+    stf_reaction *e = reaction(r, i);
+    if (e->count) stf_tape_prepare(&e->tape, &m->feed, e->space);
+    if (e->trigger != STF_TIMER) continue;
+    STEIF_TRY(stf_timer_read(m, e));
+    set_timer(m, e);
+  }
+  if (r) stf_quantity_prepare(m, &r->conditions);
+  return STEIF_OK;
+}
+
 /* Times at the start and before are over. */
 static void start_timer(const stf_model *m, stf_reaction *r, double t)
 {

@@ -36,6 +36,8 @@ typedef struct stf_reactions {
 /* event_statements.c: compile all; members of the problem. */
 int stf_build_events(stf_model *m);
 void stf_reactions_free(stf_model *m);
+/* Its times or period with the present parameters. */
+int stf_timer_read(stf_model *m, stf_reaction *r);
 /* event_values.c */
 void stf_event_values(const stf_model *m, double t, const double *y, double *g);
 int stf_event_callback(sunrealtype t, N_Vector y, sunrealtype *g, void *user);
@@ -44,6 +46,8 @@ void stf_event_move(const stf_model *m, const int *fired);
 /* reactions.c: at the start of a run, and at an event. */
 int stf_reactions_begin(sunrealtype t, void *user);
 int stf_reactions_handle(sunrealtype t, N_Vector y, const int *fired, void *user);
+/* Parameters have moved in the midst of a run: conditions, assignments and the next times follow. */
+int stf_reactions_follow(stf_model *m);
 /* event_state.c: what begin resets, for checkpoints. */
 long stf_reactions_save(void *bytes, void *user);
 int stf_reactions_restore(const void *bytes, size_t count, void *user);

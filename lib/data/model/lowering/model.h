@@ -123,6 +123,7 @@ typedef struct stf_model {
   int32_t memories, switches, timers, invariant_count, output_count;
   uint8_t *switch_used, *switch_open; /* switches */
   stf_vector breaks;                  /* double */
+  int break_count;                    /* of them inside the interval, sorted */
   stf_block *event_block;
   struct stf_reactions *reactions;
   steif_event *event_list;
@@ -142,6 +143,8 @@ typedef struct stf_model {
   stf_vector partials;
   steif_parameters given; /* those that are no whole numbers: the first of p */
   const char **parameter_name;
+  const char *varying; /* a discrete value that depends on y, t or p; NULL: none does */
+  double *break_slope; /* of each break by each parameter in `given`; NULL: not asked for yet */
   struct stf_products *products;
   void *library; /* of compiled code; NULL: none */
 } stf_model;
@@ -235,6 +238,8 @@ int64_t stf_passes(const stf_box *box);
 int32_t stf_at_pass(const stf_box *box, int64_t k, int32_t a, const int32_t *stride);
 void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed *feed,
                       double *out);
+/* What parameters determine, anew. */
+void stf_quantity_prepare(const stf_model *m, const stf_quantity *q);
 /* All tapes are there: how many outputs they write. */
 int stf_quantity_close(stf_model *m, stf_quantity *q, int64_t size);
 void stf_quantity_free(const stf_model *m, stf_quantity *q);

@@ -50,6 +50,12 @@ int stf_quantity_close(stf_model *m, stf_quantity *q, int64_t size)
   return STEIF_OK;
 }
 
+void stf_quantity_prepare(const stf_model *m, const stf_quantity *q)
+{
+  for (size_t i = 0; i < q->tapes.count; i++)
+    stf_tape_prepare(STF_AT(q->tapes, stf_tape, i), &m->feed, *STF_AT(q->spaces, double *, i));
+}
+
 void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed *feed,
                       double *out)
 {

@@ -31,7 +31,7 @@ static int breaks(stf_model *m, steif_problem *p)
     if (inside && (!count || all[i] > all[count - 1])) all[count++] = all[i];
   }
   p->breaks = count ? all : NULL;
-  p->break_count = (int)count;
+  p->break_count = m->break_count = (int)count;
   return STEIF_OK;
 }
 

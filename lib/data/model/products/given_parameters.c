@@ -8,6 +8,7 @@
 #include "products.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
+#include <stdio.h>
 #include <string.h>
 
 static int by_parameter(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
@@ -112,6 +113,19 @@ static int start(int k, N_Vector S0, void *user)
 
 /* ---- the list --------------------------------------------------------------------------------- */
 
+static int tell_varying(stf_model *m)
+{
+  static const char form[] =
+    "the discrete value '%s' depends on unknowns, the time or parameters, and would have "
+    "derivatives of its own: make it an unknown u with u' = 0, which events may assign too";
+  const size_t room = sizeof form + strlen(m->varying);
+  char *sentence = stf_pool_array(m->pool, room, 1);
+  if (!sentence) return STEIF_NO_MEMORY;
+  snprintf(sentence, room, form, m->varying);
+  m->given.obstacle = sentence;
+  return STEIF_OK;
+}
+
 int stf_parameter_members(stf_model *m, steif_problem *problem)
 {
   m->parameter_name = stf_pool_array(m->pool, (size_t)m->parameters, sizeof *m->parameter_name);
@@ -120,13 +134,16 @@ int stf_parameter_members(stf_model *m, steif_problem *problem)
                                 .name = m->parameter_name,
                                 .dFdp = by_parameter,
                                 .start = start,
-                                .dFdp_transposed = transposed};
+                                .dFdp_transposed = transposed,
+                                .break_slope = stf_model_break_slope,
+                                .moved = stf_model_follow};
   for (size_t i = 0; i < m->symbols.count; i++) {
     const stf_symbol *s = stf_symbol_at(m, (int32_t)i);
     if (s->kind != STF_IS_PARAMETER || s->which < 0) continue;
     m->parameter_name[s->which] = stf_named(m, s->word);
     m->given.count += !stf_statement_at(m, s->statement)->whole;
   }
+  if (m->varying) STEIF_TRY(tell_varying(m));
   problem->parameters = m->given.count ? &m->given : NULL;
   return STEIF_OK;
 }

@@ -1,29 +1,35 @@
-/* bounce.c: a ball falls from height 1 and bounces with restitution e,
+/* bounce.c: a ball falls from height H and bounces with restitution e,
  *
  *   y' = v, v' = -g;   at y = 0 falling: v becomes -e v.
  *
- * With T = sqrt(2/g) it hits the ground for the k-th time at
+ * With T = sqrt(2 H/g) it hits the ground for the k-th time at
  *   t_k = T + 2 T (e + e^2 + ... + e^(k-1)),   k = 1, 2, ...,
- * after which v = g T e^k; all bounces are over at T (1 + e)/(1 - e).
+ * after which v = g T e^k; all bounces are over at T (1 + e)/(1 - e). Parameters H = 1, g = 9.81, e = 0.8.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
+#include <steif/parameters.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 enum { KNOWN = 64 };
-static const sunrealtype g = 9.81;
+enum { HEIGHT, GRAVITY, RESTITUTION, PARAMETERS };
 
 typedef struct ball {
-  sunrealtype e, times[KNOWN];
+  sunrealtype p[PARAMETERS], start[2];
+  sunrealtype times[KNOWN]; /* with the parameters that it was built with */
+  steif_parameters parameters;
 } ball;
+
+static const char *const names[] = {"H", "g", "e"};
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 {
-  (void)t, (void)user;
+  const ball *b = user;
+  (void)t;
   N_VGetArrayPointer(ydot)[0] = N_VGetArrayPointer(y)[1];
-  N_VGetArrayPointer(ydot)[1] = -g;
+  N_VGetArrayPointer(ydot)[1] = -b->p[GRAVITY];
   return 0;
 }
 
@@ -47,21 +53,56 @@ static int hit(sunrealtype t, N_Vector y, const int *fired, void *user)
   (void)t, (void)fired;
   sunrealtype *x = N_VGetArrayPointer(y);
   x[0] = 0;
-  x[1] *= -((const ball *)user)->e;
+  x[1] *= -((const ball *)user)->p[RESTITUTION];
   return STEIF_RESTART;
+}
+
+static void times(const ball *b, sunrealtype *to)
+{
+  sunrealtype flight = sqrt(2 * b->p[HEIGHT] / b->p[GRAVITY]), t = flight;
+  for (int k = 0; k < KNOWN; k++, t += 2 * flight) {
+    to[k] = t;
+    flight *= b->p[RESTITUTION];
+  }
 }
 
 static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   const ball *b = user;
-  sunrealtype *x = N_VGetArrayPointer(y);
+  const sunrealtype g = b->p[GRAVITY], H = b->p[HEIGHT];
+  sunrealtype *x = N_VGetArrayPointer(y), at[KNOWN];
   int k = 0;
-  while (k < KNOWN && t >= b->times[k]) k++;
+  times(b, at);
+  while (k < KNOWN && t >= at[k]) k++;
   if (k == KNOWN) return 1;
-  const sunrealtype up = sqrt(2 * g) * pow(b->e, k), s = k ? t - b->times[k - 1] : t;
-  x[0] = (k ? up * s : 1) - g * s * s / 2;
+  const sunrealtype up = sqrt(2 * g * H) * pow(b->p[RESTITUTION], k), s = k ? t - at[k - 1] : t;
+  x[0] = (k ? up * s : H) - g * s * s / 2;
   x[1] = (k ? up : 0) - g * s;
   return yp ? f(t, y, yp, user) : 0;
+}
+
+/* -df/dp. */
+static int slope(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  N_VGetArrayPointer(out)[0] = 0;
+  N_VGetArrayPointer(out)[1] = k == GRAVITY;
+  return 0;
+}
+
+static int begin_slope(int k, N_Vector S0, void *user)
+{
+  (void)user;
+  N_VGetArrayPointer(S0)[0] = k == HEIGHT;
+  N_VGetArrayPointer(S0)[1] = 0;
+  return 0;
+}
+
+static int follow(void *user)
+{
+  ball *b = user;
+  b->start[0] = b->p[HEIGHT];
+  return 0;
 }
 
 static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self)
@@ -72,12 +113,16 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   STEIF_TRY(stf_spec_real(ctx, spec, "e", 0.01, 1, 0.8, &e));
   ball *b = stf_collection_allocate(ctx, self, sizeof *b, 0);
   if (!b) return STEIF_NO_MEMORY;
-  b->e = e;
-  sunrealtype flight = sqrt(2 / g), t = flight;
-  for (int k = 0; k < KNOWN; k++, t += 2 * flight) {
-    b->times[k] = t;
-    flight *= e;
-  }
+  b->p[HEIGHT] = b->start[0] = 1, b->p[GRAVITY] = 9.81, b->p[RESTITUTION] = e;
+  b->parameters = (steif_parameters){.count = PARAMETERS,
+                                     .value = b->p,
+                                     .name = names,
+                                     .dFdp = slope,
+                                     .start = begin_slope,
+                                     .moved = follow};
+  times(b, b->times);
+  self->parameters = &b->parameters;
+  self->y0 = b->start;
   self->event_times = b->times;
   self->event_time_count = KNOWN;
   return STEIF_OK;

@@ -1,0 +1,271 @@
+/* saltation.c: S through events and breaks.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "saltation.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- opening ---------------------------------------------------------------------------------- */
+
+static void destroy(void *v) { N_VDestroy(v); }
+
+static int claim_values(steif_solver *s, stf_saltation *w)
+{
+  for (int i = 0; s->problem->events > 0 && i < 4; i++) {
+    w->g[i] = N_VNew_Serial(s->problem->events, steif_sundials(s->ctx));
+    STEIF_CHECK(w->g[i], s->ctx, STEIF_NO_MEMORY, "no memory for %d values of events",
+                s->problem->events);
+    STEIF_TRY(stf_pool_adopt(s->pool, w->g[i], destroy));
+  }
+  return STEIF_OK;
+}
+
+/* What handle_event does is found out by calling it: what it remembers must be put back. */
+static int check_memory(steif_solver *s, stf_saltation *w)
+{
+  const steif_problem *p = s->problem;
+  if (!p->handle_event || (p->parameters->reset && !s->options.reinitialise)) return STEIF_OK;
+  if (!p->begin) return STEIF_OK;
+  STEIF_CHECK(p->save && p->restore, s->ctx, STEIF_UNSUPPORTED,
+              "problem '%s' remembers something at its events: sensitivities need "
+              "parameters.reset, or save and restore",
+              p->name);
+  w->size = p->save(NULL, p->user);
+  STEIF_CHECK(w->size >= 0, s->ctx, STEIF_CALLBACK, "save of problem '%s' returned %ld",
+              p->name, w->size);
+  w->bytes = stf_pool_array(s->pool, (size_t)w->size + 1, 1);
+  return w->bytes ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+int stf_saltation_open(steif_solver *s)
+{
+  s->saltation = NULL;
+  if (!s->step.carry) return STEIF_OK;
+  const steif_problem *p = s->problem;
+  if (!p->event && p->break_count == 0) return STEIF_OK;
+  const int count = s->step.carry->count;
+  stf_saltation *w = stf_pool_array(s->pool, 1, sizeof *w);
+  if (!w) return STEIF_NO_MEMORY;
+  N_Vector *one[] = {&w->y,    &w->slope, &w->after, &w->r[0],     &w->r[1],
+                     &w->r[2], &w->r[3],  &w->point, &w->direction};
+  for (size_t i = 0; i < sizeof one / sizeof *one; i++)
+    if (!(*one[i] = stf_pool_vector(s->pool, s->step.y))) return STEIF_NO_MEMORY;
+  w->S = stf_pool_vectors(s->pool, count, s->step.y);
+  w->jump = stf_pool_vectors(s->pool, count, s->step.y);
+  w->tau = stf_pool_array(s->pool, 2 * (size_t)count, sizeof *w->tau);
+  if (!w->S || !w->jump || !w->tau) return STEIF_NO_MEMORY;
+  w->other = w->tau + count;
+  s->saltation = w, w->t = NAN;
+  STEIF_TRY(claim_values(s, w));
+  return check_memory(s, w);
+}
+
+void stf_saltation_forget(steif_solver *s, sunrealtype t)
+{
+  if (s->saltation) s->saltation->t = t, s->saltation->known = false;
+}
+
+/* ---- what happens at an event ----------------------------------------------------------------- */
+
+static int put_back(steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const stf_saltation *w = s->saltation;
+  if (!w->bytes) return STEIF_OK;
+  const bool done =
+    p->begin(p->t0, p->user) == 0 && p->restore(w->bytes, (size_t)w->size, p->user) == 0;
+  STEIF_CHECK(done, s->ctx, STEIF_CALLBACK,
+              "begin and restore of problem '%s' did not take back what save had given at "
+              "t = %.12g",
+              p->name, w->t);
+  return STEIF_OK;
+}
+
+static int settled(steif_solver *s, sunrealtype t, N_Vector y)
+{
+  if (!s->options.reinitialise) return STEIF_OK;
+  N_VConst(0, s->saltation->after);
+  return s->options.reinitialise(s->ctx, s->problem, t, s->options.rtol, y,
+                                 s->saltation->after);
+}
+
+/* out = R(t, y) - y: exactly 0 where nothing happens. */
+static int reaction(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
+{
+  const steif_problem *p = s->problem;
+  stf_saltation *w = s->saltation;
+  N_VScale(1, y, out);
+  const int wish = p->handle_event(t, out, s->events->fired, p->user);
+  int code = wish < 0 || (w->asked && wish != w->wish) ? STEIF_RETRY : STEIF_OK;
+  if (!code) w->wish = wish, w->asked = true;
+  if (!code && wish == STEIF_RESTART) code = settled(s, t, out);
+  STEIF_TRY(put_back(s));
+  N_VLinearSum(1, out, -1, y, out);
+  return code;
+}
+
+/* The same of options.reinitialise behind a break. */
+static int projection(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
+{
+  N_VScale(1, y, out);
+  STEIF_TRY(settled(s, t, out));
+  N_VLinearSum(1, out, -1, y, out);
+  return STEIF_OK;
+}
+
+static int no_derivative(steif_solver *s, int code, int k, const char *what)
+{
+  if (code < 0 && code != STEIF_RETRY) return code;
+  return STEIF_FAIL(s->ctx, STEIF_UNSUPPORTED,
+                    "%s of problem '%s' has no derivative by parameter %d at t = %.12g: "
+                    "differences of it disagree",
+                    what, s->problem->name, k + 1, s->saltation->t);
+}
+
+/* jump = dy + (derivative of `what` along (tau, dy, e_k)), dy = S- + f- tau. */
+static int through(steif_solver *s, stf_quantity_at what, int k, const char *name)
+{
+  stf_saltation *w = s->saltation;
+  const stf_carry *T = s->step.carry;
+  N_VLinearSum(1, w->S[k], w->tau[k], w->slope, w->direction);
+  const stf_line line = {.dt = w->tau[k], .dy = w->direction, .k = T->parameter[k]};
+  const int code = stf_along(s, what, &line, w->r[0], w->r + 1);
+  if (code) return no_derivative(s, code, T->parameter[k], name);
+  N_VLinearSum(1, w->direction, 1, w->r[0], w->jump[k]);
+  return STEIF_OK;
+}
+
+static int by_callback(steif_solver *s, int k)
+{
+  const steif_problem *p = s->problem;
+  const stf_saltation *w = s->saltation;
+  const int number = s->step.carry->parameter[k];
+  N_VLinearSum(1, w->S[k], w->tau[k], w->slope, w->direction);
+  const int returned = p->parameters->reset(w->t, w->y, s->events->fired, w->direction,
+                                            w->tau[k], number, w->jump[k], p->user);
+  STEIF_CHECK(returned == 0, s->ctx, STEIF_CALLBACK,
+              "parameters.reset of problem '%s' returned %d at t = %.12g", p->name, returned,
+              w->t);
+  return STEIF_OK;
+}
+
+/* Is anything to be differentiated? Handlers tell when they are called. */
+static int restarts(steif_solver *s, sunrealtype t, bool *yes)
+{
+  stf_saltation *w = s->saltation;
+  w->asked = false, w->t = t;
+  const int code = reaction(s, t, s->events->after, w->r[0]);
+  *yes = !code && w->wish == STEIF_RESTART;
+  return code == STEIF_RETRY ? STEIF_OK : code; /* it fails: its own call will say so */
+}
+
+int stf_saltation_before(steif_solver *s, sunrealtype t)
+{
+  const steif_problem *p = s->problem;
+  stf_saltation *w = s->saltation;
+  const bool callback = p->parameters->reset && !s->options.reinitialise;
+  bool yes = true;
+  if (!callback && w->bytes)
+    STEIF_CHECK(p->save(w->bytes, p->user) == w->size, s->ctx, STEIF_CALLBACK,
+                "save of problem '%s' changed its length at t = %.12g", p->name, t);
+  if (!callback) STEIF_TRY(restarts(s, t, &yes));
+  if (!yes) return STEIF_OK;
+  STEIF_TRY(stf_saltation_times(s, t));
+  for (int k = 0; k < s->step.carry->count; k++)
+    STEIF_TRY(callback ? by_callback(s, k) : through(s, reaction, k, "handle_event"));
+  return STEIF_OK;
+}
+
+/* ---- behind it -------------------------------------------------------------------------------- */
+
+/* y' of all components of a DAE that starts from y. */
+static int consistent_slope(steif_solver *s, sunrealtype t, N_Vector y, N_Vector slope)
+{
+  const steif_point at = {.y = N_VGetArrayPointer(y), .t = t};
+  steif_start start = {0};
+  const int code = steif_consistent(s->ctx, s->problem, &at, NULL, &start);
+  if (!code)
+    memcpy(N_VGetArrayPointer(slope), start.yp, (size_t)s->problem->n * sizeof *start.yp);
+  steif_start_clear(&start);
+  return code;
+}
+
+/* f+ at the first time behind t. */
+static int slope_behind(steif_solver *s, sunrealtype t, N_Vector y, N_Vector known)
+{
+  stf_saltation *w = s->saltation;
+  stf_system *system = &s->step.system;
+  const sunrealtype behind = nextafter(t, INFINITY);
+  if (known) return stf_copy(&system->space, known, w->after), STEIF_OK;
+  if (system->form != STEIF_ODE) return consistent_slope(s, behind, y, w->after);
+  const int code = stf_system_rhs(system, behind, y, w->after);
+  return code > 0 ? steif_status(s->ctx) : code;
+}
+
+int stf_saltation_after(steif_solver *s, sunrealtype t)
+{
+  stf_saltation *w = s->saltation;
+  const stf_detector *d = s->events;
+  STEIF_TRY(slope_behind(s, t, d->after, d->settled ? d->slope : NULL));
+  for (int k = 0; k < s->step.carry->count; k++)
+    stf_axpy(&s->step.system.space, -w->tau[k], w->after, w->jump[k]);
+  w->pending = true;
+  return STEIF_OK;
+}
+
+void stf_saltation_renew(steif_solver *s)
+{
+  stf_saltation *w = s->saltation;
+  const stf_carry *T = s->step.carry;
+  if (!w->pending) return;
+  for (int k = 0; k < T->count; k++) stf_copy(&s->step.system.space, w->jump[k], T->S[k]);
+  w->pending = false;
+}
+
+/* ---- breaks ----------------------------------------------------------------------------------- */
+
+/* Its time, where it depends on p. */
+static int break_times(steif_solver *s, int i)
+{
+  const steif_parameters *q = s->problem->parameters;
+  const stf_carry *T = s->step.carry;
+  stf_saltation *w = s->saltation;
+  for (int k = 0; k < T->count; k++) {
+    w->tau[k] = 0;
+    const int returned =
+      q->break_slope ? q->break_slope(i, T->parameter[k], w->tau + k, s->problem->user) : 0;
+    STEIF_CHECK(returned == 0 && isfinite(w->tau[k]), s->ctx, STEIF_CALLBACK,
+                "parameters.break_slope of problem '%s' returned %d with %g for break %d",
+                s->problem->name, returned, w->tau[k], i + 1);
+  }
+  return STEIF_OK;
+}
+
+int stf_saltation_break(steif_solver *s, int i)
+{
+  stf_saltation *w = s->saltation;
+  const sunrealtype t = s->step.t;
+  STEIF_TRY(break_times(s, i));
+  STEIF_TRY(stf_saltation_look(s, t));
+  w->t = nextafter(t, INFINITY);
+  for (int k = 0; k < s->step.carry->count; k++)
+    if (s->options.reinitialise)
+      STEIF_TRY(through(s, projection, k, "options.reinitialise"));
+    else
+      N_VLinearSum(1, w->S[k], w->tau[k], w->slope, w->jump[k]);
+  w->known = false, w->pending = true;
+  return STEIF_OK;
+}
+
+int stf_saltation_broken(steif_solver *s)
+{
+  const stf_step *step = &s->step;
+  stf_saltation *w = s->saltation;
+  bool moves = false;
+  for (int k = 0; k < step->carry->count; k++) moves = moves || w->tau[k] != 0;
+  if (moves) STEIF_TRY(slope_behind(s, step->t, step->y, step->yp_known ? step->yp : NULL));
+  for (int k = 0; moves && k < step->carry->count; k++)
+    stf_axpy(&step->system.space, -w->tau[k], w->after, w->jump[k]);
+  stf_saltation_renew(s);
+  return STEIF_OK;
+}

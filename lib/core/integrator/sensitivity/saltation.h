@@ -1,0 +1,50 @@
+/* saltation.h: S through events and breaks: where they are, and how the jump of y hands derivatives on.
+ *
+ * An event lies at tau(p), g(tau, y-, p) = 0, behind it y+ = R(tau, y-, p). With f- and f+ the slopes of y on
+ * both sides,
+ *   tau_p = -(g_y S- + g_p) / (g_y f- + g_t),
+ *   S+ = R_y S- + R_p + (R_y f- + R_t - f+) tau_p,
+ * the first three terms of which are the derivative of R along (tau_p, S- + f- tau_p, e_p). f- is the slope
+ * of dense output, on which tau was located.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_SALTATION_H
+#define STF_SALTATION_H
+
+#include "integrator.h"
+#include "carry.h"
+#include <steif/sensitivity.h>
+
+typedef struct stf_saltation {
+  sunrealtype t;             /* of the event */
+  N_Vector y, slope;         /* y- and f- */
+  N_Vector after;            /* f+ */
+  N_Vector *S, *jump;        /* S- at the event, and S+ */
+  sunrealtype *tau, *other;  /* tau_p of each column; of another function */
+  N_Vector g[4], r[4];       /* values of g and of R, for differences */
+  N_Vector point, direction; /* where they are made; of the derivative */
+  bool known;                /* tau belongs to the event at t */
+  bool pending;              /* jump is S at the beginning of the next step */
+  int wish;                  /* what handle_event wants at other points */
+  bool asked;                /* it was */
+  void *bytes;               /* what begin resets, as it was before the event */
+  long size;
+} stf_saltation;
+
+/* event_times.c: y-, f- and S- at t in the last step; tau of the functions that fire at t too. */
+int stf_saltation_look(steif_solver *s, sunrealtype t);
+int stf_saltation_times(steif_solver *s, sunrealtype t);
+
+/* A line through the event: (t, y, p_k) + x (dt, dy, 1); k < 0: p stays. */
+typedef struct stf_line {
+  sunrealtype dt;
+  N_Vector dy;
+  int k;
+} stf_line;
+typedef int (*stf_quantity_at)(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out);
+/* out = the derivative along the line at the event, by central differences of two lengths. STEIF_RETRY: shorter
+ * ones do not agree, or there are no values; the sentence is the caller's. work: two more vectors. */
+int stf_along(steif_solver *s, stf_quantity_at what, const stf_line *line, N_Vector out,
+              N_Vector *work);
+
+#endif
