@@ -21,10 +21,15 @@
  * against rtol |S_ik| + atol_i / scale_k; a step passes when y and each column do.
  *
  * Served: collocation (gauss, radau, radau1a, lobatto3c, any number of stages), DIRK and BDF with dense, band
- * and sparse matrices, index 0 and 1. STEIF_UNSUPPORTED: other families and `auto`; Krylov
- * storage; index above 1; constraints, options.ewt; starts that had to
- * be repaired, or whose derivative does not fulfil algebraic equations (give parameters.start). Where dF/dy
- * or dF/dp are made by differences, S has their relative error too, about 1e-10: tolerances of one step near
+ * and sparse matrices, of the indices that these methods serve. STEIF_UNSUPPORTED: other families and `auto`; Krylov
+ * storage; constraints; options.ewt.
+ *
+ * Starts. dy0/dp is parameters.start, and has to fulfil the derivatives of the constraints: algebraic equations are
+ * checked, and hidden constraints of at most STEIF_DIAGNOSE_LARGEST unknowns, by differences of the consistent start
+ * next to it (STEIF_UNSUPPORTED with the equation or unknown that is off). Where the start was repaired S begins with such differences, to about 1e-9.
+ * Components of index 2 and 3 have S of the orders of their y.
+ *
+ * Differences. Where dF/dy or dF/dp are made by differences, S has their relative error too, about 1e-10: tolerances of one step near
  * that are not kept, and BDF at rtol below 1e-6 may then make far too many steps: give dFdp and jac.
  *
  * Events and breaks. At an event g(tau, y, p) = 0 with y+ = R(tau, y-, p) after it,

@@ -23,7 +23,7 @@ static sunrealtype largest(const steif_solver *s, const stf_line *line)
   return fmax(most, 1 / (typical > 0 ? typical : 1));
 }
 
-static int set(const steif_solver *s, int k, sunrealtype value)
+int stf_set_parameter(const steif_solver *s, int k, sunrealtype value)
 {
   const steif_parameters *q = s->problem->parameters;
   q->value[k] = value;
@@ -36,9 +36,9 @@ static int at(steif_solver *s, stf_quantity_at what, const stf_line *line, sunre
   const stf_saltation *w = s->saltation;
   const sunrealtype p = line->k < 0 ? 0 : s->problem->parameters->value[line->k];
   N_VLinearSum(1, w->y, x, line->dy, w->point);
-  int code = line->k < 0 ? 0 : set(s, line->k, p + x);
+  int code = line->k < 0 ? 0 : stf_set_parameter(s, line->k, p + x);
   if (!code) code = what(s, w->t + x * line->dt, w->point, out);
-  const int back = line->k < 0 ? 0 : set(s, line->k, p);
+  const int back = line->k < 0 ? 0 : stf_set_parameter(s, line->k, p);
   return code ? code : back;
 }
 

@@ -35,6 +35,11 @@ typedef struct stf_saltation {
 int stf_saltation_look(steif_solver *s, sunrealtype t);
 int stf_saltation_times(steif_solver *s, sunrealtype t);
 
+/* start_derivatives.c: T->S of a start that was repaired; or of one with hidden constraints, checked. */
+int stf_start_derivatives(steif_solver *s, stf_carry *T);
+/* value[k] = value, and what the problem keeps of it. */
+int stf_set_parameter(const steif_solver *s, int k, sunrealtype value);
+
 /* A line through the event: (t, y, p_k) + x (dt, dy, 1); k < 0: p stays. */
 typedef struct stf_line {
   sunrealtype dt;

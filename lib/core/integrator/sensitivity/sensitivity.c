@@ -22,8 +22,8 @@ static int check_problem(const steif_solver *s)
 {
   const steif_problem *p = s->problem;
   const steif_options *o = &s->options;
-  REFUSE(p->dae_index > 1,
-         "sensitivities of problem '%s' of index %d are not served: index 0 and 1", p->name,
+  REFUSE(p->dae_index > 3,
+         "sensitivities of problem '%s' of index %d are not served: index 0 to 3", p->name,
          p->dae_index);
   REFUSE(p->constraint,
          "sensitivities are not served beside the constraints of problem '%s', which "
@@ -32,11 +32,6 @@ static int check_problem(const steif_solver *s)
   REFUSE(o->ewt, "sensitivities need tolerances, not options.ewt");
   REFUSE(!s->step.system.space.serial, "sensitivities of problem '%s' need serial vectors",
          p->name);
-  REFUSE(
-    s->repair.report.moved > 0,
-    "the start of problem '%s' was repaired, and its derivative by parameters is not known: "
-    "give a consistent start",
-    p->name);
   return STEIF_OK;
 }
 
@@ -132,6 +127,7 @@ int stf_sensitivity_open(steif_solver *s)
                 "dy0/dp of parameter %d of problem '%s' is not finite", parameter[k] + 1,
                 s->problem->name);
   }
+  STEIF_TRY(stf_start_derivatives(s, T));
   STEIF_TRY(check_start(s, T));
   s->step.carry = T;
   return stf_saltation_open(s);

@@ -1,42 +1,40 @@
 /* pendulum3.c: the planar pendulum in Cartesian coordinates as an implicit DAE F(t, y, y') = 0.
  *
  *   x' = u - mu x,  y' = v - mu y,  u' = -lambda x,  v' = -lambda y - g,  and
- *   index=3    x^2 + y^2 = 1                       (mu = 0)
+ *   index=3    x^2 + y^2 = L^2                     (mu = 0)
  *   index=2    x u + y v = 0                       (mu = 0)
  *   index=1    u^2 + v^2 - lambda (x^2 + y^2) - g y = 0   (mu = 0)
  *   index=ggl  the first two together, index 2     (Gear, Gupta and Leimkuhler)
  *
- * All have the solution of phi'' = -g sin phi, x = sin phi, y = -cos phi.
+ * All have the solution of phi'' = -g/L sin phi, x = L sin phi, y = -L cos phi. Parameters L = 1, g = 9.81 and the
+ * start, phi0 = pi/2 - 0.6, that is 0.6 below the horizontal, with omega0 = 0.7.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
+#include <steif/parameters.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#define GRAVITY 9.81
-#define PHI0 (1.57079632679489661923 - 0.6) /* 0.6 below the horizontal */
-#define RATE0 0.7
-
-enum { X, Y, U, V, LAMBDA, MU };
+enum { X, Y, U, V, LAMBDA, MU, UNKNOWNS };
 enum { GGL = 4 };
+enum { LENGTH, GRAVITY, ANGLE, RATE, PARAMETERS };
 
 typedef struct model {
   int form; /* 1, 2, 3 or GGL */
+  sunrealtype p[PARAMETERS], start[UNKNOWNS], slope[UNKNOWNS];
+  steif_parameters parameters;
 } model;
 
-/* (x, y, u, v, lambda, mu) and slopes at PHI0, RATE0:
- * lambda = u^2 + v^2 - g y, lambda' = -3 g v. */
-static const sunrealtype start[] = {.8253356149096783,  -.56464247339503536, .39524973137652475,
-                                    .57773493043677481, 6.0291426640052969,  0};
-static const sunrealtype slope[] = {.39524973137652475, .57773493043677481,  -4.976066167974989,
-                                    -6.405689973744516, -17.002739002754283, 0};
+static const char *const parameter[] = {"L", "g", "phi0", "omega0"};
 static const int index3[] = {1, 1, 2, 2, 3}, index2[] = {1, 1, 1, 1, 2, 2};
 
 static int F(sunrealtype t, N_Vector yy, N_Vector yyp, N_Vector rr, void *user)
 {
-  const int form = ((const model *)user)->form;
+  const model *m = user;
+  const int form = m->form;
+  const sunrealtype g = m->p[GRAVITY], L = m->p[LENGTH];
   const sunrealtype *z = N_VGetArrayPointer(yy), *zp = N_VGetArrayPointer(yyp);
   const sunrealtype mu = form == GGL ? z[MU] : 0;
   const sunrealtype position = z[X] * z[X] + z[Y] * z[Y], radial = z[X] * z[U] + z[Y] * z[V];
@@ -45,11 +43,11 @@ static int F(sunrealtype t, N_Vector yy, N_Vector yyp, N_Vector rr, void *user)
   r[0] = zp[X] - z[U] + mu * z[X];
   r[1] = zp[Y] - z[V] + mu * z[Y];
   r[2] = zp[U] + z[LAMBDA] * z[X];
-  r[3] = zp[V] + z[LAMBDA] * z[Y] + GRAVITY;
+  r[3] = zp[V] + z[LAMBDA] * z[Y] + g;
   if (form == 1)
-    r[4] = z[U] * z[U] + z[V] * z[V] - z[LAMBDA] * position - GRAVITY * z[Y];
+    r[4] = z[U] * z[U] + z[V] * z[V] - z[LAMBDA] * position - g * z[Y];
   else
-    r[4] = form == 2 ? radial : position - 1;
+    r[4] = form == 2 ? radial : position - L * L;
   if (form == GGL) r[5] = radial;
   return 0;
 }
@@ -68,10 +66,10 @@ static void velocity_row(SUNMatrix J, int row, const sunrealtype *z)
   SM_ELEMENT_D(J, row, V) = z[Y];
 }
 
-static void acceleration_row(SUNMatrix J, int row, const sunrealtype *z)
+static void acceleration_row(SUNMatrix J, int row, const sunrealtype *z, sunrealtype g)
 {
   SM_ELEMENT_D(J, row, X) = -2 * z[LAMBDA] * z[X];
-  SM_ELEMENT_D(J, row, Y) = -2 * z[LAMBDA] * z[Y] - GRAVITY;
+  SM_ELEMENT_D(J, row, Y) = -2 * z[LAMBDA] * z[Y] - g;
   SM_ELEMENT_D(J, row, U) = 2 * z[U];
   SM_ELEMENT_D(J, row, V) = 2 * z[V];
   SM_ELEMENT_D(J, row, LAMBDA) = -(z[X] * z[X] + z[Y] * z[Y]);
@@ -91,23 +89,65 @@ static int idajac(sunrealtype t, sunrealtype c, N_Vector yy, N_Vector yyp, N_Vec
     SM_ELEMENT_D(J, i + U, LAMBDA) = z[i];
     if (form == GGL) SM_ELEMENT_D(J, i, MU) = z[i];
   }
-  if (form == 1) acceleration_row(J, 4, z);
+  if (form == 1) acceleration_row(J, 4, z, ((const model *)user)->p[GRAVITY]);
   if (form == 3 || form == GGL) position_row(J, 4, z);
   if (form == 2 || form == GGL) velocity_row(J, form == GGL ? 5 : 4, z);
+  return 0;
+}
+
+/* dF/dp of what F has of them: L^2 in the constraint, g. */
+static int by_parameter(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  const model *m = user;
+  sunrealtype *r = N_VGetArrayPointer(out);
+  (void)t, (void)yp;
+  N_VConst(0, out);
+  if (k == GRAVITY) r[3] = 1;
+  if (k == GRAVITY && m->form == 1) r[4] = -N_VGetArrayPointer(y)[Y];
+  if (k == LENGTH && (m->form == 3 || m->form == GGL)) r[4] = -2 * m->p[LENGTH];
+  return 0;
+}
+
+/* (x, y, u, v, lambda, mu) and slopes at phi, phi': lambda' = -3 g v/L^2. */
+static void at_angle(const sunrealtype *p, sunrealtype phi, sunrealtype rate, size_t n,
+                     sunrealtype *z, sunrealtype *zp)
+{
+  const sunrealtype g = p[GRAVITY], L = p[LENGTH];
+  const sunrealtype x = L * sin(phi), y = -L * cos(phi), lambda = rate * rate - g * y / (L * L);
+  const sunrealtype value[] = {x, y, -y * rate, x * rate, lambda, 0};
+  const sunrealtype change[] = {
+    value[U], value[V], -lambda * x, -lambda * y - g, -3 * g * value[V] / (L * L), 0};
+  memcpy(z, value, n * sizeof *z);
+  if (zp) memcpy(zp, change, n * sizeof *zp);
+}
+
+static int start_slope(int k, N_Vector S0, void *user)
+{
+  const model *m = user;
+  const sunrealtype g = m->p[GRAVITY], L = m->p[LENGTH], rate = m->p[RATE];
+  const sunrealtype s = sin(m->p[ANGLE]), c = cos(m->p[ANGLE]);
+  const sunrealtype by[PARAMETERS][UNKNOWNS] = {
+    {s, -c, rate * c, rate * s, -g * c / (L * L), 0},
+    {0, 0, 0, 0, c / L, 0},
+    {L * c, L * s, -L * rate * s, L * rate * c, -g * s / L, 0},
+    {0, 0, L * c, L * s, 2 * rate, 0}};
+  memcpy(N_VGetArrayPointer(S0), by[k], (size_t)N_VGetLength(S0) * sizeof **by);
+  return 0;
+}
+
+static int follow(void *user)
+{
+  model *m = user;
+  at_angle(m->p, m->p[ANGLE], m->p[RATE], UNKNOWNS, m->start, m->slope);
   return 0;
 }
 
 static void state(const model *m, sunrealtype t, sunrealtype *z, sunrealtype *zp)
 {
   sunrealtype phi, rate;
-  stf_collection_pendulum(GRAVITY, PHI0, RATE0, t, &phi, &rate);
-  const sunrealtype x = sin(phi), y = -cos(phi), lambda = rate * rate - GRAVITY * y;
-  const sunrealtype value[] = {x, y, -y * rate, x * rate, lambda, 0};
-  const sunrealtype change[] = {
-    value[U], value[V], -lambda * x, -lambda * y - GRAVITY, -3 * GRAVITY * value[V], 0};
-  const size_t n = m->form == GGL ? 6 : 5;
-  memcpy(z, value, n * sizeof *z);
-  if (zp) memcpy(zp, change, n * sizeof *zp);
+  const sunrealtype *p = m->p;
+  stf_collection_pendulum(p[GRAVITY] / p[LENGTH], p[ANGLE], p[RATE], t, &phi, &rate);
+  at_angle(p, phi, rate, m->form == GGL ? 6 : 5, z, zp);
 }
 
 static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
@@ -120,8 +160,8 @@ static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 static int conserved(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 {
   const sunrealtype *z = N_VGetArrayPointer(y);
-  (void)t, (void)user;
-  value[0] = 0.5 * (z[U] * z[U] + z[V] * z[V]) + GRAVITY * z[Y];
+  (void)t;
+  value[0] = 0.5 * (z[U] * z[U] + z[V] * z[V]) + ((const model *)user)->p[GRAVITY] * z[Y];
   value[1] = z[X] * z[X] + z[Y] * z[Y];
   value[2] = z[X] * z[U] + z[Y] * z[V];
   return 0;
@@ -139,6 +179,17 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   model *m = stf_collection_allocate(ctx, self, sizeof *m, 0);
   if (!m) return STEIF_NO_MEMORY;
   m->form = form;
+  m->p[LENGTH] = 1, m->p[GRAVITY] = 9.81, m->p[ANGLE] = 1.57079632679489661923 - 0.6,
+  m->p[RATE] = 0.7;
+  follow(m);
+  m->parameters = (steif_parameters){.count = PARAMETERS,
+                                     .value = m->p,
+                                     .name = parameter,
+                                     .dFdp = by_parameter,
+                                     .start = start_slope,
+                                     .moved = follow};
+  self->parameters = &m->parameters;
+  self->y0 = m->start, self->yp0 = m->slope;
   self->n = form == GGL ? 6 : 5;
   self->dae_index = form == GGL ? 2 : form;
   self->index = form == 3 ? index3 : form == 1 ? NULL : index2;
@@ -152,8 +203,6 @@ const steif_problem steif_problem_pendulum3 = {
   .about = "planar pendulum in Cartesian coordinates, index=3 (or 2, 1, ggl); C. W. Gear, B. "
            "Leimkuhler and G. K. Gupta, J. Comput. Appl. Math. 12 (1985) 77-90",
   .t1 = 2,
-  .y0 = start,
-  .yp0 = slope,
   .F = F,
   .idajac = idajac,
   .autonomous = 1,

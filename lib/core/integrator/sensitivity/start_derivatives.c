@@ -1,0 +1,96 @@
+/* start_derivatives.c: dy0/dp where the start has to fulfil equations: starts that were repaired, and hidden constraints.
+ *
+ * C(y0, p) is the consistent start nearest to y0. Along (S0, e_k) its derivative is S0 where S0 fulfils the
+ * constraints differentiated, hidden ones too, and else what the start of a run has: it is found by central differences
+ * of two lengths, extrapolated.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "saltation.h"
+#include <math.h>
+#include <string.h>
+
+static const sunrealtype exact = 1e-13; /* tolerance of C: what would move by less stays */
+
+/* out = C(y0 + x S0, p_k + x), S0 of the given start. */
+static int consistent(steif_solver *s, N_Vector S0, int k, sunrealtype x, sunrealtype *y0,
+                      N_Vector out)
+{
+  const steif_parameters *q = s->problem->parameters;
+  const sunrealtype *from = s->given->y0, *along = N_VGetArrayPointer(S0), p = q->value[k];
+  for (sunindextype i = 0; i < s->problem->n; i++) y0[i] = from[i] + x * along[i];
+  steif_problem here = *s->given;
+  here.y0 = y0;
+  stf_pool *pool = stf_pool_new(s->ctx);
+  if (!pool) return STEIF_NO_MEMORY;
+  stf_repair repair = {.ctx = s->ctx,
+                       .pool = pool,
+                       .given = &here,
+                       .attribute = s->options.attributes,
+                       .rtol = exact,
+                       .atol = exact * s->step.system.scale};
+  int code = stf_set_parameter(s, k, p + x);
+  if (!code) code = stf_repair_start(&repair);
+  if (!code) memcpy(N_VGetArrayPointer(out), repair.problem.y0, (size_t)here.n * sizeof *y0);
+  stf_pool_free(&pool);
+  const int back = stf_set_parameter(s, k, p);
+  return code ? code : back;
+}
+
+/* out = dC along (S0, e_k), work: two more vectors. */
+static int differences(steif_solver *s, N_Vector S0, int k, sunrealtype *y0, N_Vector out,
+                       N_Vector work)
+{
+  const steif_parameters *q = s->problem->parameters;
+  const sunrealtype typical = q->scale ? q->scale[k] : fabs(q->value[k]);
+  const sunrealtype d = (typical > 0 ? typical : 1) / 256;
+  static const sunrealtype by[] = {1, -1, 2, -2}, weight[] = {8, -8, -1, 1};
+  N_VConst(0, out);
+  for (int j = 0; j < 4; j++) {
+    STEIF_TRY(consistent(s, S0, k, by[j] * d / 2, y0, work));
+    N_VLinearSum(weight[j] / (6 * d), work, 1, out, out);
+  }
+  return STEIF_OK;
+}
+
+/* Components with a derivative are read by the first step. */
+static int compare(steif_solver *s, int k, N_Vector S0, N_Vector found)
+{
+  const steif_problem *p = s->problem;
+  const sunrealtype *a = N_VGetArrayPointer(S0), *b = N_VGetArrayPointer(found);
+  const sunrealtype size = fmax(N_VMaxNorm(S0), N_VMaxNorm(found));
+  char name[STEIF_SPEC_WORD];
+  for (sunindextype i = 0; i < p->n; i++)
+    STEIF_CHECK(
+      (p->index && p->index[i] >= p->dae_index) ||
+        fabs(a[i] - b[i]) <= 1e-5 * fabs(b[i]) + 1e-7 * size,
+      s->ctx, STEIF_UNSUPPORTED,
+      "dy0/dp of parameter %d of problem '%s' is off its hidden constraints: that of %s is "
+      "%.6g, and %.6g lies on them: give parameters.start",
+      k + 1, p->name, stf_unknown(p, i, name), a[i], b[i]);
+  return STEIF_OK;
+}
+
+int stf_start_derivatives(steif_solver *s, stf_carry *T)
+{
+  const steif_problem *p = s->problem;
+  const bool repaired = s->repair.report.moved > 0;
+  const bool hidden = p->dae_index > 1 && p->n <= STEIF_DIAGNOSE_LARGEST;
+  if (!s->given->y0 || s->given->start || s->step.system.linear || !(repaired || hidden))
+    return STEIF_OK;
+  sunrealtype *y0 = stf_pool_array(s->pool, (size_t)p->n, sizeof *y0);
+  if (!y0) return STEIF_NO_MEMORY;
+  for (int k = 0; k < T->count; k++) {
+    N_Vector S0 = T->S[k], found = T->next[k];
+    const int code = differences(s, S0, T->parameter[k], y0, found, T->work);
+    if (code == STEIF_RETRY && !repaired && p->parameters->start) continue;
+    STEIF_CHECK(
+      code != STEIF_RETRY, s->ctx, STEIF_UNSUPPORTED,
+      "the derivative of the start of problem '%s' by parameter %d was not found: starts "
+      "near it are not repaired; give a consistent start and parameters.start",
+      p->name, T->parameter[k] + 1);
+    STEIF_TRY(code);
+    if (!repaired) STEIF_TRY(compare(s, T->parameter[k], S0, found));
+    if (repaired) N_VScale(1, found, S0);
+  }
+  return STEIF_OK;
+}
