@@ -43,7 +43,7 @@ static void pendulums(const char *name, const char *method, sunrealtype rtol,
 /* Velocities and multipliers of index 3 have the orders s and s - 1. */
 static void pendulums_to_eight_digits(void)
 {
-  pendulums("pendulum3", "radau:s=3", 1e-10, 1e-8, 1e-7, 1e-5);
+  pendulums("pendulum3", "radau:s=3", 1e-10, 1e-8, 1e-7, 1e-4);
   pendulums("pendulum3", "radau:s=5", 1e-10, 1e-8, 1e-7, 1e-5);
   pendulums("pendulum3:index=2", "radau:s=3", 1e-10, 1e-8, 1e-8, 1e-6);
   pendulums("pendulum3:index=2", "radau:s=5", 1e-10, 1e-8, 1e-8, 1e-6);
@@ -52,7 +52,7 @@ static void pendulums_to_eight_digits(void)
   pendulums("pendulum3:index=1", "gauss:s=3", 1e-10, 1e-8, 1e-8, 1e-8);
   pendulums("pendulum3:index=1", "dirk:hw43", 1e-8, 1e-6, 1e-6, 1e-6);
   pendulums("pendulum3:index=2", "bdf", 1e-8, 1e-6, 1e-6, 1e-5);
-  pendulums("pendulum3", "bdf", 1e-8, 1e-5, 1e-5, 1e-4);
+  pendulums("pendulum3", "bdf", 1e-8, 1e-5, 1e-4, 1e-3);
 }
 
 /* At 1, columns L1, L2, m1, m2, g; Radau IIA in 113-bit arithmetic, index 1 and 3. */

@@ -137,13 +137,25 @@ int stf_slopes_at(stf_slopes *slopes, int k, sunrealtype t, N_Vector y, N_Vector
 
 /* matrices_at.c: E and A at several points, beside those of the pencil; a linear system has one pair. Needs
  * matrices. */
+typedef struct stf_nonzeros {
+  sunindextype *column, *row;
+  sunrealtype *value;
+  bool known;
+} stf_nonzeros;
 typedef struct stf_matrices_at {
   stf_system *system;
   int count;
-  SUNMatrix *E, *A; /* of each point; E NULL: identity */
+  SUNMatrix *E, *A;      /* of each point; E NULL: identity */
+  stf_nonzeros *entries; /* of dense ones: A and E of each point */
   long made;
 } stf_matrices_at;
 int stf_matrices_at_open(stf_pool *pool, stf_system *system, int count, stf_matrices_at *m);
+/* block += factor E or A of a point, by rows of the given width; of dense and sparse matrices. */
+void stf_matrices_at_add(const stf_matrices_at *m, int j, char which, sunrealtype factor,
+                         sunrealtype *block, size_t width);
+bool stf_matrices_at_adds(const stf_matrices_at *m);
+/* Points i and j change places. */
+void stf_matrices_at_exchange(stf_matrices_at *m, int i, int j);
 int stf_matrices_at_fill(stf_matrices_at *m, int point, sunrealtype t, N_Vector y, N_Vector yp);
 /* out = E x or A x at a point. */
 int stf_matrices_at_product(const stf_matrices_at *m, int point, char which, N_Vector x,

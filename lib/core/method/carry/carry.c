@@ -40,6 +40,7 @@ int stf_carry_open(stf_step *s, int count, const int *parameter, const sunrealty
   STEIF_TRY(claim_columns(s, T));
   for (int k = 0; T->carrier->commit && k < count; k++) T->kept[k][0] = T->S[k];
   STEIF_TRY(stf_matrices_at_open(s->pool, &s->system, T->size.points, &T->at));
+  STEIF_TRY(stf_carry_direct_open(T));
   return stf_slopes_open(s->pool, s->ctx, s->problem, s->system.form, s->y, &T->slopes);
 }
 
@@ -67,7 +68,7 @@ int stf_carry_residual(stf_carry *T, int point, int k, N_Vector S, N_Vector slop
   return STEIF_OK;
 }
 
-static int residuals(stf_carry *T, const stf_carry_stages *g, int k)
+int stf_carry_stage_residuals(stf_carry *T, const stf_carry_stages *g, int k)
 {
   const stf_space *space = &T->step->system.space;
   N_Vector *Z = T->trial[k] + g->to;
@@ -86,7 +87,7 @@ static int sweep(stf_carry *T, const stf_carry_stages *g, sunrealtype *norm)
 {
   stf_step *s = T->step;
   const stf_space *space = &s->system.space;
-  for (int k = 0; k < T->count; k++) STEIF_TRY(residuals(T, g, k));
+  for (int k = 0; k < T->count; k++) STEIF_TRY(stf_carry_stage_residuals(T, g, k));
   STEIF_TRY(T->carrier->apply(s, g->h, T->count, T->r, T->other));
   T->sweeps++;
   *norm = 0;
@@ -124,24 +125,34 @@ static bool at_rounding(const stf_carry *T, sunrealtype norm, sunrealtype first)
 int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
 {
   stf_step *s = T->step;
-  const sunrealtype tolerance = fmin(s->newton.tolerance, s->adaptive ? 1e-4 : 1e-3);
+  const sunrealtype loose = s->problem->dae_index > 1 ? 1e-4 : fmax(3e-3, s->newton.tolerance);
+  const sunrealtype tolerance = s->adaptive ? loose : fmin(s->newton.tolerance, 1e-3);
+  const sunrealtype known = T->eta > 0 && s->adaptive ? pow(fmax(T->eta, 1e-6), 0.8) : 1;
   sunrealtype norm, first = 0, last = 0, rate = 0;
   bool anew = s->system.linear;
-  for (int k = 0; k < T->count; k++)
+  if (T->K) {
+    const int code = stf_carry_direct(T, g);
+    if (code != STEIF_RETRY) return code; /* a singular matrix of stages: try M */
+    T->eta = 0;
+  }
+  for (int k = 0; k < T->count && !g->predicted; k++)
     for (int j = 0; j < g->m; j++) stf_zero(&s->system.space, T->trial[k][g->to + j]);
   for (int m = 1, all = 1;; m++, all++, last = norm) {
     STEIF_TRY(sweep(T, g, &norm));
     if (!(norm <= 1e300)) return refuse(T, g, norm, rate);
     if (s->system.linear || norm == 0) return STEIF_OK;
     first = fmax(first, norm);
+    if (m == 1 && !anew && known * norm <= tolerance) return STEIF_OK;
     if (m == 1) continue;
     rate = norm / last;
-    if (rate < 1 && rate / (1 - rate) * norm <= tolerance) return STEIF_OK;
+    if (rate < 1) T->eta = rate / (1 - rate);
+    if (rate < 1 && T->eta * norm <= tolerance) return STEIF_OK;
     if (rate >= 0.5 && (anew ? at_rounding(T, norm, first) : norm <= s->newton.rounding))
       return STEIF_OK;
     if (!anew && (rate > 0.5 || m >= SWEEPS)) {
       STEIF_TRY(T->carrier->renew(s, g->t, g->h, g->Y, g->Yp));
       anew = true, m = 0;
+      T->eta = 0;
       continue;
     }
     if (rate >= 1 || all >= MOST) return refuse(T, g, norm, rate);
@@ -198,6 +209,7 @@ static void exchange(N_Vector **a, N_Vector **b)
 
 void stf_carry_commit(stf_carry *T)
 {
+  T->history = true;
   if (T->carrier->commit) {
     T->carrier->commit(T);
     return;

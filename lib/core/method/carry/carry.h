@@ -6,7 +6,8 @@
  *   sum_m (B_jm/h E_j - delta_jm A_j) dZ_m = A_j dbase_j - E_j doffset_j - F_p,j.
  * It is solved by dZ <- dZ + M^{-1} (right side - left side), M what Newton's iteration has in factors: all
  * columns at once, until what is left is below Newton's tolerance for columns whose entries are weighted by
- * 1 / (rtol |S_ik| + atol_i / scale_k). Where that is slow, M is made anew at the last stage.
+ * 1 / (rtol |S_ik| + atol_i / scale_k). Where that is slow, M is made anew at the last stage. Systems of few
+ * unknowns are factored as they stand.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_CARRY_H
@@ -33,6 +34,10 @@ typedef struct stf_carry {
   stf_matrices_at at;
   stf_slopes *slopes;
   sunrealtype relative; /* the largest error of a column, in tolerances */
+  sunrealtype *K, *rhs; /* carry_direct.c; NULL: sweeps */
+  int *pivot;
+  sunrealtype eta; /* rate / (1 - rate) of the sweeps, when last seen; 0: not yet */
+  bool history;    /* a step has been committed */
   long sweeps;
 } stf_carry;
 
@@ -43,6 +48,7 @@ typedef struct stf_carry_stages {
   N_Vector Y, Yp;              /* ... at t with these */
   const sunrealtype *B_over_h; /* m x m */
   N_Vector *base, *offset;     /* of each column, for all stages; NULL: zero */
+  bool predicted;              /* dZ hold a start of the iteration, else 0 */
   int to;                      /* dZ are trial[k][to] .. trial[k][to + m - 1] */
 } stf_carry_stages;
 
@@ -53,6 +59,11 @@ int stf_carry_open(stf_step *s, int count, const int *parameter, const sunrealty
 int stf_carry_point(stf_carry *T, int point, sunrealtype t, N_Vector y, N_Vector yp);
 /* STEIF_RETRY where the sweeps do not converge. */
 int stf_carry_solve(stf_carry *T, const stf_carry_stages *g);
+/* T->r[k] = right side - left side, at the dZ of the column. */
+int stf_carry_stage_residuals(stf_carry *T, const stf_carry_stages *g, int k);
+/* carry_direct.c: the matrix of the stages itself, of few unknowns. STEIF_RETRY: it is singular. */
+int stf_carry_direct_open(stf_carry *T);
+int stf_carry_direct(stf_carry *T, const stf_carry_stages *g);
 /* out = A S - E S' - F_p of column k at a point; S' NULL: 0. */
 int stf_carry_residual(stf_carry *T, int point, int k, N_Vector S, N_Vector slope,
                        N_Vector out);
@@ -65,6 +76,7 @@ void stf_carry_commit(stf_carry *T);
 /* What collocation methods share (carry_collocation.c): a step as it has been solved. */
 typedef struct stf_collocation_stages {
   const stf_stage_polynomial *u;
+  stf_stage_polynomial *ahead; /* the same */
   const sunrealtype *B_over_h;
   const stf_estimate *estimate;
   bool oscillates;
@@ -75,10 +87,11 @@ typedef struct stf_collocation_stages {
 int stf_carry_collocation(stf_carry *T, sunrealtype h, const stf_collocation_stages *c);
 
 /* A step of BDF from t to y at t + h with coefficients alpha of past values y_n, y_{n-1}, ... of y, and of S in
- * T->kept; then T->next is the derivative. */
+ * T->kept; then T->next is the derivative. The sweeps begin at the sum of predict_j kept_j, j < count; NULL: at 0. */
 enum { STF_CARRY_PAST = 8 };
 int stf_carry_bdf(stf_carry *T, int point, sunrealtype t, sunrealtype h, int order,
-                  const sunrealtype *alpha, N_Vector *past, N_Vector y);
+                  const sunrealtype *alpha, N_Vector *past, N_Vector y, int count,
+                  const sunrealtype *predict);
 void stf_carry_bdf_commit(stf_carry *T);
 
 #endif

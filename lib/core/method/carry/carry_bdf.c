@@ -3,7 +3,8 @@
 #include "carry.h"
 
 int stf_carry_bdf(stf_carry *T, int point, sunrealtype t, sunrealtype h, int order,
-                  const sunrealtype *alpha, N_Vector *past, N_Vector y)
+                  const sunrealtype *alpha, N_Vector *past, N_Vector y, int count,
+                  const sunrealtype *predict)
 {
   stf_step *s = T->step;
   const stf_space *space = &s->system.space;
@@ -16,11 +17,13 @@ int stf_carry_bdf(stf_carry *T, int point, sunrealtype t, sunrealtype h, int ord
   for (int k = 0; k < T->count; k++) {
     stf_combine(space, order, a, T->kept[k], T->error[k]);
     T->trial[k][0] = T->next[k];
+    if (predict) stf_combine(space, count, predict, T->kept[k], T->next[k]);
   }
   const stf_carry_stages g = {.first = point,
                               .m = 1,
                               .t = t + h,
                               .h = h,
+                              .predicted = predict != NULL,
                               .Y = y,
                               .Yp = T->last_slope,
                               .B_over_h = &shift,

@@ -16,12 +16,13 @@ static int carry_halves(stf_carry *T, sunrealtype h)
   stf_step *s = T->step;
   state *e = s->state;
   const sunrealtype d = h / 2, c[] = {1, -2, 1};
-  STEIF_TRY(stf_carry_bdf(T, 0, s->t, d, 1, e->alpha, &s->y, e->other));
+  const sunrealtype same = 1;
+  STEIF_TRY(stf_carry_bdf(T, 0, s->t, d, 1, e->alpha, &s->y, e->other, 1, &same));
   for (int k = 0; k < T->count; k++) {
     stf_copy(&s->system.space, T->next[k], T->before[k]);
     T->kept[k][0] = T->before[k];
   }
-  const int code = stf_carry_bdf(T, 0, s->t + d, d, 1, e->alpha, &e->other, s->next);
+  const int code = stf_carry_bdf(T, 0, s->t + d, d, 1, e->alpha, &e->other, s->next, 1, &same);
   for (int k = 0; k < T->count; k++) {
     N_Vector v[] = {T->next[k], T->before[k], T->S[k]};
     T->kept[k][0] = T->S[k];
@@ -37,11 +38,12 @@ static int carry(stf_carry *T, sunrealtype h)
   const stf_space *space = &s->system.space;
   const bool halved = stf_bdf_halves(s);
   sunrealtype weight[STF_BDF_POINTS];
-  STEIF_TRY(halved ? carry_halves(T, h)
-                   : stf_carry_bdf(T, 0, s->t, h, e->k, e->alpha, e->y, s->next));
   const int count = e->points < e->k + 1 ? e->points : e->k + 1;
   const sunrealtype span = e->points > e->k ? s->t + h - e->t[e->k] : 2 * h;
   if (!halved) stf_bdf_extrapolate(e, count, s->t + h, weight);
+  STEIF_TRY(halved
+              ? carry_halves(T, h)
+              : stf_carry_bdf(T, 0, s->t, h, e->k, e->alpha, e->y, s->next, count, weight));
   for (int k = 0; k < T->count; k++) {
     T->tolerance[k] = s->control.tolerance;
     if (halved) continue;

@@ -63,6 +63,7 @@ static int carry(stf_carry *T, sunrealtype h)
   memcpy(e->aside, e->L->Z, bytes);
   const bool residuals = e->L->residuals;
   const stf_collocation_stages c = {.u = &e->u,
+                                    .ahead = &e->u,
                                     .B_over_h = B_over_h,
                                     .estimate = &e->higher_order,
                                     .Z = e->stage,

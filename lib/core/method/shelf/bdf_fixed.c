@@ -264,7 +264,8 @@ static int check_carry(const stf_step *s)
 static int carry(stf_carry *T, sunrealtype h)
 {
   state *e = T->step->state;
-  return stf_carry_bdf(T, 0, T->step->t, h, e->k, e->alpha, e->y, T->step->next);
+  const sunrealtype same = 1;
+  return stf_carry_bdf(T, 0, T->step->t, h, e->k, e->alpha, e->y, T->step->next, 1, &same);
 }
 
 static int carried_dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)

@@ -159,9 +159,10 @@ static int first_slope(stf_carry *T)
 {
   stf_step *s = T->step;
   const state *e = s->state;
-  if (!e->stepped) STEIF_TRY(stf_carry_point(T, 0, s->t, s->y, s->yp));
+  const bool start = !e->stepped || (s->restart && s->yp_known);
+  if (start) STEIF_TRY(stf_carry_point(T, 0, s->t, s->y, s->yp));
   for (int k = 0; k < T->count; k++)
-    if (e->stepped)
+    if (!start)
       stf_copy(&s->system.space, T->kept[k][e->s - 1], T->trial[k][0]);
     else
       STEIF_TRY(stf_carry_residual(T, 0, k, T->S[k], NULL, T->trial[k][0]));
@@ -175,15 +176,20 @@ static int carry_stage(stf_carry *T, sunrealtype h, int i)
   const stf_space *space = &s->system.space;
   const sunrealtype shift = 1 / (e->chain.gamma * h), t = s->t + e->table->c[i] * h;
   N_Vector Y = e->chain.X[i], Yp = e->chain.K[i];
+  const bool guess = !s->system.linear && (i > 0 || (T->history && !s->restart));
   STEIF_TRY(stf_carry_point(T, i, t, Y, Yp));
   for (int k = 0; k < T->count; k++) {
     stf_combine(space, i, e->table->A + i * e->s, T->trial[k], T->next[k]);
     stf_sum(space, 1, T->S[k], h, T->next[k], T->next[k]);
+    if (guess)
+      stf_scale(space, 1 / shift, i > 0 ? T->trial[k][i - 1] : T->kept[k][e->s - 1],
+                T->trial[k][i]);
   }
   const stf_carry_stages g = {.first = i,
                               .m = 1,
                               .t = t,
                               .h = h,
+                              .predicted = guess,
                               .Y = Y,
                               .Yp = Yp,
                               .B_over_h = &shift,

@@ -299,8 +299,9 @@ static stf_carrier_size sizes(const stf_step *s)
 
 static int carry(stf_carry *T, sunrealtype h)
 {
-  const state *e = T->step->state;
+  state *e = T->step->state;
   const stf_collocation_stages c = {.u = &e->u,
+                                    .ahead = &e->u,
                                     .B_over_h = T->step->newton.B_over_h,
                                     .estimate = &e->higher_order,
                                     .oscillates = e->omega * h > 1,

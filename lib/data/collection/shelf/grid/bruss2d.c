@@ -1,8 +1,8 @@
 /* bruss2d.c: the Brusselator with diffusion on a periodic square of N x N points.
  *
- *   u_t = 1 + u^2 v - 4.4 u + alpha (u_xx + u_yy) + f(x, y, t)
- *   v_t = 3.4 u - u^2 v + alpha (v_xx + v_yy),  alpha = 0.1,
- * f = 5 in the disc (x - 0.3)^2 + (y - 0.6)^2 <= 0.1^2 for t >= 1.1, else 0;
+ *   u_t = A + u^2 v - (B + 1) u + alpha (u_xx + u_yy) + f(x, y, t)
+ *   v_t = B u - u^2 v + alpha (v_xx + v_yy),
+ * with parameters A = 1, B = 3.4, alpha = 0.1; f = 5 in the disc (x - 0.3)^2 + (y - 0.6)^2 <= 0.1^2 for t >= 1.1, else 0;
  * u = 22 y (1-y)^{3/2}, v = 27 x (1-x)^{3/2} at t = 0; x = i/N, y = j/N, 0 <= i, j < N.
  * Unknowns: u of all points, x running first, then v.
  *
@@ -10,10 +10,10 @@
 #include "collection.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
+#include <steif/parameters.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-#define ALPHA 0.1
 #define IGNITION 1.1
 #define HEAT 5.0
 #define END 11.5
@@ -38,9 +38,13 @@ static const sunrealtype end64[] = {
   4.8806942844419,  4.8539042047388,  4.8820351268085,  4.8820533744339,
   4.5564494303554,  4.7280001076632,  4.858240941242,   4.822563755592};
 
+enum { FEED, DRAIN, ALPHA, PARAMETERS };
+static const char *const names[] = {"A", "B", "alpha"};
+
 typedef struct square {
   sunindextype N, cells; /* N^2 */
-  sunrealtype spread;    /* alpha N^2 */
+  sunrealtype p[PARAMETERS];
+  steif_parameters parameters;
   steif_pattern pattern; /* six rows a column */
   sunindextype *column, *row;
   sunrealtype *source; /* the disc: HEAT or 0, cells */
@@ -51,16 +55,19 @@ typedef struct square {
 
 static const sunrealtype breaks[] = {IGNITION};
 
-/* Five-point sums times spread of one row of cells w between the rows up and down. */
-static void diffuse(const square *s, const sunrealtype *w, const sunrealtype *up,
+/* Five-point sums times c of one row of cells w between the rows up and down. */
+static void diffuse(sunindextype N, sunrealtype c, const sunrealtype *w, const sunrealtype *up,
                     const sunrealtype *down, sunrealtype *out)
 {
-  const sunindextype N = s->N;
-  const sunrealtype c = s->spread;
   out[0] = c * (w[N - 1] + w[1] + up[0] + down[0] - 4 * w[0]);
   for (sunindextype i = 1; i < N - 1; i++)
     out[i] = c * (w[i - 1] + w[i + 1] + up[i] + down[i] - 4 * w[i]);
   out[N - 1] = c * (w[N - 2] + w[0] + up[N - 1] + down[N - 1] - 4 * w[N - 1]);
+}
+
+static sunrealtype spread_of(const square *s)
+{
+  return s->p[ALPHA] * (sunrealtype)s->N * (sunrealtype)s->N;
 }
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
@@ -68,17 +75,39 @@ static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
   const square *s = user;
   const sunindextype N = s->N;
   const sunrealtype *u = N_VGetArrayPointer(y), *v = u + s->cells;
-  const sunrealtype burning = t >= IGNITION;
+  const sunrealtype burning = t >= IGNITION, A = s->p[FEED], B = s->p[DRAIN],
+                    spread = spread_of(s);
   sunrealtype *du = N_VGetArrayPointer(ydot), *dv = du + s->cells;
   for (sunindextype j = 0; j < N; j++) {
     const sunindextype at = j * N, up = (j + 1) % N * N, down = (j + N - 1) % N * N;
-    diffuse(s, u + at, u + up, u + down, du + at);
-    diffuse(s, v + at, v + up, v + down, dv + at);
+    diffuse(N, spread, u + at, u + up, u + down, du + at);
+    diffuse(N, spread, v + at, v + up, v + down, dv + at);
     for (sunindextype i = at; i < at + N; i++) {
       const sunrealtype uuv = u[i] * u[i] * v[i];
-      du[i] += 1 + uuv - 4.4 * u[i] + burning * s->source[i];
-      dv[i] += 3.4 * u[i] - uuv;
+      du[i] += A + uuv - (B + 1) * u[i] + burning * s->source[i];
+      dv[i] += B * u[i] - uuv;
     }
+  }
+  return 0;
+}
+
+/* -df/dp. */
+static int slope(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  const square *s = user;
+  const sunindextype N = s->N;
+  const sunrealtype *u = N_VGetArrayPointer(y), *v = u + s->cells;
+  const sunrealtype c = -(sunrealtype)N * (sunrealtype)N;
+  sunrealtype *du = N_VGetArrayPointer(out), *dv = du + s->cells;
+  (void)t, (void)yp;
+  for (sunindextype j = 0; j < N && k == ALPHA; j++) {
+    const sunindextype at = j * N, up = (j + 1) % N * N, down = (j + N - 1) % N * N;
+    diffuse(N, c, u + at, u + up, u + down, du + at);
+    diffuse(N, c, v + at, v + up, v + down, dv + at);
+  }
+  for (sunindextype i = 0; i < s->cells && k != ALPHA; i++) {
+    du[i] = k == FEED ? -1 : u[i];
+    dv[i] = k == FEED ? 0 : -u[i];
   }
   return 0;
 }
@@ -94,15 +123,16 @@ static int fill(const square *s, N_Vector y, sunrealtype reaction, SUNMatrix J)
     return -1;
   memcpy(SM_INDEXPTRS_S(J), s->column, (size_t)(2 * M + 1) * sizeof *s->column);
   memcpy(SM_INDEXVALS_S(J), s->row, (size_t)(12 * M) * sizeof *s->row);
+  const sunrealtype spread = spread_of(s), B = s->p[DRAIN];
   sunrealtype *of_u = SM_DATA_S(J), *of_v = of_u + 6 * M;
   for (sunindextype i = 0; i < M; i++, of_u += 6, of_v += 6) {
     const sunrealtype uu = reaction * u[i] * u[i], uv2 = 2 * reaction * u[i] * v[i];
     const sunindextype *row = s->row + 6 * i;
     for (int k = 0; k < 5; k++) {
-      of_u[k] = s->spread * (row[k] == i ? -4 : 1) + (row[k] == i ? uv2 - 4.4 : 0);
-      of_v[k + 1] = s->spread * (row[k] == i ? -4 : 1) - (row[k] == i ? uu : 0);
+      of_u[k] = spread * (row[k] == i ? -4 : 1) + (row[k] == i ? uv2 - (B + 1) : 0);
+      of_v[k + 1] = spread * (row[k] == i ? -4 : 1) - (row[k] == i ? uu : 0);
     }
-    of_u[5] = 3.4 - uv2;
+    of_u[5] = B - uv2;
     of_v[0] = uu;
   }
   return 0;
@@ -192,7 +222,10 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   if (!s) return STEIF_NO_MEMORY;
   s->N = N;
   s->cells = (sunindextype)M;
-  s->spread = ALPHA * (sunrealtype)N * (sunrealtype)N;
+  s->p[FEED] = 1, s->p[DRAIN] = 3.4, s->p[ALPHA] = 0.1;
+  s->parameters =
+    (steif_parameters){.count = PARAMETERS, .value = s->p, .name = names, .dFdp = slope};
+  self->parameters = &s->parameters;
   s->source = s->start + 2 * M;
   s->column = (sunindextype *)(s->source + M);
   s->row = s->column + 2 * M + 1;

@@ -3,17 +3,24 @@
  *   scaled    y1' = y2, y2' = ((1 - y1^2) y2 - y1)/eps    vdpol, vdpol:eps=1e-3
  *   unscaled  q' = p,   p'  = mu (1 - q^2) p - q          vdpol:mu=10
  *
+ * with the parameter eps = 1e-6 or mu.
+ *
  * B. van der Pol, Phil. Mag. 2 (1926) 978-992. Time of the unscaled form is mu times that of
  * the scaled one with eps = 1/mu^2.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "published.h"
+#include <steif/parameters.h>
 
 /* y2' = damping (1 - y1^2) y2 - spring y1 */
 struct oscillator {
   sunrealtype damping, spring;
+  int unscaled;
+  sunrealtype p[1];
+  steif_parameters parameters;
 };
-static const struct oscillator stiff = {1 / 1e-6, 1 / 1e-6};
+static const struct oscillator stiff = {1 / 1e-6, 1 / 1e-6, 0, {1e-6}, {0}};
+static const char *const eps_name[] = {"eps"}, *const mu_name[] = {"mu"};
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 {
@@ -35,6 +42,25 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
   SM_ELEMENT_D(J, 1, 0) = -2 * o->damping * u[0] * u[1] - o->spring;
   SM_ELEMENT_D(J, 0, 1) = 1;
   SM_ELEMENT_D(J, 1, 1) = o->damping * (1 - u[0] * u[0]);
+  return 0;
+}
+
+/* -df/dp. */
+static int slope(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  const struct oscillator *o = user;
+  const sunrealtype *u = NV_DATA_S(y), damped = (1 - u[0] * u[0]) * u[1];
+  (void)t, (void)yp, (void)k;
+  NV_Ith_S(out, 0) = 0;
+  NV_Ith_S(out, 1) = o->unscaled ? -damped : (damped - u[0]) / (o->p[0] * o->p[0]);
+  return 0;
+}
+
+static int follow(void *user)
+{
+  struct oscillator *o = user;
+  o->damping = o->unscaled ? o->p[0] : 1 / o->p[0];
+  o->spring = o->unscaled ? 1 : 1 / o->p[0];
   return 0;
 }
 
@@ -62,12 +88,17 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
               "vdpol takes eps (scaled form) or mu (unscaled form), not both");
   STEIF_TRY(stf_spec_real(ctx, spec, "eps", 1e-12, 1e12, 1e-6, &eps));
   STEIF_TRY(stf_spec_real(ctx, spec, "mu", 0, 1e6, 1, &mu));
-  if (!unscaled && eps == 1e-6) return STEIF_OK;
-
   struct oscillator *o = stf_collection_allocate(ctx, self, sizeof *o, 0);
   if (!o) return STEIF_NO_MEMORY;
-  o->damping = unscaled ? mu : 1 / eps;
-  o->spring = unscaled ? 1 : 1 / eps;
+  o->unscaled = unscaled, o->p[0] = unscaled ? mu : eps;
+  follow(o);
+  o->parameters = (steif_parameters){.count = 1,
+                                     .value = o->p,
+                                     .name = unscaled ? mu_name : eps_name,
+                                     .dFdp = slope,
+                                     .moved = follow};
+  self->parameters = &o->parameters;
+  if (!unscaled && eps == 1e-6) return STEIF_OK;
   self->t1 = unscaled ? 50 : 2;
   self->reference = !unscaled ? NULL : mu == 10 ? &reference10 : mu == 30 ? &reference30 : NULL;
   return STEIF_OK;
