@@ -148,7 +148,7 @@ static void members_bring_problems(void)
   CHECK(c.rows == 20);
   for (int i = 0; i < 20; i++) {
     CHECK(c.of[i].code == (i % 3 ? STEIF_OK : STEIF_UNKNOWN_NAME));
-    CHECK(i % 3 || strstr(c.of[i].sentence, "nearest is 'rober'"));
+    CHECK(i % 3 || strstr(c.of[i].sentence, "did you mean 'rober'"));
   }
 }
 
@@ -202,7 +202,7 @@ static void bad_input(void)
   CHECK(steif_ensemble(ctx, 1, set_rates, keep, &e) == STEIF_BAD_INPUT);
   e = (steif_ensemble_options){.problem = "robber"};
   CHECK(steif_ensemble(ctx, 1, set_rates, keep, &e) == STEIF_UNKNOWN_NAME);
-  CHECK(strstr(steif_message(ctx), "nearest is 'rober'"));
+  CHECK(strstr(steif_message(ctx), "did you mean 'rober'"));
   steif_context_free(&ctx);
 }
 

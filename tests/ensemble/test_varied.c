@@ -35,7 +35,7 @@ static void models(void)
   steif_problem_clear(ctx, &q);
   CHECK(steif_problem_vary(ctx, &p, 1, (const char *const[]){"kk"}, value, &q) ==
         STEIF_UNKNOWN_NAME);
-  CHECK(strstr(steif_message(ctx), "nearest is 'k'") && !q.name && !q.user);
+  CHECK(strstr(steif_message(ctx), "the nearest is 'k'") && !q.name && !q.user);
   steif_problem_clear(ctx, &p);
   steif_context_free(&ctx);
 }

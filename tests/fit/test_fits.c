@@ -105,7 +105,7 @@ static void robertson(void)
   CHECK(steif_problem_find(ctx, "rober", &rober) == STEIF_OK);
   made_data_open(ctx, &rober, 17, t, sd, &made);
   steif_options run = steif_defaults();
-  run.rtol = 1e-10, run.atol = 1e-16;
+  run.rtol = 1e-12, run.atol = 1e-18;
   const steif_fit_options o = {.run = &run, .start = start};
   CHECK(steif_fit_find(ctx, &rober, "radau:s=3", &made.data, &o, &fit) == STEIF_OK);
   if (fit.p) {

@@ -139,7 +139,6 @@ int stf_sensitivity_open(steif_solver *s)
 static int column(const steif_solver *s, int k, int *i)
 {
   if (!s) return STEIF_BAD_INPUT;
-  if (s->run.columns.count) return stf_engine_carried(s, t, k, dy);
   const stf_carry *T = s->step.carry;
   STEIF_CHECK(T, s->ctx, STEIF_BAD_INPUT,
               "this run carries no sensitivities: set options.sensitivities");
@@ -152,6 +151,7 @@ static int column(const steif_solver *s, int k, int *i)
 int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy)
 {
   int i = 0;
+  if (s && s->run.columns.count) return stf_engine_carried(s, t, k, dy);
   STEIF_TRY(column(s, k, &i));
   const stf_carry *T = s->step.carry;
   STEIF_CHECK(dy && N_VGetLength(dy) == s->problem->n, s->ctx, STEIF_BAD_INPUT,
