@@ -58,8 +58,9 @@ STEIF_EXPORT int steif_model_taylor(steif_context *ctx, const steif_problem *pro
 
 /* The model with its present parameters in C: a `const steif_problem model` with f, sparse or dense
  * Jacobians, loops as loops, names and parameters. It computes the same numbers bit for bit where the
- * compiler does not contract a*b + c (-std=c11 or -ffp-contract=off). The text lives as long as the problem;
- * NULL with the message: STEIF_UNSUPPORTED for a model with events. */
+ * compiler does not contract a*b + c (-std=c11 or -ffp-contract=off). What events change is kept in
+ * static variables of the text: one run of it at a time. The text lives as long as the problem; NULL with the
+ * message. */
 STEIF_EXPORT const char *steif_model_c(steif_context *ctx, const steif_problem *problem);
 
 /* f and the Jacobians of a model by compiled code from now on, loops at the speed of C by hand, the same

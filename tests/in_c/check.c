@@ -80,6 +80,7 @@ static void values_agree(void)
              b = N_VClone(y);
     SUNMatrix M[4] = {matrix_of(c, c->nnz, ctx), matrix_of(c, c->nnz, ctx),
                       matrix_of(c, c->nnz_E + 1, ctx), matrix_of(c, c->nnz_E + 1, ctx)};
+    if (c->begin) CHECK(!c->begin(c->t0, c->user));
     srand(11);
     for (int turn = 0; turn < 5; turn++) {
       for (int k = 0; k < c->n; k++) {

@@ -1,6 +1,7 @@
 /* c_problem.c: a model as a steif_problem in C.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "native.h"
+#include "reactions.h"
 #include <stdio.h>
 
 /* ---- data ------------------------------------------------------------------------------------- */
@@ -63,12 +64,26 @@ static void data(stf_writer *w, const stf_model *m, const steif_problem *p)
 
 /* ---- callbacks -------------------------------------------------------------------------------- */
 
+static bool has_events(const stf_model *m) { return m->switches || m->timers || m->discretes; }
+
 static void calls(stf_writer *w, const char *name, const stf_quantity *q, const char *y,
-                  const char *yp, const char *to, long long size)
+                  const char *yp, const char *memory, const char *to, long long size)
 {
   if (!q->assigns) stf_write(w, "  for (long i = 0; i < %lld; i++) %s[i] = 0;\n", size, to);
   for (size_t i = 0; i < q->tapes.count; i++)
-    stf_write(w, "  %s_%zu(t, %s, %s, parameter, 0, %s);\n", name, i, y, yp, to);
+    stf_write(w, "  %s_%zu(t, %s, %s, parameter, %s, %s);\n", name, i, y, yp, memory, to);
+}
+
+/* A frozen branch that has no value is taken by its relation at this point. */
+static void calls_again(stf_writer *w, const stf_model *m, const char *name,
+                        const stf_quantity *q, const char *y, const char *yp, const char *to,
+                        long long size)
+{
+  calls(w, name, q, y, yp, has_events(m) ? "run.memory" : "0", to, size);
+  if (!m->switches || *y == '0') return;
+  stf_write(w, "  if (!finite(%s, %lld)) {\n  take_literally(t, %s);\n", to, size, y);
+  calls(w, name, q, y, yp, "literal", to, size);
+  stf_write(w, "  }\n");
 }
 
 static const char head_of_values[] = "  (void)user;\n  double *out = N_VGetArrayPointer(to);\n";
@@ -86,8 +101,8 @@ static void values(stf_writer *w, const stf_model *m)
   else
     stf_write(w, "static int f(sunrealtype t, N_Vector y, N_Vector to, void *user)\n{\n");
   stf_write_text(w, head_of_values);
-  calls(w, "f", &m->f, m->form == STEIF_DESCRIPTOR ? "0" : y,
-        m->form == STEIF_IMPLICIT ? yp : "0", "out", n);
+  calls_again(w, m, "f", &m->f, m->form == STEIF_DESCRIPTOR ? "0" : y,
+              m->form == STEIF_IMPLICIT ? yp : "0", "out", n);
   stf_write(w,
             "  for (long i = 0; i < %lld; i++)\n    if (!isfinite(out[i])) return 1;\n  return "
             "0;\n}\n\n",
@@ -101,7 +116,7 @@ static void entries(stf_writer *w, const stf_model *m, const stf_matrix *M, cons
   const long long count = M->entries > 0 ? (long long)M->entries : 1;
   stf_write(w, sparse ? "  double *a = SUNSparseMatrix_Data(M);\n" : "  double a[%lld];\n",
             count);
-  calls(w, name, &M->quantity, y, yp, "a", M->entries);
+  calls_again(w, m, name, &M->quantity, y, yp, "a", M->entries);
   if (sparse)
     stf_write(w,
               "  memcpy(SUNSparseMatrix_IndexPointers(M), %s_column, sizeof %s_column);\n"
@@ -147,8 +162,8 @@ static void invariants(stf_writer *w, const stf_model *m)
   stf_write(
     w, "static int invariant(sunrealtype t, N_Vector y, sunrealtype *value, void *user)\n{\n"
        "  (void)user;\n");
-  calls(w, "invariant", &m->invariants, "N_VGetArrayPointer(y)", "0", "value",
-        m->invariant_count);
+  calls(w, "invariant", &m->invariants, "N_VGetArrayPointer(y)", "0",
+        has_events(m) ? "run.memory" : "0", "value", m->invariant_count);
   stf_write(w, "  return 0;\n}\n\n");
 }
 
@@ -181,6 +196,12 @@ static void members(stf_writer *w, const stf_model *m, const steif_problem *p)
     stf_write(w, "  .breaks = breaks,\n  .break_count = %d,\n", p->break_count);
   if (m->invariant_count)
     stf_write(w, "  .invariants = %d,\n  .invariant = invariant,\n", (int)m->invariant_count);
+  if (has_events(m))
+    stf_write(
+      w,
+      "  .events = %d,\n  .event = event,\n  .event_list = event_list,\n  .handle_event = "
+      "handle,\n  .begin = begin,\n  .save = save,\n  .restore = restore,\n",
+      p->events);
   stf_write(w, "  .rtol_scale = ");
   stf_write_number(w, p->rtol_scale);
   stf_write(w, ",\n%s};\n\n", m->given.count ? "  .parameters = &parameters,\n" : "");
@@ -205,17 +226,49 @@ static void head(stf_writer *w, const stf_model *m, const steif_problem *p)
             "#include <sunmatrix/sunmatrix_sparse.h>\n#include <steif/steif.h>\n\n");
 }
 
+/* Every tape that is written, for the functions that they need; the list is the caller's to release. */
+static int needed(stf_writer *w, const stf_model *m, stf_vector *copies, stf_vector *list)
+{
+  const stf_quantity *const own[] = {&m->f,          &m->A.quantity, &m->E.quantity,
+                                     &m->invariants, &m->events,     &m->reactions->conditions};
+  const size_t actions = m->reactions->list.count;
+  STEIF_TRY(stf_vector_resize(w->ctx, copies, actions + 1, sizeof(stf_quantity)));
+  STEIF_TRY(stf_vector_resize(w->ctx, list, actions + 6, sizeof(const stf_quantity *)));
+  for (size_t i = 0; i < 6; i++) *STF_AT(*list, const stf_quantity *, i) = own[i];
+  for (size_t i = 0; i < actions; i++) {
+    stf_reaction *r = STF_AT(m->reactions->list, stf_reaction, i);
+    stf_quantity *q = STF_AT(*copies, stf_quantity, i);
+    *q = (stf_quantity){.tapes = {.data = &r->tape, .count = r->count > 0}};
+    *STF_AT(*list, const stf_quantity *, i + 6) = q;
+  }
+  return STEIF_OK;
+}
+
+static void functions(stf_writer *w, const stf_model *m)
+{
+  stf_vector copies = {0}, list = {0};
+  const int code = needed(w, m, &copies, &list);
+  if (code)
+    w->code = code;
+  else
+    stf_write_functions(w, m, list.count, list.data);
+  stf_vector_free(w->ctx, &copies);
+  stf_vector_free(w->ctx, &list);
+}
+
 void stf_write_problem(stf_writer *w, const stf_model *m, const steif_problem *p)
 {
   const stf_quantity *all[] = {&m->f, &m->A.quantity, &m->E.quantity, &m->invariants};
   static const char *const name[] = {"f", "A", "E", "invariant"};
   head(w, m, p);
   data(w, m, p);
-  stf_write_functions(w, m, 4, all);
+  functions(w, m);
+  if (has_events(m)) stf_write_event_values(w, m);
   for (int i = 0; i < 4; i++)
     stf_write_quantity(
       w, &(stf_dialect){.name = name[i], .standalone = true, .store = "static "}, all[i]);
   values(w, m);
+  if (has_events(m)) stf_write_events(w, m);
   matrix(w, m, p, &m->A, "A");
   if (m->form != STEIF_ODE) matrix(w, m, p, &m->E, "E");
   invariants(w, m);

@@ -12,14 +12,6 @@ const char *steif_model_c(steif_context *ctx, const steif_problem *p)
     STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a problem made from a text is needed");
     return NULL;
   }
-  if (m->switches || m->timers || m->discretes) {
-    STEIF_FAIL(
-      ctx, STEIF_UNSUPPORTED,
-      "'%s' has events, and a C program has none of their reactions: write them by hand "
-      "(problem.handle_event), or take noevent(...) and leave 'when' out",
-      p->name);
-    return NULL;
-  }
   stf_writer w = {.ctx = ctx};
   stf_write_problem(&w, m, p);
   const char *text = stf_written(&w);

@@ -42,6 +42,9 @@ void stf_write_functions(stf_writer *w, const stf_model *m, size_t count,
                          const stf_quantity *const *quantities);
 /* Returns how many functions. */
 size_t stf_write_quantity(stf_writer *w, const stf_dialect *d, const stf_quantity *q);
+/* c_events.c: g, conditions and assignments, before f; what is done at events, after it. */
+void stf_write_event_values(stf_writer *w, const stf_model *m);
+void stf_write_events(stf_writer *w, const stf_model *m);
 /* c_problem.c: the model as a program. */
 void stf_write_problem(stf_writer *w, const stf_model *m, const steif_problem *p);
 
