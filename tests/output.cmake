@@ -73,7 +73,7 @@ set(ENV{CC} /no/compiler)
 expect(0 solve decay.steif:k=2 radau:s=3 --rtol 1e-9 --set α=3 --compile ERR "no C compiler '/no/compiler'.*runs without")
 expect(0 solve rober auto --compile ERR "nothing to compile")
 expect(2 solve decay.steif auto --set k=nan)
-# A model in C; one with events is not written.
+# A model in C, also one with events.
 expect(0 model decay.steif --c OUT "const steif_problem model = .*int main")
 file(WRITE ${FOLDER}/ball.steif "state h = 1, v = 0\nh' = v\nv' = -1\nwhen h < 0: v = -v\ntime 0 to 1\n")
 expect(0 model ball.steif --c OUT "handle_event = handle")

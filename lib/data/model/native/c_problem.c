@@ -196,7 +196,7 @@ static void members(stf_writer *w, const stf_model *m, const steif_problem *p)
     stf_write(w, "  .breaks = breaks,\n  .break_count = %d,\n", p->break_count);
   if (m->invariant_count)
     stf_write(w, "  .invariants = %d,\n  .invariant = invariant,\n", (int)m->invariant_count);
-  if (has_events(m))
+  if (p->events)
     stf_write(
       w,
       "  .events = %d,\n  .event = event,\n  .event_list = event_list,\n  .handle_event = "
@@ -256,6 +256,17 @@ static void functions(stf_writer *w, const stf_model *m)
   stf_vector_free(w->ctx, &list);
 }
 
+/* Discrete values that nothing changes, under the name that those of events have. */
+static void constants(stf_writer *w, const stf_model *m)
+{
+  stf_write(w, "static const struct { double memory[%d]; } run = {{", (int)m->memories);
+  for (int32_t i = 0; i < m->memories; i++) {
+    stf_write_number(w, m->memory_start[i]);
+    stf_write_text(w, ", ");
+  }
+  stf_write_text(w, "}};\n");
+}
+
 void stf_write_problem(stf_writer *w, const stf_model *m, const steif_problem *p)
 {
   const stf_quantity *all[] = {&m->f, &m->A.quantity, &m->E.quantity, &m->invariants};
@@ -263,12 +274,15 @@ void stf_write_problem(stf_writer *w, const stf_model *m, const steif_problem *p
   head(w, m, p);
   data(w, m, p);
   functions(w, m);
-  if (has_events(m)) stf_write_event_values(w, m);
+  if (p->events)
+    stf_write_event_values(w, m);
+  else if (has_events(m))
+    constants(w, m);
   for (int i = 0; i < 4; i++)
     stf_write_quantity(
       w, &(stf_dialect){.name = name[i], .standalone = true, .store = "static "}, all[i]);
   values(w, m);
-  if (has_events(m)) stf_write_events(w, m);
+  if (p->events) stf_write_events(w, m);
   matrix(w, m, p, &m->A, "A");
   if (m->form != STEIF_ODE) matrix(w, m, p, &m->E, "E");
   invariants(w, m);
