@@ -32,6 +32,7 @@ const struct verb verb_sensitivity = {
   .usage = "PROBLEM METHOD [--parameters k1,k2 --t1 T --points N --rtol R --check]",
   .least = 2,
   .most = 2,
+  .matrices = true,
   .option = options,
   .run = run,
 };

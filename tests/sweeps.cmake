@@ -82,3 +82,11 @@ expect(2 sweep rober auto --p k1=1:2:1000000 --p k2=1:2:1000000 ERR "13743895347
 expect(2 sweep rober auto --p k1=1:2:3 --random 5 ERR "must be NAME=FROM:TO")
 expect(2 sweep rober auto --p k1=1,2 --seed 5 ERR "--seed needs --random")
 expect(2 sweep rober auto --p k1=1,2 --threads 65 ERR "at most 64")
+
+# A path is a file whatever its ending: a model, or a matrix that begins as one.
+file(READ ${MODELS}/rober.steif text)
+file(WRITE ${FOLDER}/rober "${text}")
+foreach(verb "solve;./rober;radau:s=3" "diagnose;./rober:k1=0.05" "model;./rober" "sweep;./rober;auto;--p;k1=1,2")
+  expect(0 ${verb})
+endforeach()
+expect(3 solve ./none auto ERR "cannot read.*./none")

@@ -105,7 +105,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
   steif_report_list(r, "p", (size_t)a->count, p);
-  if (call->json && a->shown) matrix(r, a);
+  if ((call->json || call->npz || call->mtx) && a->shown) matrix(r, a);
   rows(r, a);
   steif_report_truth(r, "tested", a->cost.tested);
   report_status(r, "", &a->outcome);

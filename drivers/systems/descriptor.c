@@ -12,11 +12,25 @@ bool ends_in(const char *word, const char *ending)
   return length > tail && !strcmp(word + length - tail, ending);
 }
 
+/* Of a path without an ending: does it begin as a matrix does? Else it is a model. */
+static bool begins_as_matrix(const char *path)
+{
+  static const char market[] = "%%MatrixMarket", matlab[] = "MATLAB ";
+  char head[sizeof market] = "";
+  FILE *file = fopen(path, "rb");
+  if (!file) return false;
+  const size_t length = fread(head, 1, sizeof head - 1, file);
+  fclose(file);
+  return length == 0 || !strncmp(head, market, sizeof market - 1) ||
+         !strncmp(head, matlab, sizeof matlab - 1);
+}
+
 bool descriptor_is_file(const char *word)
 {
   const char *model = strstr(word, ".steif"); /* a problem, whatever its folder */
   if (model && (!model[6] || model[6] == ':')) return false;
-  return ends_in(word, ".mtx") || ends_in(word, ".mat") || strchr(word, '/');
+  return ends_in(word, ".mtx") || ends_in(word, ".mat") ||
+         (strchr(word, '/') && !strchr(word, ':') && begins_as_matrix(word));
 }
 
 int descriptor_fail(const struct call *call)

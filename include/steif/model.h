@@ -8,9 +8,8 @@
  *     y3' =  k2*y2^2
  *     time 0 to 1e11 {s}
  *
- * steif_problem_find opens a file by its name, "rober.steif" or "rober.steif:k1=0.05", and "-" is
- * standard input; a model is a
- * steif_problem from then on, with exact Jacobian and pattern, names, events and consistent start values.
+ * steif_problem_find opens a file by its name, "rober.steif" or "rober.steif:k1=0.05", or by a path, "./rober";
+ * "-" is standard input; a model is a steif_problem from then on, with exact Jacobian and pattern, names, events and consistent start values.
  * The order of lines is free. Equations may be implicit; the simplest form that all of them fit is deduced:
  * ode, descriptor (linear with constant coefficients), mass or implicit. Equations in `for` loops are
  * kept as loops. A model is data: nothing in it is executed but arithmetic.

@@ -31,7 +31,7 @@ static int build(steif_context *ctx, const char *text, const steif_spec *spec, s
   return code;
 }
 
-/* "ball.steif", "ball.steif:e=0.9,g=1.6", or "-" for standard input: where the name of the file ends; NULL:
+/* "ball.steif", "ball.steif:e=0.9,g=1.6", a path such as "./ball", or "-" for standard input: where the name of the file ends; NULL:
  * this is no file. */
 static const char *end_of_file_name(const char *text)
 {
@@ -41,7 +41,9 @@ static const char *end_of_file_name(const char *text)
     const char *end = at + sizeof ending - 1;
     if (!*end || *end == ':') return end;
   }
-  return NULL;
+  const char *slash = strchr(text, '/'), *mark = strchr(text, ':');
+  if (!slash || (mark && mark < slash)) return NULL;
+  return mark ? mark : text + strlen(text);
 }
 
 static int build_file(steif_context *ctx, const steif_spec *spec, steif_problem *self)
