@@ -19,6 +19,8 @@ static const struct option options[] = {
   {"--parameters", WORD, "P,...", "names of the parameters, or all", "all"},
   {"--points", COUNT, "N", "times shown, at equal distances to the end", "1"},
   {"--check", FLAG, NULL, "compare with differences of runs on the same mesh", NULL},
+  {"--functional", WORD, "int G", "integral of an expression in t, unknowns and parameters",
+   NULL},
   {"--rtol", POSITIVE, "R", "relative tolerance of y and of its derivatives", "1e-6"},
   {"--atol", POSITIVE, "A", "absolute tolerance (default: R times the problem's scale)", NULL},
   {"--h", POSITIVE, "H", "constant step size instead", NULL},

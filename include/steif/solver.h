@@ -103,8 +103,8 @@ typedef struct steif_options {
   int active_count;
   const int *active;          /* numbers from 0; NULL: all */
   int untested_sensitivities; /* 1: their errors do not decide on steps */
-  int reserved_int;
-  void *reserved[13]; /* 0, as in steif_problem */
+  int test_quadratures;       /* 1: the errors of problem.quadrature do (quadrature.h) */
+  void *reserved[13];         /* 0, as in steif_problem */
 } steif_options;
 
 /* What a run has cost. nli: iterations of GMRES, and then nlu is how often a preconditioner was made.

@@ -15,6 +15,7 @@
 #include <steif/pencil.h>
 #include <steif/phi.h>
 #include <steif/record.h>
+#include <steif/quadrature.h>
 #include <steif/sensitivity.h>
 #include <steif/solver.h>
 #include <steif/checkpoint.h>

@@ -2,10 +2,13 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_events[], tests_of_higher_index[], tests_of_forward[],
-  tests_of_same_mesh[], tests_of_sensitivity_input[];
+extern CU_TestInfo tests_of_figures[], tests_of_quadrature[], tests_of_events[],
+  tests_of_higher_index[], tests_of_forward[], tests_of_same_mesh[],
+  tests_of_sensitivity_input[];
 
-SUITE_MAIN({.pName = "higher index", .pTests = tests_of_higher_index},
+SUITE_MAIN({.pName = "figures", .pTests = tests_of_figures},
+           {.pName = "quadrature", .pTests = tests_of_quadrature},
+           {.pName = "higher index", .pTests = tests_of_higher_index},
            {.pName = "events", .pTests = tests_of_events},
            {.pName = "forward", .pTests = tests_of_forward},
            {.pName = "same mesh", .pTests = tests_of_same_mesh},

@@ -55,8 +55,10 @@ static int check_savable(steif_solver *s)
     "callbacks of problem '%s' remember something, as its member begin says: set save "
     "and restore, too",
     p->name);
-  STEIF_CHECK(!s->step.carry, s->ctx, STEIF_UNSUPPORTED,
-              "a run of problem '%s' with sensitivities cannot be saved: repeat it", p->name);
+  STEIF_CHECK(
+    !s->step.carry && !s->quadratures, s->ctx, STEIF_UNSUPPORTED,
+    "a run of problem '%s' with sensitivities or quadratures cannot be saved: repeat it",
+    p->name);
   return STEIF_OK;
 }
 

@@ -59,8 +59,9 @@ static int check(steif_solver *s, start *a)
 {
   STEIF_CHECK(!s->engine, s->ctx, STEIF_UNSUPPORTED,
               "'%s' cannot be restarted: make a new solver", s->spec);
-  STEIF_CHECK(!s->step.carry && !a->options.sensitivities, s->ctx, STEIF_UNSUPPORTED,
-              "a run with sensitivities is not restarted: make a new solver");
+  STEIF_CHECK(!s->step.carry && !s->quadratures && !a->options.sensitivities, s->ctx,
+              STEIF_UNSUPPORTED,
+              "a run with sensitivities or quadratures is not restarted: make a new solver");
   STEIF_CHECK(!s->inside && !s->running, s->ctx, STEIF_BAD_INPUT,
               "a solver is restarted between two calls, not by a callback of a step");
   STEIF_CHECK(a->y && N_VGetLength(a->y) == s->given->n &&

@@ -235,6 +235,7 @@ static int attempt(steif_solver *s, sunrealtype h, int tries, sunrealtype *e)
   STEIF_TRY(attempt_silently(s, h));
   *e = stf_norm(&step->system.space, step->error, step->weights) / step->control.tolerance;
   if (*e <= 1 && step->carry) STEIF_TRY(carry(s, h, e));
+  if (*e <= 1 && s->options.test_quadratures) STEIF_TRY(stf_quadrature_test(s, h, e));
   return *e <= 1 && s->problem->constraint ? stf_constraint_keep(s, h, tries) : STEIF_OK;
 }
 

@@ -12,6 +12,7 @@
 typedef struct stf_switching stf_switching;
 typedef struct stf_rounding stf_rounding;
 typedef struct stf_saltation stf_saltation;
+typedef struct stf_quadratures stf_quadratures;
 
 /* Constant steps h from t0: `whole` of them end at `end`, `rest` > 0 before t1, or at t1 with rest 0. */
 typedef struct stf_constant {
@@ -72,10 +73,11 @@ struct steif_solver {
   sunrealtype h_next, h_old, h_tried, error_old; /* chosen steps */
   bool after_reject, failed;
   stf_pace pace;
-  int constraint_moves;     /* steps in a row that a constraint has moved */
-  stf_rounding *rounding;   /* of runs near it; NULL: not followed */
-  sunrealtype rounded;      /* in tolerances */
-  stf_saltation *saltation; /* derivatives through events and breaks; NULL: none */
+  int constraint_moves;         /* steps in a row that a constraint has moved */
+  stf_rounding *rounding;       /* of runs near it; NULL: not followed */
+  sunrealtype rounded;          /* in tolerances */
+  stf_saltation *saltation;     /* derivatives through events and breaks; NULL: none */
+  stf_quadratures *quadratures; /* NULL: none */
   int failure;
   char why[400];               /* the sentence of the failure */
   sunrealtype *invariants;     /* at the start, then room for as many */
@@ -157,6 +159,16 @@ int stf_saltation_after(steif_solver *s, sunrealtype t);
 void stf_saltation_renew(steif_solver *s);
 int stf_saltation_break(steif_solver *s, int i);
 int stf_saltation_broken(steif_solver *s);
+
+/* quadrature.c: s->quadratures where the problem has some; what the last step adds up to s->end; and before and after
+ * an event at t whose time has these derivatives. */
+int stf_quadrature_open(steif_solver *s);
+int stf_quadrature_step(steif_solver *s);
+int stf_quadrature_to(steif_solver *s, sunrealtype t);
+/* The larger of *e and their errors in the attempt, in tolerances. */
+int stf_quadrature_test(steif_solver *s, sunrealtype h, sunrealtype *e);
+int stf_quadrature_before(steif_solver *s, sunrealtype t, N_Vector y);
+int stf_quadrature_after(steif_solver *s, sunrealtype t, N_Vector y, const sunrealtype *tau);
 
 /* The invariants at the start. */
 int stf_drift_open(steif_solver *s);

@@ -69,6 +69,14 @@ static int watched(steif_solver *s)
   return code ? failed(s, code) : STEIF_OK;
 }
 
+/* With its events and integrals. */
+static int integrated(steif_solver *s)
+{
+  STEIF_TRY(s->events ? watched(s) : advance(s));
+  const int code = s->quadratures ? stf_quadrature_step(s) : STEIF_OK;
+  return code ? failed(s, code) : STEIF_OK;
+}
+
 /* Do other limits than steps allow one more? */
 static int within_limits(steif_solver *s, sunrealtype begun)
 {
@@ -94,9 +102,9 @@ bool stf_observed(const steif_solver *s)
 /* A step and all that may hang on it. */
 static int step_once(steif_solver *s, sunrealtype begun)
 {
-  if (!s->observed) return advance(s);
+  if (!s->observed) return integrated(s);
   STEIF_TRY(within_limits(s, begun));
-  STEIF_TRY(s->events ? watched(s) : advance(s));
+  STEIF_TRY(integrated(s));
   if (!(s->finished && s->events->silent)) stf_observe(s, s->end, stf_last(s));
   const bool asked = s->observer_stopped, explained = s->observer_failed;
   s->observer_stopped = s->observer_failed = false;

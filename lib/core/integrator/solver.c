@@ -326,11 +326,12 @@ int stf_run_begin(steif_solver *s)
   if (!s->engine) STEIF_TRY(begin_step(s));
   if (s->chosen) STEIF_TRY(stf_switching_open(s, s->chosen));
   STEIF_TRY(stf_sensitivity_open(s));
+  STEIF_TRY(stf_quadrature_open(s));
   STEIF_TRY(stf_constraint_open(s));
   STEIF_TRY(stf_drift_open(s));
   STEIF_TRY(stf_event_open(s));
   s->observed = stf_observed(s);
-  s->watched = s->events || s->options.observe;
+  s->watched = s->events || s->options.observe || s->quadratures;
   s->stretch = 16;
   return STEIF_OK;
 }

@@ -105,6 +105,9 @@ typedef struct steif_method {
   int (*dense_by_f)(stf_step *s, sunrealtype t, N_Vector y);
   int (*stages)(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
                 N_Vector **X); /* NULL: none */
+  /* The same of an attempt that has succeeded, before its commit. */
+  int (*trial)(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
+               N_Vector **X);
   /* All of the private state that later steps, dense output and stages depend on, part by part (image.h),
    * but what stf_step, system and newton hold. NULL: runs cannot be saved. */
   void (*keep)(stf_step *s, stf_image *m);

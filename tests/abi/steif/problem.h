@@ -30,6 +30,7 @@ extern "C" {
 
 typedef struct steif_problem steif_problem;
 typedef struct steif_parameters steif_parameters; /* parameters.h */
+typedef struct steif_quadrature steif_quadrature; /* quadrature.h */
 
 typedef int (*steif_rhs)(sunrealtype t, N_Vector y, N_Vector ydot, void *user);
 typedef int (*steif_residual)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user);
@@ -186,7 +187,8 @@ struct steif_problem {
   int (*build)(steif_context *ctx, const steif_spec *spec, steif_problem *self);
   void (*destroy)(steif_context *ctx, steif_problem *self);
   const steif_parameters *parameters; /* numbers that it depends on; NULL: none */
-  void *reserved[16]; /* 0; members to come take their place, and later ones stand after them */
+  const steif_quadrature *quadrature; /* integrals beside the solution; NULL: none */
+  void *reserved[15]; /* 0; members to come take their place, and later ones stand after them */
 };
 
 /* The form, or 0 with the message set: complete, consistent, finite start values. */

@@ -87,6 +87,7 @@ static int react(steif_solver *s, sunrealtype t)
   const steif_problem *p = s->problem;
   stf_observe(s, t, w->after);
   if (s->saltation) STEIF_TRY(stf_saltation_before(s, t));
+  if (s->quadratures) STEIF_TRY(stf_quadrature_to(s, t));
   N_VScale(1, w->after, w->y);
   const int wish = p->handle_event(t, w->after, w->fired, p->user);
   N_VLinearSum(1, w->after, -1, w->y, w->y);

@@ -171,6 +171,7 @@ int stf_saltation_before(steif_solver *s, sunrealtype t)
   if (!callback) STEIF_TRY(restarts(s, t, &yes));
   if (!yes) return STEIF_OK;
   STEIF_TRY(stf_saltation_times(s, t));
+  STEIF_TRY(stf_quadrature_before(s, t, w->y));
   for (int k = 0; k < s->step.carry->count; k++)
     STEIF_TRY(callback ? by_callback(s, k) : through(s, reaction, k, "handle_event"));
   return STEIF_OK;
@@ -210,7 +211,7 @@ int stf_saltation_after(steif_solver *s, sunrealtype t)
   for (int k = 0; k < s->step.carry->count; k++)
     stf_axpy(&s->step.system.space, -w->tau[k], w->after, w->jump[k]);
   w->pending = true;
-  return STEIF_OK;
+  return stf_quadrature_after(s, t, d->after, w->tau);
 }
 
 void stf_saltation_renew(steif_solver *s)
@@ -254,7 +255,7 @@ int stf_saltation_break(steif_solver *s, int i)
     else
       N_VLinearSum(1, w->S[k], w->tau[k], w->slope, w->jump[k]);
   w->known = false, w->pending = true;
-  return STEIF_OK;
+  return stf_quadrature_before(s, t, w->y);
 }
 
 int stf_saltation_broken(steif_solver *s)
@@ -267,5 +268,5 @@ int stf_saltation_broken(steif_solver *s)
   for (int k = 0; moves && k < step->carry->count; k++)
     stf_axpy(&step->system.space, -w->tau[k], w->after, w->jump[k]);
   stf_saltation_renew(s);
-  return STEIF_OK;
+  return moves ? stf_quadrature_after(s, step->t, step->y, w->tau) : STEIF_OK;
 }

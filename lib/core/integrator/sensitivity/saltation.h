@@ -37,6 +37,8 @@ int stf_saltation_times(steif_solver *s, sunrealtype t);
 
 /* start_derivatives.c: T->S of a start that was repaired; or of one with hidden constraints, checked. */
 int stf_start_derivatives(steif_solver *s, stf_carry *T);
+/* sensitivity.c: the place of parameter k in the list of columns. */
+int stf_column(const steif_solver *s, int k, int *i);
 /* value[k] = value, and what the problem keeps of it. */
 int stf_set_parameter(const steif_solver *s, int k, sunrealtype value);
 

@@ -136,7 +136,7 @@ int stf_sensitivity_open(steif_solver *s)
 /* ---- what is shown -------------------------------------------------------------------------- */
 
 /* The place of parameter k in the list. */
-static int column(const steif_solver *s, int k, int *i)
+int stf_column(const steif_solver *s, int k, int *i)
 {
   if (!s) return STEIF_BAD_INPUT;
   const stf_carry *T = s->step.carry;
@@ -152,7 +152,7 @@ int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy)
 {
   int i = 0;
   if (s && s->run.columns.count) return stf_engine_carried(s, t, k, dy);
-  STEIF_TRY(column(s, k, &i));
+  STEIF_TRY(stf_column(s, k, &i));
   const stf_carry *T = s->step.carry;
   STEIF_CHECK(dy && N_VGetLength(dy) == s->problem->n, s->ctx, STEIF_BAD_INPUT,
               "a vector of %lld components is needed for dy/dp", (long long)s->problem->n);
@@ -170,7 +170,7 @@ int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy)
 int steif_sensitivity_event(steif_solver *s, int k, sunrealtype *dt, N_Vector dy)
 {
   int i = 0;
-  STEIF_TRY(column(s, k, &i));
+  STEIF_TRY(stf_column(s, k, &i));
   stf_saltation *w = s->saltation;
   STEIF_CHECK(w && isfinite(w->t), s->ctx, STEIF_BAD_INPUT, "no event has happened yet");
   STEIF_CHECK(

@@ -230,15 +230,26 @@ static int dense(const stf_step *s, sunrealtype t, N_Vector y)
   return STEIF_OK;
 }
 
+static int stages_from(const state *e, const sunrealtype *y, int *count, const sunrealtype **c,
+                       const sunrealtype **b, N_Vector **X)
+{
+  *count = e->s, *c = e->table->c, *b = e->table->b, *X = e->Y;
+  for (int j = 0; j < e->s; j++)
+    for (int i = 0; i < e->n; i++) STF_ARRAY(e->Y[j])[i] = y[i] + e->L->Z[i * e->L->wide + j];
+  return STEIF_OK;
+}
+
 static int stages(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
                   N_Vector **X)
 {
   const state *e = s->state;
-  *count = e->s, *c = e->table->c, *b = e->table->b, *X = e->Y;
-  for (int j = 0; j < e->s; j++)
-    for (int i = 0; i < e->n; i++)
-      STF_ARRAY(e->Y[j])[i] = e->before[i] + e->L->Z[i * e->L->wide + j];
-  return STEIF_OK;
+  return stages_from(e, e->before, count, c, b, X);
+}
+
+static int trial(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
+                 N_Vector **X)
+{
+  return stages_from(s->state, STF_ARRAY(s->y), count, c, b, X);
 }
 
 static void keep(stf_step *s, stf_image *m)
@@ -275,6 +286,7 @@ const steif_method steif_method_irk_interleaved = {
   .commit = commit,
   .dense = dense,
   .stages = stages,
+  .trial = trial,
   .keep = keep,
   .carrier = &stf_irk_interleaved_carrier,
 };

@@ -295,6 +295,7 @@ const steif_method steif_method_dirk = {
   .commit = commit,
   .dense = dense,
   .stages = stages,
+  .trial = stages,
   .keep = keep,
   .propagator = propagator,
   .describe = describe,

@@ -277,6 +277,15 @@ static int stages(const stf_step *s, int *count, const sunrealtype **c, const su
   return STEIF_OK;
 }
 
+static int trial_stages(const stf_step *s, int *count, const sunrealtype **c,
+                        const sunrealtype **b, N_Vector **X)
+{
+  const state *e = s->state;
+  *count = e->s, *c = e->table->c, *b = e->table->b, *X = e->X;
+  for (int j = 0; j < e->s; j++) stf_sum(&s->system.space, 1, s->y, 1, e->trial[j], e->X[j]);
+  return STEIF_OK;
+}
+
 static void keep(stf_step *s, stf_image *m)
 {
   state *e = s->state;
@@ -376,6 +385,7 @@ const steif_method steif_method_irk = {
   .commit = commit,
   .dense = dense,
   .stages = stages,
+  .trial = trial_stages,
   .keep = keep,
   .propagator = propagator,
   .describe = describe,
