@@ -6,10 +6,14 @@
 static int find(struct call *call, const steif_problem *p)
 {
   struct sensitivity_answer a = {.problem = p, .options = options_of(call)};
+  struct functional f = {.problem = *p};
   if (a.options.t1 == 0) a.options.t1 = p->t1;
   int code = sensitivity_choose(call, &a);
+  if (!code && given(call, "--functional")) code = functional_open(call, p, &f);
+  a.problem = &f.problem;
   if (!code) code = sensitivity_measure(call, &a);
   sensitivity_close(&a);
+  functional_close(call, &f);
   return code;
 }
 
@@ -31,7 +35,7 @@ static const struct option options[] = {
 const struct verb verb_sensitivity = {
   .name = "sensitivity",
   .about = "Find derivatives of a solution by parameters",
-  .usage = "PROBLEM METHOD [--parameters k1,k2 --t1 T --points N --rtol R --check]",
+  .usage = "PROBLEM METHOD [--parameters k1,k2 --functional 'int G' --t1 T --rtol R --check]",
   .least = 2,
   .most = 2,
   .matrices = true,

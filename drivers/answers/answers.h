@@ -53,6 +53,14 @@ int counterexample_present(const struct call *call, const struct counterexample_
 
 /* S = dy/dp: rows of t, y and the columns of S one after another, `width` numbers each. */
 enum { SENSITIVITIES = 64 };
+/* --functional: the problem with its integrand as a quadrature. */
+struct functional {
+  steif_problem problem, model;
+  steif_quadrature quadrature;
+};
+int functional_open(struct call *call, const steif_problem *p, struct functional *f);
+void functional_close(struct call *call, struct functional *f);
+
 struct sensitivity_answer {
   const steif_problem *problem;
   steif_options options;
@@ -65,6 +73,7 @@ struct sensitivity_answer {
   steif_sensitivity_cost cost;
   bool checked;
   double disagreement;
+  double integral, gradient[SENSITIVITIES]; /* of --functional, at the end */
 };
 /* --parameters; the run, and what it shows: exit codes after a sentence. */
 int sensitivity_choose(struct call *call, struct sensitivity_answer *a);

@@ -107,6 +107,10 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_list(r, "p", (size_t)a->count, p);
   if ((call->json || call->npz || call->mtx) && a->shown) matrix(r, a);
   rows(r, a);
+  if (a->problem->quadrature) {
+    steif_report_real(r, "integral", a->integral);
+    steif_report_list(r, "gradient", (size_t)a->count, a->gradient);
+  }
   steif_report_truth(r, "tested", a->cost.tested);
   report_status(r, "", &a->outcome);
   steif_report_whole(r, "cost.steps", a->outcome.stats.steps);

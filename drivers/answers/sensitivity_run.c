@@ -127,6 +127,16 @@ static int follow(struct call *call, struct sensitivity_answer *a, steif_solver 
   return code;
 }
 
+/* Of --functional at the end. */
+static int integrals(struct call *call, struct sensitivity_answer *a, steif_solver *s)
+{
+  if (!a->problem->quadrature) return EXIT_OK;
+  int code = steif_quadrature_values(s, a->options.t1, &a->integral);
+  for (int k = 0; !code && k < a->count; k++)
+    code = steif_quadrature_sensitivity(s, a->options.t1, a->active[k], &a->gradient[k]);
+  return code ? fail(call) : EXIT_OK;
+}
+
 int sensitivity_measure(struct call *call, struct sensitivity_answer *a)
 {
   const size_t points = (size_t)whole_of(call, "--points");
@@ -140,6 +150,7 @@ int sensitivity_measure(struct call *call, struct sensitivity_answer *a)
   if (given(call, "--check")) a->options.observe = note, a->options.observer = a;
   steif_solver *s = steif_solver_new(call->ctx, a->problem, call->word[1], &a->options);
   int code = s ? follow(call, a, s, points) : fail(call);
+  if (!code) code = integrals(call, a, s);
   if (s) a->outcome.stats = *steif_statistics(s);
   snprintf(a->outcome.message, sizeof a->outcome.message, "ok");
   steif_sensitivity_costs(s, &a->cost);

@@ -1,0 +1,92 @@
+/* functional.c: an integrand written in t, unknowns and parameters of a problem, as its quadrature: the output of a
+ * small model with the same names.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "answers.h"
+#include "integration.h"
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { UNKNOWNS = 1000, LINE = 128 };
+
+static bool is_name(const char *text)
+{
+  if (!text || !isalpha((unsigned char)*text)) return false;
+  for (; *text; text++)
+    if (!isalnum((unsigned char)*text) && *text != '_') return false;
+  return true;
+}
+
+static void name_unknown(const steif_problem *p, sunindextype i, char *room)
+{
+  const char *given = p->names && p->names->unknown ? p->names->unknown[i] : NULL;
+  if (is_name(given))
+    snprintf(room, LINE, "%.100s", given);
+  else
+    snprintf(room, LINE, "y%lld", (long long)i + 1);
+}
+
+static void name_parameter(const steif_parameters *q, int k, char *room)
+{
+  if (q->name && is_name(q->name[k]))
+    snprintf(room, LINE, "%.100s", q->name[k]);
+  else
+    snprintf(room, LINE, "p%d", k + 1);
+}
+
+/* The model as text; to be freed. */
+static char *write_model(const steif_problem *p, const char *expression)
+{
+  const steif_parameters *q = p->parameters;
+  const size_t lines = (size_t)p->n * 2 + (size_t)q->count + 4;
+  char *text = malloc(lines * 2 * LINE + strlen(expression)), *at = text, name[LINE];
+  if (!text) return NULL;
+  for (int k = 0; k < q->count; k++) {
+    name_parameter(q, k, name);
+    at += sprintf(at, "param %s = %.17g\n", name, q->value[k]);
+  }
+  for (sunindextype i = 0; i < p->n; i++) {
+    name_unknown(p, i, name);
+    at += sprintf(at, "state %s = 0\n%s' = 0\n", name, name);
+  }
+  sprintf(at, "output integrand_ = %s\ntime %.17g to %.17g\n", expression, p->t0, p->t1);
+  return text;
+}
+
+/* With the parameters that the problem has now. */
+static int integrand(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
+{
+  struct functional *f = user;
+  const steif_parameters *from = f->problem.parameters, *to = f->model.parameters;
+  bool moved = false;
+  for (int k = 0; k < from->count; k++) {
+    moved = moved || to->value[k] != from->value[k];
+    to->value[k] = from->value[k];
+  }
+  if (moved && to->moved(f->model.user)) return -1;
+  return steif_model_outputs(&f->model, t, y, value);
+}
+
+int functional_open(struct call *call, const steif_problem *p, struct functional *f)
+{
+  const char *expression = word_of(call, "--functional");
+  if (strncmp(expression, "int ", 4))
+    return bad_usage(call, "--functional is 'int ' and an expression, such as 'int y3^2'");
+  if (!p->parameters || p->n > UNKNOWNS)
+    return bad_usage(
+      call, "--functional needs a problem with parameters and at most %d unknowns", UNKNOWNS);
+  char *text = write_model(p, expression + 4);
+  if (!text) return no_memory(call, "the functional", "leave it out");
+  const int code = steif_model_parse(call->ctx, text, "functional", NULL, &f->model);
+  free(text);
+  if (code) return fail(call);
+  f->problem = *p;
+  f->quadrature = (steif_quadrature){.count = 1, .value = integrand, .user = f};
+  f->problem.quadrature = &f->quadrature;
+  return EXIT_OK;
+}
+
+void functional_close(struct call *call, struct functional *f)
+{
+  if (f->model.user) steif_problem_clear(call->ctx, &f->model);
+}
