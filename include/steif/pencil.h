@@ -87,6 +87,13 @@ STEIF_EXPORT int steif_pencil_factor(steif_pencil *p, int count, const steif_shi
 STEIF_EXPORT int steif_pencil_solve(steif_pencil *p, int k, int nrhs, N_Vector *re,
                                     N_Vector *im);
 
+/* The same with the transpose, from the same factors: (s_k E - A)^T x = b for a real shift. For a complex one the
+ * conjugate transpose, (conj(s_k) E^T - A^T) x = b: a solve is a real linear map of the pairs (re, im), and this is
+ * the transpose of that map, so that u . solve(v) = solve_transposed(u) . v over both parts.
+ * STEIF_UNSUPPORTED: operators, of which no transposed products are known. */
+STEIF_EXPORT int steif_pencil_solve_transposed(steif_pencil *p, int k, int nrhs, N_Vector *re,
+                                               N_Vector *im);
+
 /* out = E x or A x. */
 STEIF_EXPORT int steif_pencil_product(steif_pencil *p, char which, N_Vector x, N_Vector out);
 

@@ -147,6 +147,32 @@ static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im
   return stf_columns(p, slot, nrhs, re, im, columns);
 }
 
+static int columns_transposed(steif_pencil *p, int slot, int nrhs, double *x, sunindextype ld)
+{
+  const band *b = p->state;
+  const factors *f = &b->slot[slot];
+  const int n = (int)p->n, ldx = (int)ld;
+  const bool complex = stf_is_complex(p->shift[slot]);
+  int info;
+  if (b->kl + b->ku <= STF_BAND_UNBLOCKED) {
+    const stf_band size = {n, b->kl, b->ku};
+    for (int k = 0; k < nrhs; k++)
+      if (complex)
+        stf_band_zsolve_transposed(&size, f->ab, f->pivot, x + 2 * k * ld);
+      else
+        stf_band_solve_transposed(&size, f->ab, f->pivot, x + k * ld);
+    return STEIF_OK;
+  }
+  (complex ? zgbtrs_ : dgbtrs_)(complex ? "C" : "T", &n, &b->kl, &b->ku, &nrhs, f->ab, &b->ld,
+                                f->pivot, x, &ldx, &info, 1);
+  return STEIF_OK;
+}
+
+static int transposed(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im)
+{
+  return stf_columns(p, slot, nrhs, re, im, columns_transposed);
+}
+
 static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
 {
   SUNMatrix M = which == 'E' ? p->E : p->A;
@@ -192,6 +218,7 @@ const stf_backend stf_backend_band = {
   .factor = factor,
   .solve = solve,
   .columns = columns,
+  .transposed = transposed,
   .product = product,
   .keep = keep,
   .close = finish,

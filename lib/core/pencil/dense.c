@@ -163,6 +163,34 @@ static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im
   return STEIF_OK;
 }
 
+static int columns_transposed(steif_pencil *p, int slot, int nrhs, double *b, sunindextype ld)
+{
+  const factors *f = &((dense *)p->state)->slot[slot];
+  const bool complex = stf_is_complex(p->shift[slot]);
+  const int n = (int)p->n, ldb = (int)ld;
+  int info;
+  for (int k = 0; k < nrhs && f->skips; k++)
+    stf_bitset_solve_transposed(f->bitset, f->a, b + k * ld);
+  if (f->skips) return STEIF_OK;
+  (complex ? zgetrs_ : dgetrs_)(complex ? "C" : "T", &n, &nrhs, f->a, &n, f->pivot, b, &ldb,
+                                &info, 1);
+  return STEIF_OK;
+}
+
+static int transposed(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im)
+{
+  if (p->n > STF_UNROLLED) return stf_columns(p, slot, nrhs, re, im, columns_transposed);
+  const factors *f = &((dense *)p->state)->slot[slot];
+  const int n = (int)p->n;
+  for (int k = 0; k < nrhs; k++)
+    if (im)
+      stf_unrolled_zsolve_transposed(n, f->a, f->a + n * n, f->pivot, stf_array(re[k]),
+                                     stf_array(im[k]));
+    else
+      stf_unrolled_solve_transposed(n, f->a, f->pivot, stf_array(re[k]));
+  return STEIF_OK;
+}
+
 static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
 {
   SUNMatrix M = which == 'E' ? p->E : p->A;
@@ -213,6 +241,7 @@ const stf_backend stf_backend_dense = {
   .factor = factor,
   .solve = solve,
   .columns = columns,
+  .transposed = transposed,
   .product = product,
   .keep = keep,
   .close = finish,

@@ -80,15 +80,14 @@ int stf_pencil_logdet(steif_pencil *p, int slot, sunrealtype *log_abs_det)
               p->backend->name);
   STEIF_CHECK(slot >= 0 && slot < p->slots && p->fresh[slot], p->ctx, STEIF_BAD_INPUT,
               "slot %d of %d has no factors: call steif_pencil_factor first", slot, p->slots);
-  const double *block;
-  const stf_multifrontal *fronts = stf_sparse_fronts(p, slot, &block);
+  const stf_sparse_blocks blocks = stf_sparse_fronts(p, slot);
   const klu_l_numeric *f = stf_sparse_factors(p, slot);
   logs l = {.complex = stf_is_complex(p->shift[slot]), .product = {1, 1, 1, 1}};
-  if (fronts)
-    of_fronts(fronts, block, &l);
+  if (blocks.fronts)
+    of_fronts(blocks.fronts, blocks.factors, &l);
   else
     l.u = f->Udiag, l.row = f->Rs, of_pivots(&l, p->n);
   for (int i = 0; i < CHAINS; i++) gain(&l, log(l.product[i]));
-  *log_abs_det = (fronts ? -0.5 : 0.5) * (l.sum + l.error);
+  *log_abs_det = (blocks.fronts ? -0.5 : 0.5) * (l.sum + l.error);
   return STEIF_OK;
 }

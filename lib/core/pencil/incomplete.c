@@ -171,6 +171,30 @@ static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im
   return stf_columns(p, slot, nrhs, re, im, columns);
 }
 
+/* U^T from the first column on, L^T from the last. */
+static void substitute_transposed(const incomplete *s, const double *restrict v, int n,
+                                  double *restrict b)
+{
+  for (int j = 0; j < n; j++) {
+    for (int k = s->ptr[j]; k < s->diagonal[j]; k++) b[j] -= v[k] * b[s->row[k]];
+    b[j] *= v[s->diagonal[j]];
+  }
+  for (int j = n; j-- > 0;)
+    for (int k = s->diagonal[j] + 1; k < s->ptr[j + 1]; k++) b[j] -= v[k] * b[s->row[k]];
+}
+
+static int columns_transposed(steif_pencil *p, int slot, int nrhs, double *b, sunindextype ld)
+{
+  const incomplete *s = p->state;
+  for (int i = 0; i < nrhs; i++) substitute_transposed(s, s->slot[slot], (int)p->n, b + i * ld);
+  return STEIF_OK;
+}
+
+static int transposed(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im)
+{
+  return stf_columns(p, slot, nrhs, re, im, columns_transposed);
+}
+
 static void keep(steif_pencil *p, int slot, stf_image *m)
 {
   const incomplete *s = p->state;
@@ -188,6 +212,7 @@ const stf_backend stf_backend_incomplete = {
   .prepare = prepare,
   .factor = factor,
   .solve = solve,
+  .transposed = transposed,
   .product = stf_sparse_product,
   .keep = keep,
   .close = finish,

@@ -279,6 +279,20 @@ int steif_pencil_solve(steif_pencil *p, int k, int nrhs, N_Vector *re, N_Vector 
   return p->backend->solve(p, k, nrhs, im, NULL);
 }
 
+int steif_pencil_solve_transposed(steif_pencil *p, int k, int nrhs, N_Vector *re, N_Vector *im)
+{
+  if (!p) return STEIF_BAD_INPUT;
+  STEIF_CHECK(
+    p->backend->transposed, p->ctx, STEIF_UNSUPPORTED,
+    "a %s pencil knows no transposed products: give it dense, band or sparse matrices",
+    p->backend->name);
+  STEIF_TRY(check_solve(p, k, nrhs, re, im));
+  p->stats.solves += nrhs;
+  if (!im || stf_is_complex(p->shift[k])) return p->backend->transposed(p, k, nrhs, re, im);
+  STEIF_TRY(p->backend->transposed(p, k, nrhs, re, NULL));
+  return p->backend->transposed(p, k, nrhs, im, NULL);
+}
+
 int steif_pencil_product(steif_pencil *p, char which, N_Vector x, N_Vector out)
 {
   if (!p) return STEIF_BAD_INPUT;

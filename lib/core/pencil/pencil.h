@@ -36,6 +36,8 @@ typedef struct stf_backend {
   void (*factor)(steif_pencil *p, int slot, steif_shift s, stf_outcome *out);
   int (*solve)(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im);
   stf_columns_solve *columns; /* from several threads for complex slots; NULL: not so */
+  /* With the transpose, complex slots with the conjugate transpose; NULL: not so. */
+  int (*transposed)(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im);
   int (*product)(steif_pencil *p, char which, N_Vector x, N_Vector out);
   /* What a slot remembers: factors in use, pivots that serve again. Read into a slot not prepared yet. */
   void (*keep)(steif_pencil *p, int slot, stf_image *m);

@@ -320,11 +320,11 @@ double stf_sparse_growth(const steif_pencil *p, int slot)
   return least(((const sparse *)p->state)->slot[slot]);
 }
 
-const stf_multifrontal *stf_sparse_fronts(const steif_pencil *p, int slot, const double **block)
+stf_sparse_blocks stf_sparse_fronts(const steif_pencil *p, int slot)
 {
   const sparse *s = p->state;
-  *block = s->slot[slot]->block;
-  return s->slot[slot]->by_fronts ? s->fronts : NULL;
+  const factors *f = s->slot[slot];
+  return (stf_sparse_blocks){f->by_fronts ? s->fronts : NULL, f->block, f->pivot, s->work};
 }
 
 int stf_sparse_product(steif_pencil *p, char which, N_Vector x, N_Vector out)
@@ -392,6 +392,7 @@ const stf_backend stf_backend_sparse = {
   .factor = factor,
   .solve = solve,
   .columns = columns,
+  .transposed = stf_sparse_transposed,
   .product = stf_sparse_product,
   .keep = keep,
   .close = finish,

@@ -15,9 +15,16 @@ const stf_pattern *stf_sparse_pattern(const steif_pencil *p);
 klu_l_symbolic *stf_sparse_symbolic(const steif_pencil *p);
 const double *stf_sparse_values(const steif_pencil *p, int slot);
 klu_l_numeric *stf_sparse_factors(const steif_pencil *p, int slot);
-/* The fronts whose factors a slot has in use, and these; NULL: KLU's are. */
-const stf_multifrontal *stf_sparse_fronts(const steif_pencil *p, int slot,
-                                          const double **factors);
+/* What fronts have of a slot: NULL where KLU's factors are in use, factors, pivots, scratch of solves. */
+typedef struct stf_sparse_blocks {
+  const stf_multifrontal *fronts;
+  const double *factors;
+  const int *pivot;
+  double *work;
+} stf_sparse_blocks;
+stf_sparse_blocks stf_sparse_fronts(const steif_pencil *p, int slot);
+/* sparse_transposed.c */
+int stf_sparse_transposed(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im);
 /* saved/klu_image.c: KLU's factors, made where there are none to be read into. */
 void stf_klu_keep(const klu_l_symbolic *symbolic, bool wide, klu_l_numeric **numeric,
                   klu_l_common *common, stf_image *m);

@@ -132,3 +132,23 @@ void stf_bitset_solve(const stf_bitset *t, const double *a, double *b)
   }
   memcpy(b, x, (size_t)n * sizeof *b);
 }
+
+/* U^T from the first pivot on, then L^T from the last; values stand at the rows of their pivots. */
+void stf_bitset_solve_transposed(const stf_bitset *t, const double *a, double *b)
+{
+  const int n = t->n;
+  double x[STF_BITSET];
+  for (int k = 0; k < n; k++) {
+    const int c = t->column[k], p = t->order[k];
+    const double *column = a + c * n;
+    double sum = b[c];
+    for (int i = t->upper[k]; i < t->lower[k + 1]; i++) sum -= column[t->row[i]] * x[t->row[i]];
+    x[p] = sum * column[p];
+  }
+  for (int k = n; k-- > 0;) {
+    const double *column = a + t->column[k] * n;
+    for (int i = t->lower[k]; i < t->upper[k]; i++)
+      x[t->order[k]] -= column[t->row[i]] * x[t->row[i]];
+  }
+  memcpy(b, x, (size_t)n * sizeof *b);
+}

@@ -37,6 +37,10 @@ void stf_unrolled_solve(int n, const double *lu, const int *perm, double *b);
 int stf_unrolled_zfactor(int n, double *re, double *im, int *perm);
 void stf_unrolled_zsolve(int n, const double *re, const double *im, const int *perm, double *br,
                          double *bi);
+/* dense_transposed.c: with M^T, and with the conjugate of M^T. */
+void stf_unrolled_solve_transposed(int n, const double *lu, const int *perm, double *b);
+void stf_unrolled_zsolve_transposed(int n, const double *re, const double *im, const int *perm,
+                                    double *br, double *bi);
 /* dense_blocked.c: real, 8 < n; dense unrolled calls them. */
 int stf_blocked_factor(int n, double *a, int *perm);
 void stf_blocked_solve(int n, const double *lu, const int *perm, double *b);
@@ -53,6 +57,7 @@ size_t stf_bitset_size(void);                          /* of which, without poin
 bool stf_bitset_look(stf_bitset *t, const double *a);
 int stf_bitset_factor(stf_bitset *t, double *a);
 void stf_bitset_solve(const stf_bitset *t, const double *a, double *b);
+void stf_bitset_solve_transposed(const stf_bitset *t, const double *a, double *b);
 
 /* ---- dense by rows -------------------------------------------------------------------------------
  * Entry (i, j) at i n + j; loops along rows, for the instruction set there is. */
@@ -89,6 +94,11 @@ sunindextype stf_band_factor(const stf_band *b, double *ab, int *pivot);
 void stf_band_solve(const stf_band *b, const double *ab, const int *pivot, double *x);
 sunindextype stf_band_zfactor(const stf_band *b, double *ab, int *pivot);
 void stf_band_zsolve(const stf_band *b, const double *ab, const int *pivot, double *x);
+/* band_transposed.c: with M^T, and with the conjugate of M^T. */
+void stf_band_solve_transposed(const stf_band *b, const double *ab, const int *pivot,
+                               double *x);
+void stf_band_zsolve_transposed(const stf_band *b, const double *ab, const int *pivot,
+                                double *x);
 
 /* ---- multifrontal --------------------------------------------------------------------------------
  * I. S. Duff and J. K. Reid, ACM TOMS 9, 1983; J. W. H. Liu, SIAM Review 34, 1992. On the symmetric
@@ -113,6 +123,10 @@ bool stf_multifrontal_factor(const stf_multifrontal *f, const double *value, dou
 /* nrhs columns, ld apart, in place. */
 void stf_multifrontal_solve(const stf_multifrontal *f, const double *factors, const int *pivots,
                             int nrhs, double *b, sunindextype ld, double *work);
+/* The same with the transpose. */
+void stf_multifrontal_solve_transposed(const stf_multifrontal *f, const double *factors,
+                                       const int *pivots, int nrhs, double *b, sunindextype ld,
+                                       double *work);
 /* The reciprocals of the pivots of front i, `step` apart; NULL past the last front. */
 const double *stf_multifrontal_pivots(const stf_multifrontal *f, const double *factors, int i,
                                       int *count, sunindextype *step);
