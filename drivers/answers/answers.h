@@ -79,6 +79,7 @@ struct sensitivity_answer {
 int sensitivity_choose(struct call *call, struct sensitivity_answer *a);
 int sensitivity_measure(struct call *call, struct sensitivity_answer *a);
 int sensitivity_present(struct call *call, const struct sensitivity_answer *a);
+const char *sensitivity_name(const struct sensitivity_answer *a, int i, char *room);
 double sensitivity_scale(const struct sensitivity_answer *a, int i);
 void sensitivity_close(struct sensitivity_answer *a);
 

@@ -8,7 +8,7 @@
 
 /* ---- parameters ------------------------------------------------------------------------------ */
 
-static const char *name_of(const struct sensitivity_answer *a, int i, char *room)
+const char *sensitivity_name(const struct sensitivity_answer *a, int i, char *room)
 {
   const steif_parameters *q = a->problem->parameters;
   if (q->name) return q->name[a->active[i]];
@@ -64,7 +64,8 @@ static void cells(steif_report *r, const struct sensitivity_answer *a, const dou
   const size_t n = (size_t)a->problem->n;
   for (int scaled = 0; scaled < 2; scaled++)
     for (int k = 0; k < a->count; k++) {
-      snprintf(key, sizeof key, "rows.%s%s", scaled ? "scaled_" : "d_", name_of(a, k, room));
+      snprintf(key, sizeof key, "rows.%s%s", scaled ? "scaled_" : "d_",
+               sensitivity_name(a, k, room));
       steif_report_real(r, key, (scaled ? sensitivity_scale(a, k) : 1) * S[(size_t)k * n + i]);
     }
 }

@@ -137,6 +137,28 @@ static int integrals(struct call *call, struct sensitivity_answer *a, steif_solv
   return code ? fail(call) : EXIT_OK;
 }
 
+/* A parameter whose column is 0, and differences at their rounding. */
+static void remark(struct sensitivity_answer *a)
+{
+  const size_t n = (size_t)a->problem->n;
+  const double *S = a->value + (a->shown - 1) * a->width + 1 + n;
+  char *to = a->outcome.message, name[STEIF_SPEC_WORD];
+  const size_t room = sizeof a->outcome.message;
+  for (int k = 0; k < a->count; k++) {
+    double most = 0;
+    for (size_t i = 0; i < n; i++) most = fmax(most, fabs(S[(size_t)k * n + i]));
+    if (most > 0) continue;
+    const size_t used = strlen(to);
+    snprintf(to + used, room - used, "; %s has no influence", sensitivity_name(a, k, name));
+  }
+  const size_t used = strlen(to);
+  if (a->cost.noise > 1)
+    snprintf(
+      to + used, room - used,
+      "; differences by parameters are off by %.2g tolerances, which were raised to that",
+      a->cost.noise);
+}
+
 int sensitivity_measure(struct call *call, struct sensitivity_answer *a)
 {
   const size_t points = (size_t)whole_of(call, "--points");
@@ -154,6 +176,7 @@ int sensitivity_measure(struct call *call, struct sensitivity_answer *a)
   if (s) a->outcome.stats = *steif_statistics(s);
   snprintf(a->outcome.message, sizeof a->outcome.message, "ok");
   steif_sensitivity_costs(s, &a->cost);
+  if (!code) remark(a);
   steif_solver_free(&s);
   if (!code && given(call, "--check")) code = check(call, a);
   return code ? code : sensitivity_present(call, a);

@@ -73,6 +73,9 @@ typedef struct steif_sensitivity_cost {
   int tested;     /* 1: their errors are tested */
   long sweeps;    /* of the iteration, each over all columns */
   long jacobians; /* at stages */
+  sunrealtype
+    noise; /* rounding of differences by p in a step, where there is no dFdp, the largest in tolerances of S:
+                        above 1 the tolerance was raised to it */
 } steif_sensitivity_cost;
 STEIF_EXPORT int steif_sensitivity_costs(const steif_solver *s, steif_sensitivity_cost *cost);
 

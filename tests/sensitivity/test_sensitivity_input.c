@@ -132,6 +132,48 @@ static void other_problems_are_refused(void)
   steif_context_free(&ctx);
 }
 
+/* df/dp where dF/dp = -df/dp is asked for. */
+static int sign_of_f(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  (void)yp, (void)user;
+  NV_Ith_S(out, 0) = k == 0 ? -NV_Ith_S(y, 0) : k == 1 ? sin(10 * t) : 0;
+  return 0;
+}
+
+static void wrong_signs_are_named(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  struct forcing F;
+  steif_options o = steif_defaults();
+  forcing_open(&F, 0);
+  F.y0[0] = 1, F.parameters.dFdp = sign_of_f, o.sensitivities = 1;
+  refused(ctx, &F.problem, "radau:s=3", &o, STEIF_BAD_INPUT, "wrong sign");
+  steif_context_free(&ctx);
+}
+
+/* Differences by p at a tolerance of their rounding: the run ends in as many steps as with dFdp, or a few times that. */
+static void noise_does_not_shorten_steps(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  long steps[2];
+  for (int differences = 0; differences < 2; differences++) {
+    struct forcing F;
+    steif_options o = steif_defaults();
+    steif_sensitivity_cost cost;
+    forcing_open(&F, differences);
+    F.y0[0] = 1e3, F.p[1] = 1, F.problem.linear = 0;
+    o.sensitivities = 1, o.rtol = 1e-11, o.t1 = 1, o.max_steps = 100000;
+    steif_solver *s = steif_solver_new(ctx, &F.problem, "radau:s=3", &o);
+    CU_ASSERT_FATAL(s && !steif_solve_to(s, 1));
+    steps[differences] = steif_statistics(s)->steps;
+    CHECK(!steif_sensitivity_costs(s, &cost));
+    CHECK(differences ? cost.noise > 0 : cost.noise == 0);
+    steif_solver_free(&s);
+  }
+  CHECK(steps[1] <= 3 * steps[0]);
+  steif_context_free(&ctx);
+}
+
 static void wrong_columns_are_refused(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -201,6 +243,8 @@ CU_TestInfo tests_of_sensitivity_input[] = {
   {"other problems are refused", other_problems_are_refused},
   {"inconsistent derivatives of starts are refused",
    inconsistent_derivatives_of_starts_are_refused},
+  {"wrong signs are named", wrong_signs_are_named},
+  {"noise does not shorten steps", noise_does_not_shorten_steps},
   {"wrong columns are refused", wrong_columns_are_refused},
   {"memory may fail anywhere, and none is taken while stepping", memory_may_fail_anywhere},
   CU_TEST_INFO_NULL};

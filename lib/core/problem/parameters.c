@@ -217,7 +217,7 @@ int stf_slopes_open(stf_pool *pool, steif_context *ctx, const steif_problem *p, 
   point *at = *slopes = stf_pool_array(pool, 1, sizeof *at);
   if (!at) return STEIF_NO_MEMORY;
   *at = (point){.ctx = ctx, .problem = p, .form = form};
-  return p->parameters->dFdp ? STEIF_OK : claim(at, pool, like);
+  return claim(at, pool, like);
 }
 
 int stf_slopes_at(stf_slopes *at, int k, sunrealtype t, N_Vector y, N_Vector yp, N_Vector out)
@@ -229,6 +229,21 @@ int stf_slopes_at(stf_slopes *at, int k, sunrealtype t, N_Vector y, N_Vector yp,
   const int returned =
     q->dFdp ? q->dFdp(t, y, yp, k, out, p->user) : differ(q, k, residual, at, out);
   return told(at->ctx, p, returned, k, before);
+}
+
+int stf_slopes_differ(stf_slopes *at, int k, sunrealtype t, N_Vector y, N_Vector yp,
+                      N_Vector out)
+{
+  const long before = stf_failures(at->ctx);
+  at->t = t, at->y = y, at->yp = yp;
+  return told(at->ctx, at->problem, differ(at->problem->parameters, k, residual, at, out), k,
+              before);
+}
+
+sunrealtype stf_slopes_noise(const stf_slopes *at, int k)
+{
+  const steif_parameters *q = at->problem->parameters;
+  return q->dFdp ? 0 : STF_EPS / increment(q, k);
 }
 
 int steif_parameter_start(steif_context *ctx, const steif_problem *p, int k, N_Vector out)

@@ -180,6 +180,19 @@ static void weigh(stf_carry *T, sunrealtype h)
   }
 }
 
+/* Differences by p have rounding errors, which shorter steps do not make smaller: below them errors are not asked
+ * for. Terms of F are as large as y'. */
+static void allow_noise(stf_carry *T, sunrealtype h, int k)
+{
+  const stf_space *space = &T->step->system.space;
+  const sunrealtype noise = h * stf_slopes_noise(T->slopes, T->parameter[k]);
+  if (noise == 0) return;
+  stf_sum(space, 1 / h, T->step->next, -1 / h, T->step->y, T->work);
+  const sunrealtype least = noise * stf_norm(space, T->work, T->weights[k]);
+  T->noise = fmax(T->noise, least / T->tolerance[k]);
+  T->tolerance[k] = fmax(T->tolerance[k], least);
+}
+
 int stf_carry_carry(stf_carry *T, sunrealtype h)
 {
   stf_step *s = T->step;
@@ -194,6 +207,7 @@ int stf_carry_carry(stf_carry *T, sunrealtype h)
         "step from t = %.12g with h = %.6g",
         s->problem->name, T->parameter[k] + 1, s->t, h);
     if (!s->adaptive) continue;
+    allow_noise(T, h, k);
     const sunrealtype e =
       stf_norm(&s->system.space, T->error[k], T->weights[k]) / T->tolerance[k];
     if (!(e <= T->relative)) T->relative = e;

@@ -36,8 +36,9 @@ typedef struct stf_carry {
   sunrealtype relative; /* the largest error of a column, in tolerances */
   sunrealtype *K, *rhs; /* carry_direct.c; NULL: sweeps */
   int *pivot;
-  sunrealtype eta; /* rate / (1 - rate) of the sweeps, when last seen; 0: not yet */
-  bool history;    /* a step has been committed */
+  sunrealtype eta;   /* rate / (1 - rate) of the sweeps, when last seen; 0: not yet */
+  bool history;      /* a step has been committed */
+  sunrealtype noise; /* the largest of differences by p, in tolerances of a column */
   long sweeps;
 } stf_carry;
 
