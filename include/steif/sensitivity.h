@@ -11,8 +11,9 @@
  * Differentiated is the step, not the equation. A step solves F(t_j, Y_j, Y_j'; p) = 0 at its stages,
  * Y_j = base_j + Z_j, Y_j' = offset_j + (1/h) sum_m B_jm Z_m, and with h, order and coefficients held,
  *   F_y dY_j + F_y' dY_j' = -dF/dp_k
- * at the converged stages is a linear system for column k of S. It is iterated with the factors of Newton's
- * iteration as preconditioner, all columns together, to options.newton times the tolerance. S is thus the derivative
+ * at the converged stages is a linear system for column k of S. Of few unknowns it is factored; else iterated with the
+ * factors of Newton's iteration as preconditioner, all columns together, from the polynomial of the last step, to 0.003
+ * of the tolerance of S (1e-4 where the index is above 1; prescribed steps: as Newton's iteration). S is thus the derivative
  * of the numbers that the run returns, on its mesh: central differences of runs on one mesh (options.mesh)
  * agree with it to their own errors, and its order is that of y.
  *
