@@ -10,7 +10,7 @@ static int read_files(struct call *call, struct matrix *m)
 {
   int code = matrix_system(call, call->word[0], "A of x' = A x + B u", &m[A], &m[E]);
   const long n = m[A].rows;
-  if (!code && call->words > 1) code = matrix_read(call, call->word[1], n, 0, &m[B]);
+  if (!code) code = matrix_ports(call, n, &m[B], &m[C], &m[D]);
   if (!code && given(call, "--D") && !m[B].x) code = bad_usage(call, "--D needs B.mtx; add it");
   if (!code) code = matrix_option(call, "--C", 0, n, &m[C]);
   if (!code) code = matrix_option(call, "--D", m[C].rows, m[B].columns, &m[D]);
@@ -71,7 +71,7 @@ static const struct rule rules[] = {{"--dt", REQUIRED, NULL},
 
 const struct verb verb_c2d = {.name = "c2d",
                               .about = "Discretise x' = A x + B u or E x' = A x + B u in time",
-                              .usage = "A.mtx|MODEL.steif [B.mtx] --dt H [--scheme S]",
+                              .usage = "A.mtx|S.mat|MODEL.steif [B.mtx] --dt H [--scheme S]",
                               .least = 1,
                               .most = 2,
                               .option = options,

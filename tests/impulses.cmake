@@ -198,6 +198,13 @@ column(x2.mtx 3 7)
 execute_process(COMMAND ${PROGRAM} pencil system.mat WORKING_DIRECTORY ${FOLDER}
                 ERROR_VARIABLE said OUTPUT_QUIET)
 if(NOT said MATCHES "without matio")
+  # E = F = diag(1, 2): x' = -x, and zoh with dt = ln 2 halves x.
+  mat(even.mat E "\\1\\0\\0\\2" F "\\1\\0\\0\\2")
+  execute_process(COMMAND ${PROGRAM} c2d even.mat --dt 0.69314718055994531 --json WORKING_DIRECTORY ${FOLDER}
+                  OUTPUT_VARIABLE out)
+  near(5 Ad 0 0)
+  near(5 Ad 1 1)
+  expect(2 c2d even.mat --dt 1 --E x2.mtx ERR "holds B, C, D and E")
   expect(0 impulse system.mat --x0 x2.mtx --json) # c_0 = N x0
   near(7 impulses 0 0)
   forcing(steps.txt 1 5)

@@ -106,13 +106,13 @@ static int from_files(struct call *call, struct descriptor *l, int from)
 static int from_collection(struct call *call, struct descriptor *l, int from)
 {
   const char *name = call->word[from];
+  if (steif_problem_find(call->ctx, name, &l->problem)) return fail(call);
   if (call->words > from + 1)
     return bad_usage(call, "\"%s\" is one word too many after the problem %s",
                      call->word[from + 1], name);
   if (given(call, "--state-space"))
     return bad_usage(call, "--state-space is for files; leave it out with the problem %s",
                      name);
-  if (steif_problem_find(call->ctx, name, &l->problem)) return fail(call);
   if (steif_linear_of(call->ctx, &l->problem, &l->system)) return fail(call);
   l->n = l->problem.n;
   l->t0 = l->problem.t0;

@@ -33,11 +33,11 @@ static int reject(const struct call *call, const char *path, long rows, long col
   return fits ? EXIT_FAILED : EXIT_FILE;
 }
 
-int matrix_read(struct call *call, const char *path, long rows, long columns, struct matrix *M)
+/* S, which is destroyed, as M. */
+static int take(struct call *call, const char *path, long rows, long columns, SUNMatrix S,
+                struct matrix *M)
 {
   const size_t largest = 100000000; /* entries: 800 MB */
-  SUNMatrix S = steif_matrix_read(call->ctx, path);
-  if (!S) return fail_file(call);
   const bool sparse = SUNMatGetID(S) == SUNMATRIX_SPARSE;
   M->rows = (long)(sparse ? SUNSparseMatrix_Rows(S) : SUNDenseMatrix_Rows(S));
   M->columns = (long)(sparse ? SUNSparseMatrix_Columns(S) : SUNDenseMatrix_Columns(S));
@@ -48,6 +48,12 @@ int matrix_read(struct call *call, const char *path, long rows, long columns, st
   if (M->x && !sparse) memcpy(M->x, SUNDenseMatrix_Data(S), count * sizeof *M->x);
   SUNMatDestroy(S);
   return M->x ? EXIT_OK : reject(call, path, rows, columns, M);
+}
+
+int matrix_read(struct call *call, const char *path, long rows, long columns, struct matrix *M)
+{
+  SUNMatrix S = steif_matrix_read(call->ctx, path);
+  return S ? take(call, path, rows, columns, S, M) : fail_file(call);
 }
 
 int matrix_option(struct call *call, const char *option, long rows, long columns,
@@ -116,9 +122,71 @@ static int of_model(struct call *call, const char *path, struct matrix *A, struc
   return code;
 }
 
+/* ---- .mat files ---- */
+
+static bool is_mat(const char *path)
+{
+  const size_t length = strlen(path);
+  return length > 4 && !strcmp(path + length - 4, ".mat");
+}
+
+static bool is_identity(const struct matrix *M)
+{
+  for (long i = 0; i < M->rows; i++)
+    for (long j = 0; j < M->rows; j++)
+      if (M->x[i + j * M->rows] != (i == j)) return false;
+  return true;
+}
+
+/* A = -F. */
+static int of_mat(struct call *call, const char *path, struct matrix *A, struct matrix *E)
+{
+  SUNMatrix read_E = NULL, F = NULL;
+  struct matrix own = {0}, *to = E ? E : &own;
+  if (steif_system_read(call->ctx, path, NULL, 0, &read_E, &F)) return fail_file(call);
+  int code = take(call, path, 0, 0, F, A);
+  for (long k = 0; !code && k < A->rows * A->columns; k++) A->x[k] = 0 - A->x[k];
+  if (code)
+    SUNMatDestroy(read_E);
+  else
+    code = take(call, path, 0, 0, read_E, to);
+  const bool plain = !code && is_identity(to);
+  if (!code && !plain && !E) {
+    say(call, "'%s' has E, which is not the identity; give A = E^-1 A [STEIF_BAD_INPUT]", path);
+    code = EXIT_FILE;
+  }
+  if (plain || !E) free(to->x), *to = (struct matrix){0};
+  return code;
+}
+
+static int ports_of_mat(struct call *call, const char *path, struct matrix *B, struct matrix *C,
+                        struct matrix *D)
+{
+  SUNMatrix S[3] = {NULL};
+  if (call->words > 1 || given(call, "--C") || given(call, "--E"))
+    return bad_usage(call, "%s holds B, C, D and E beside A; leave the others out", path);
+  struct matrix *const to[3] = {B, C, D};
+  if (steif_input_output_read(call->ctx, path, &S[0], &S[1], &S[2])) return fail_file(call);
+  int code = EXIT_OK;
+  for (int i = 0; i < 3; i++)
+    if (S[i] && !code)
+      code = take(call, path, 0, 0, S[i], to[i]);
+    else if (S[i])
+      SUNMatDestroy(S[i]);
+  return code;
+}
+
+int matrix_ports(struct call *call, long n, struct matrix *B, struct matrix *C,
+                 struct matrix *D)
+{
+  if (is_mat(call->word[0])) return ports_of_mat(call, call->word[0], B, C, D);
+  return call->words > 1 ? matrix_read(call, call->word[1], n, 0, B) : EXIT_OK;
+}
+
 int matrix_system(struct call *call, const char *path, const char *what, struct matrix *A,
                   struct matrix *E)
 {
-  return strstr(path, ".steif") ? of_model(call, path, A, E)
-                                : matrix_square(call, path, what, A);
+  return is_mat(path)             ? of_mat(call, path, A, E)
+         : strstr(path, ".steif") ? of_model(call, path, A, E)
+                                  : matrix_square(call, path, what, A);
 }

@@ -18,7 +18,11 @@ int matrix_option(struct call *call, const char *option, long rows, long columns
                   struct matrix *M);
 /* The same for a square matrix, `what` it is in its sentence. */
 int matrix_square(struct call *call, const char *path, const char *what, struct matrix *M);
-/* The same, or of a model as text (.steif) that is linear: A, and E where it is not the identity; E NULL: it
+/* B of f = B u, C and D of y = C x + D u beside the system in the .mat file of the first word, those that it
+ * has; of no such file: B of n rows from the second word. */
+int matrix_ports(struct call *call, long n, struct matrix *B, struct matrix *C,
+                 struct matrix *D);
+/* The same, or of a .mat file, or of a model as text (.steif) that is linear: A, and E where it is not the identity; E NULL: it
  * must be. */
 int matrix_system(struct call *call, const char *path, const char *what, struct matrix *A,
                   struct matrix *E);
