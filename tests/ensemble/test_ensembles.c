@@ -206,6 +206,47 @@ static void bad_input(void)
   steif_context_free(&ctx);
 }
 
+/* Every allocation of the ensemble's own context fails once. */
+typedef struct purse {
+  int left, out;
+} purse;
+
+static void *grant(size_t bytes, void *user)
+{
+  purse *p = user;
+  void *block = p->left-- == 0 ? NULL : malloc(bytes);
+  p->out += block != NULL;
+  return block;
+}
+
+static void give_back(void *block, void *user)
+{
+  ((purse *)user)->out -= block != NULL;
+  free(block);
+}
+
+static void short_memory(void)
+{
+  static collected c;
+  int code = STEIF_NO_MEMORY, turns = 0;
+  for (int k = 0; code; k++, turns++) {
+    purse p = {.left = -1};
+    steif_context *ctx = steif_context_new(
+      &(steif_setup){.allocate = grant, .release = give_back, .user = &p, .threads = 2});
+    const int before = p.out;
+    const steif_ensemble_options e = {
+      .problem = "rober", .record = sizeof(row), .row = take_row, .user = &c};
+    p.left = k;
+    c = (collected){0};
+    code = steif_ensemble(ctx, 8, set_rates, keep, &e);
+    CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
+    CHECK(p.out == before && (code || c.rows == 8));
+    steif_context_free(&ctx);
+    CHECK(p.out == 0);
+  }
+  CHECK(turns > 2);
+}
+
 /* Two ensembles as two ranks share one counter: together they run each member once, with the same bits. */
 typedef struct sharing {
   atomic_llong next;
@@ -288,6 +329,7 @@ CU_TestInfo tests_of_ensembles[] = {
   {"done can end it", callbacks_can_end_it},
   {"row can end it", rows_can_be_refused},
   {"bad input", bad_input},
+  {"short of memory", short_memory},
   {"two ranks share the members", chunks_can_be_shared},
   {"uniform numbers", numbers_are_uniform},
   CU_TEST_INFO_NULL};
