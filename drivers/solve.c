@@ -10,6 +10,7 @@ static int integrate_on(struct call *call, const steif_problem *p)
 {
   trajectory tr;
   steif_options options = options_of(call);
+  options.recompute = 1;
   steif_solver *s = NULL;
   int code = trajectory_open(call, p, &options, &tr);
   if (!code && !(tr.report = steif_report_new(call->ctx))) code = fail(call);

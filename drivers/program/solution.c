@@ -29,23 +29,15 @@ static void fill_outputs(steif_report *r, const outcome *o, steif_solver *s,
   free(value);
 }
 
-/* The last solution on all constraints, where unknowns of index 2 and 3 were less accurate than the tolerance by
+/* What it took to put the last solution on all constraints, where unknowns of index 2 and 3 were less accurate by
  * themselves. */
-static void fill_constrained(steif_report *r, const outcome *o, steif_solver *s,
-                             const trajectory *tr)
+static void fill_constrained(steif_report *r, const outcome *o, steif_solver *s)
 {
-  enum { MOST = 300 };
-  const bool high = o->code == STEIF_OK && s &&
-                    (tr->problem->dae_index > 1 || steif_initial_used(s)->index > 1);
   sunrealtype drift, corrected;
-  if (!high || tr->n > MOST || tr->problem->linear) return;
-  N_Vector y = N_VClone(steif_solution(s));
-  if (y && steif_recompute(s, y, &drift, &corrected) == STEIF_OK) {
-    steif_report_list(r, "recomputed.y", tr->n, N_VGetArrayPointer(y));
-    steif_report_real(r, "recomputed.drift", drift);
-    steif_report_real(r, "recomputed.corrected", corrected);
-  }
-  if (y) N_VDestroy(y);
+  if (o->code != STEIF_OK || !s || steif_recomputed(s, &drift, &corrected) || isnan(drift))
+    return;
+  steif_report_real(r, "recomputed.drift", drift);
+  steif_report_real(r, "recomputed.corrected", corrected);
 }
 
 /* Constant steps that reached the end, with nothing on the way that begins steps of its own. */
@@ -105,11 +97,11 @@ static void fill(steif_report *r, const struct call *call, const outcome *o, ste
   if (o->stats.rounding > 0) steif_report_real(r, "stats.rounding", o->stats.rounding);
   fill_hidden(r, o, s);
   fill_drift(r, s);
-  fill_constrained(r, o, s, tr);
+  fill_constrained(r, o, s);
   trajectory_fill(r, tr);
 }
 
-int solution_present(struct call *call, const outcome *o, steif_solver *s, const trajectory *tr)
+int solution_present(struct call *call, const outcome *o, steif_solver *s, trajectory *tr)
 {
   char title[128];
   snprintf(title, sizeof title, "%s by %s", call->word[0], solution_method(call));
@@ -117,6 +109,8 @@ int solution_present(struct call *call, const outcome *o, steif_solver *s, const
   const int code = rounded               ? EXIT_UNCERTIFIED
                    : o->code == STEIF_OK ? EXIT_OK
                                          : exit_of_run(call, o->code, o->message);
+  if (s) trajectory_stream(tr);
+  if (tr->shown_rows) putchar('\n');
   fill(tr->report, call, o, s, tr);
   int output = call->json || s ? show(call, tr->report) : EXIT_OK;
   if (tr->short_of_memory)

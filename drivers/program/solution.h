@@ -11,7 +11,6 @@ const char *solution_method(const struct call *call);
 
 /* On stdout and in the files asked for; a failed run is shown up to where it came. The exit code of
  * the run, or of what could not be written. s may be NULL. */
-int solution_present(struct call *call, const outcome *o, steif_solver *s,
-                     const trajectory *tr);
+int solution_present(struct call *call, const outcome *o, steif_solver *s, trajectory *tr);
 
 #endif

@@ -72,6 +72,17 @@ static void tell(trajectory *tr, double t)
            100 * (t - tr->t0) / (tr->t1 - tr->t0));
 }
 
+/* The solution at the next time asked for; multipliers of large systems as the method has them. */
+static int row_at(trajectory *tr, steif_solver *s, sunrealtype t, N_Vector y)
+{
+  enum { FEW = 64 };
+  const double at = tr->at[tr->next];
+  if (tr->n <= FEW) return steif_output(s, at, tr->between);
+  if (at < t) return steif_dense(s, at, tr->between);
+  N_VScale(1, y, tr->between);
+  return STEIF_OK;
+}
+
 static int keep(trajectory *tr, steif_solver *s, sunrealtype t, N_Vector y)
 {
   const struct call *c = tr->call;
@@ -80,9 +91,8 @@ static int keep(trajectory *tr, steif_solver *s, sunrealtype t, N_Vector y)
   if (tr->asked == 0)
     return c->csv || c->npz || (c->plot && saved) ? trajectory_keep(tr, t, y) : 0;
   for (; tr->next < tr->asked && tr->at[tr->next] <= t; tr->next++) {
-    const bool here = tr->at[tr->next] >= t;
-    if (!here && steif_dense(s, tr->at[tr->next], tr->between) != STEIF_OK) return -1;
-    if (trajectory_keep(tr, tr->at[tr->next], here ? y : tr->between)) return -1;
+    if (row_at(tr, s, t, y) != STEIF_OK) return -1;
+    if (trajectory_keep(tr, tr->at[tr->next], tr->between)) return -1;
   }
   return 0;
 }
@@ -92,6 +102,7 @@ static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
   trajectory *tr = user;
   if (tr->live) tell(tr, t);
   const int code = keep(tr, s, t, y);
+  trajectory_stream(tr);
   return code ? code : saved_run_tick(tr, s);
 }
 
@@ -184,6 +195,8 @@ void trajectory_free(trajectory *tr)
   free(tr->drawn.t);
   free(tr->drawn.y);
   free(tr->at);
+  free(tr->line);
+  (void)steif_rows_close(&tr->csv);
   free(tr->event_t);
   free(tr->event_which);
   free(tr->event_direction);

@@ -32,11 +32,15 @@ typedef struct trajectory {
   size_t *event_number; /* from 0: functions that change it together have one number */
   size_t happened;
   bool short_of_memory, live;
-  double shown;           /* when the progress line was written */
-  steif_report *report;   /* takes jumps as they come; NULL: they are not kept */
-  const char *checkpoint; /* NULL: none */
-  double every, saved_at; /* seconds between two, time of the last */
-  bool saved;             /* there is one */
+  double shown;               /* when the progress line was written */
+  steif_report *report;       /* takes jumps as they come; NULL: they are not kept */
+  steif_rows *csv;            /* NULL: no row has come, or it cannot be written: */
+  int csv_code;               /* why; its sentence was said */
+  double *line;               /* one of its rows */
+  size_t written, shown_rows; /* rows in it, and on the terminal */
+  const char *checkpoint;     /* NULL: none */
+  double every, saved_at;     /* seconds between two, time of the last */
+  bool saved;                 /* there is one */
 } trajectory;
 
 /* EXIT_OK, or an exit code after a sentence about --at. Observers are set in *options. */
@@ -49,10 +53,13 @@ int trajectory_room(trajectory *tr, size_t rows, size_t events);
 /* The step just made to the points of the picture; nonzero when memory is short. */
 int trajectory_draw(trajectory *tr, steif_solver *s, double t, N_Vector y);
 void trajectory_free(trajectory *tr);
-/* Sheets "output" (times asked for) and "events" (--events); jumps are there already. */
+/* Sheets "output" (times asked for, of --json alone: else they are on the terminal) and "events" (--events); jumps
+ * are there already. */
 void trajectory_fill(steif_report *r, const trajectory *tr);
-/* --csv and --npz; --plot. */
-int trajectory_save(const struct call *call, const trajectory *tr);
+/* The rows kept since the last call to --csv, and where times are asked for to the terminal. */
+void trajectory_stream(trajectory *tr);
+/* The rest of them, and --npz; --plot. */
+int trajectory_save(const struct call *call, trajectory *tr);
 int trajectory_plot(const struct call *call, const trajectory *tr, const char *title);
 
 /* One row of a sheet with columns t, kind and x, or instead of x one for each name. */

@@ -5,28 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns have the names of the unknowns, if there are any; names NULL: one list y. */
-static void rows(steif_report *r, const char *sheet, const trajectory *tr,
-                 const char *const *names)
+static void rows(steif_report *r, const trajectory *tr)
 {
-  char time[32], name[96];
-  snprintf(time, sizeof time, "%s.t", sheet);
   for (size_t i = 0; i < tr->count; i++) {
-    steif_report_row(r, sheet);
-    steif_report_real(r, time, tr->t[i]);
-    snprintf(name, sizeof name, "%s.y", sheet);
-    if (!names) steif_report_list(r, name, tr->n, tr->y + i * tr->n);
-    for (size_t j = 0; names && j < tr->n; j++) {
-      snprintf(name, sizeof name, "%s.%s", sheet, names[j]);
-      steif_report_real(r, name, tr->y[i * tr->n + j]);
-    }
-    snprintf(name, sizeof name, "%s.outputs", sheet);
-    if (!names && tr->outputs)
-      steif_report_list(r, name, tr->outputs, tr->output + i * tr->outputs);
-    for (size_t j = 0; names && j < tr->outputs; j++) {
-      snprintf(name, sizeof name, "%s.%s", sheet, steif_model_output(tr->problem, j));
-      steif_report_real(r, name, tr->output[i * tr->outputs + j]);
-    }
+    steif_report_row(r, "output");
+    steif_report_real(r, "output.t", tr->t[i]);
+    steif_report_list(r, "output.y", tr->n, tr->y + i * tr->n);
+    if (tr->outputs)
+      steif_report_list(r, "output.outputs", tr->outputs, tr->output + i * tr->outputs);
   }
 }
 
@@ -49,7 +35,7 @@ static void event_row(steif_report *r, const trajectory *tr, size_t i)
 
 void trajectory_fill(steif_report *r, const trajectory *tr)
 {
-  if (tr->asked) rows(r, "output", tr, NULL);
+  if (tr->asked && tr->call->json) rows(r, tr);
   for (size_t i = 0; given(tr->call, "--events") && i < tr->events; i++) event_row(r, tr, i);
 }
 
@@ -70,15 +56,11 @@ static int save_arrays(const struct call *call, const trajectory *tr)
   return EXIT_FAILED;
 }
 
-int trajectory_save(const struct call *call, const trajectory *tr)
+int trajectory_save(const struct call *call, trajectory *tr)
 {
   const int arrays = save_arrays(call, tr);
-  if (!call->csv) return arrays;
-  steif_report *r = steif_report_new(call->ctx);
-  rows(r, "steps", tr, tr->problem->names ? tr->problem->names->unknown : NULL);
-  const int code = r ? save_csv(call, r) : fail(call);
-  steif_report_free(&r);
-  return code ? code : arrays;
+  trajectory_stream(tr);
+  return tr->csv_code ? EXIT_FAILED : arrays;
 }
 
 /* Unknowns and outputs side by side, at the steps. */

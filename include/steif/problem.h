@@ -1,11 +1,16 @@
 /* steif/problem.h: what is integrated, in one of four forms, with callbacks users already own.
  *
  *   ode          y' = f(t, y)                          .f
- *   mass         M y' = f(t, y), M constant            .f, .E   (M may be singular)
+ *   mass         M y' = f(t, y), M(t), M(t, y)         .f, .E   (M may be singular)
  *   implicit     F(t, y, y') = 0                       .F
  *   descriptor   E x' = A x + g(t), E and A constant   .E, .A, .g   (A = -F in E x' + F x = g)
  *
- * M, E and A that vary with t or y are STEIF_UNSUPPORTED in these forms: state M(t, y) y' - f(t, y) as .F.
+ * M is filled at the start, at two other times and two other states; where it is the same, it is taken for constant
+ * and made once. Where it varies, the problem is F = M(t, y) y' - f(t, y) = 0, whose df/dy holds d(M y')/dy, made
+ * by differences, to collocation, BDF, DIRK and IDA, with the orders of a constant M. Rosenbrock methods take
+ * y' = z, 0 = F(t, y, z), with their orders too, where M is regular but for rows and columns of zeros (Hairer and
+ * Wanner, Solving ODEs II, IV.7). ARKODE takes M(t) regular, not M(t, y). What cannot take it, and E or A of the
+ * descriptor form that vary: STEIF_UNSUPPORTED, with the entry, the method and those that can.
  *
  * The form is deduced from the members that are set. All lower to one residual F(t, y, y') and one
  * matrix pencil s E - A with E = dF/dy' and A = -dF/dy; nothing else is asked of a problem.

@@ -53,6 +53,16 @@ STEIF_EXPORT int steif_report_write(steif_report *r, enum steif_format format, F
 /* The same into a file; an unwritable path leaves no file. */
 STEIF_EXPORT int steif_report_save(steif_report *r, enum steif_format format, const char *path);
 
+/* Rows of numbers as comma-separated values with a header line, like those of STEIF_CSV, each written out as it
+ * comes: what a run that is killed has made is in the file, whose former content is lost. NULL and STEIF_IO where
+ * it cannot be written. */
+typedef struct steif_rows steif_rows;
+STEIF_EXPORT steif_rows *steif_rows_new(steif_context *ctx, const char *path, size_t columns,
+                                        const char *const *name);
+STEIF_EXPORT int steif_rows_add(steif_rows *r,
+                                const sunrealtype *value); /* one for each column */
+STEIF_EXPORT int steif_rows_close(steif_rows **r);
+
 /* List or matrix i of the fields, in their order: its name, rows, columns (0: a list) and, where value is not
  * NULL, its numbers by rows; NULL past the end. Empty ones are left out, members of objects have their own
  * names. */

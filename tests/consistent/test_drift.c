@@ -111,6 +111,38 @@ static void multipliers_are_recomputed(void)
   CHECK(steif_recompute(NULL, NULL, NULL, NULL) == STEIF_BAD_INPUT);
 }
 
+/* And by runs that are asked to, adaptive ones: multipliers are as good as positions, whose error the tolerance
+ * bounds; what was corrected is told. */
+static void runs_show_multipliers_recomputed(void)
+{
+  double exact[N];
+  run("pendulum3:index=1", "radau:s=7", &(steif_options){.rtol = 1e-13, .t1 = end}, exact);
+  settle(exact);
+  for (int k = 0; k < 3; k++) {
+    const double rtol = k == 0 ? 1e-4 : k == 1 ? 1e-6 : 1e-8;
+    double error[2], drift, corrected = 0;
+    for (int recompute = 0; recompute < 2; recompute++) {
+      steif_context *ctx = steif_context_new(NULL);
+      steif_problem p;
+      CU_ASSERT_FATAL(!steif_problem_find(ctx, "pendulum3", &p));
+      const steif_options o = {.rtol = rtol, .t1 = end, .recompute = recompute};
+      steif_solver *s = steif_solver_new(ctx, &p, "radau:s=3", &o);
+      CU_ASSERT_FATAL(s && !steif_solve_to(s, end));
+      const double *y = N_VGetArrayPointer(steif_solution(s));
+      error[recompute] = fabs(y[4] - exact[4]);
+      CHECK(steif_recomputed(s, &drift, &corrected) == STEIF_OK);
+      CHECK(recompute ? drift < 10 && corrected > 0 : isnan(drift) && isnan(corrected));
+      steif_solver_free(&s);
+      steif_problem_clear(ctx, &p);
+      steif_context_free(&ctx);
+    }
+    CHECK(error[1] < 10 * rtol * fabs(exact[4]));
+    CHECK(error[1] < error[0]);
+  }
+  CHECK(steif_recomputed(NULL, NULL, NULL) == STEIF_BAD_INPUT);
+  CHECK(steif_output(NULL, 0, NULL) == STEIF_BAD_INPUT);
+}
+
 /* One step of backward Euler of 1e-6 and 1e-8 seconds, index 3: rounding in the accelerations and
  * multipliers is of the size 1e-16 / h^2, which the weights of the index leave out; two corrections do. */
 static void tiny_steps_at_index_three_converge(void)
@@ -161,6 +193,7 @@ static void the_amplifier_has_its_slopes(void)
 CU_TestInfo tests_of_drift[] = {
   {"orders fall with the index", orders_fall_with_the_index},
   {"multipliers are recomputed", multipliers_are_recomputed},
+  {"runs show multipliers recomputed", runs_show_multipliers_recomputed},
   {"tiny steps at index three converge", tiny_steps_at_index_three_converge},
   {"the amplifier has its slopes", the_amplifier_has_its_slopes},
   CU_TEST_INFO_NULL};

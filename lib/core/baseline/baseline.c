@@ -60,7 +60,7 @@ void stf_baseline_leave(stf_baseline *base) { (void)base; }
 int stf_baseline_weights(N_Vector y, N_Vector ewt, void *data)
 {
   const stf_run *run = ((const stf_baseline *)data)->run;
-  return run->options->ewt(y, ewt, run->problem->user);
+  return run->options->ewt(y, ewt, run->user);
 }
 
 static int tolerances(stf_baseline *base)

@@ -179,6 +179,8 @@ int stf_lower_jv(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector v,
 bool stf_lower_has_jac(const stf_baseline *base);
 /* E of the mass and descriptor forms, filled at the start. */
 int stf_lower_mass(stf_baseline *base);
+/* The same at t, y that of the run, on which it does not depend. Not 0: it could not be done. */
+int stf_fill_mass(stf_baseline *base, sunrealtype t);
 
 /* --- start.c --- */
 /* E = dF/dy' at the start into base->E where callbacks can tell it. */

@@ -41,6 +41,11 @@ int stf_lower_mass(stf_baseline *base)
   return fill_start(base, 'E');
 }
 
+int stf_fill_mass(stf_baseline *base, sunrealtype t)
+{
+  return fill(base, 'E', t, base->run->y, base->run->yp);
+}
+
 bool stf_lower_has_jac(const stf_baseline *base)
 {
   const steif_problem *p = base->run->problem;

@@ -1,5 +1,6 @@
 /* restart.c: another start for the same memory, matrices and analysis.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "varying_mass.h"
 #include "checkpoint_file.h"
 #include "pencil.h"
 #include <math.h>
@@ -90,6 +91,7 @@ static void take_problem(steif_solver *s, const start *a)
 {
   const steif_problem before = *s->problem;
   s->again = a->problem;
+  if (s->lowered) stf_mass_lower_again(s->lowered, &s->again);
   if (!s->again.index) s->again.index = before.index;
   if (!s->again.dae_index) s->again.dae_index = before.dae_index;
   s->problem = s->step.problem = &s->again;

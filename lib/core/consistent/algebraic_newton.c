@@ -44,7 +44,10 @@ int stf_index_one(stf_repair *r, bool *regular)
   stf_view_factor c;
   const int code = stf_view_factor_open(r, 1, r->algebraic, 1, &c);
   *regular = code == STEIF_OK && probe(r, &c) < regular_to;
-  stf_view_factor_close(&c);
+  if (*regular)
+    r->first = c;
+  else
+    stf_view_factor_close(&c);
   if (code == STEIF_SINGULAR || code == STEIF_NOT_FINITE) steif_forget(r->ctx);
   return code == STEIF_SINGULAR || code == STEIF_NOT_FINITE ? STEIF_OK : code;
 }
@@ -114,13 +117,22 @@ static bool at_rounding(const stf_repair *r, const sunrealtype *delta)
   return true;
 }
 
+/* Those of the look at the index serve the first correction. */
+static int factors_at(stf_repair *r, int k, stf_view_factor *c)
+{
+  if (k > 0 || !r->first.pencil) return stf_view_factor_open(r, 1, r->algebraic, 1, c);
+  *c = r->first;
+  r->first = (stf_view_factor){0};
+  return STEIF_OK;
+}
+
 static int iterate(stf_repair *r, sunrealtype *first, sunrealtype *delta)
 {
   const size_t n = r->point.n;
   for (int k = 0; k < MOST; k++) {
     stf_view_factor c;
     sunrealtype after = 0;
-    int code = stf_view_factor_open(r, 1, r->algebraic, 1, &c);
+    int code = factors_at(r, k, &c);
     if (!code) code = correction(r, &c, r->y, r->yp, delta);
     const sunrealtype now = code ? 0 : size_of(r, delta);
     if (!code && k == 0) *first = now;

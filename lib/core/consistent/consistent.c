@@ -109,9 +109,16 @@ static int choose(stf_start_task *task, stf_evidence *e, const steif_diagnosis *
 int stf_start_from(stf_evidence *e, const steif_diagnosis *d, const steif_request *request,
                    steif_start *start)
 {
+  return stf_start_with(e, d, request, NULL, start);
+}
+
+int stf_start_with(stf_evidence *e, const steif_diagnosis *d, const steif_request *request,
+                   stf_start_nodes *nodes, steif_start *start)
+{
   static const steif_request none = {0};
   stf_point *s = e->point;
-  stf_start_task task = {.point = s, .request = request ? request : &none, .start = start};
+  stf_start_task task = {
+    .point = s, .request = request ? request : &none, .start = start, .nodes = nodes};
   task.most = task.request->iterations > 0 ? task.request->iterations : 60;
   sunrealtype *residual = stf_pool_array(s->pool, s->n, sizeof *residual);
   if (!residual) return STEIF_NO_MEMORY;
@@ -162,6 +169,38 @@ int stf_start_project(steif_context *ctx, const steif_problem *problem, const st
   const int code = find(&point, NULL, start);
   stf_point_close(&point);
   if (!code) steif_forget(ctx);
+  return code;
+}
+
+/* Structure and system Jacobian only. */
+static int find_beside(stf_point *s, stf_start_nodes *nodes, steif_start *start)
+{
+  stf_evidence e = {.point = s};
+  const steif_diagnosis none = {.index = -1};
+  steif_request inertia = {0};
+  sunrealtype *weight = stf_pool_array(s->pool, s->n, sizeof *weight);
+  if (!weight) return STEIF_NO_MEMORY;
+  int code = stf_evidence_points(&e);
+  if (!code) code = stf_evidence_offsets(&e);
+  if (!code) code = stf_evidence_regular(&e);
+  if (!code && !stf_evidence_certified(&e)) code = STEIF_UNSUPPORTED;
+  if (!code) {
+    stf_start_inertia(&e.view, weight);
+    inertia.weight = weight;
+    code = stf_start_with(&e, &none, &inertia, nodes, start);
+  }
+  stf_evidence_free(&e);
+  return code;
+}
+
+int stf_start_beside(steif_context *ctx, const steif_problem *problem, const steif_point *at,
+                     stf_start_nodes *nodes, steif_start *start)
+{
+  stf_point point;
+  *start = (steif_start){0};
+  STEIF_TRY(stf_point_open(ctx, problem, at, &point));
+  const int code = find_beside(&point, nodes, start);
+  stf_point_close(&point);
   return code;
 }
 

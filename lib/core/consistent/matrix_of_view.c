@@ -37,6 +37,7 @@ int stf_view_factor_open(stf_repair *r, sunrealtype derivative, const bool *by_v
   memset(SM_INDEXPTRS_S(c->zero), 0, (v->n + 1) * sizeof(sunindextype));
   c->pencil = steif_pencil_new(r->ctx, c->C, c->zero);
   if (!c->pencil) return steif_status(r->ctx);
+  r->factors++;
   return steif_pencil_factor(c->pencil, 1, &(steif_shift){1, 0});
 }
 

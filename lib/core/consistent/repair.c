@@ -244,6 +244,7 @@ static int by_stages(stf_repair *r, stf_evidence *e, const steif_diagnosis *d)
   const steif_request request = {.attribute = attribute, .weight = weight};
   STEIF_TRY(stf_start_from(e, d, &request, &start));
   int code = check_positions(r, d, &start);
+  if (!code) code = stf_keep_momenta(r, e, d, &request, &start);
   if (!code) code = use(r, start.y, start.yp, start.enforced);
   steif_start_clear(&start);
   return code;
@@ -363,6 +364,7 @@ int stf_repair_start(stf_repair *r)
   r->point.quick = true;
   r->view = (stf_view){0};
   code = pass(r, start(r));
+  stf_view_factor_close(&r->first);
   stf_view_free(&r->point, &r->view);
   return code;
 }

@@ -6,6 +6,12 @@
 
 #include "sparse_view.h"
 
+/* Matrices C and zero by columns for a pencil, whose shift 1 is C. */
+typedef struct stf_view_factor {
+  SUNMatrix C, zero;
+  steif_pencil *pencil;
+} stf_view_factor;
+
 /* One look at a start. problem is a copy of the given one whose y0, index and dae_index are those to be
  * used; its arrays are of the pool. */
 typedef struct stf_repair {
@@ -24,6 +30,8 @@ typedef struct stf_repair {
   sunrealtype *y, *yp, *weight; /* n each; weight: rtol |y| + atol */
   bool *algebraic;              /* n: the column of E is zero */
   size_t count;                 /* of those */
+  stf_view_factor first;        /* of index 1, at the point given; pencil NULL: not there */
+  int factors;                  /* made so far */
 } stf_repair;
 
 /* Look at the start of `given`: repair->problem and repair->report. The point stays open, as long as the pool
@@ -40,11 +48,6 @@ int stf_algebraic_newton(stf_repair *repair, sunrealtype *first);
  * tolerances. Zero for consistent starts of any index. */
 int stf_first_jump(stf_repair *repair, sunrealtype *largest);
 
-/* Matrices C and zero by columns for a pencil, whose shift 1 is C. */
-typedef struct stf_view_factor {
-  SUNMatrix C, zero;
-  steif_pencil *pencil;
-} stf_view_factor;
 /* e_j of the view times `derivative` plus b_j times `value`, chosen by column j; factored. STEIF_SINGULAR
  * leaves no sentence. */
 int stf_view_factor_open(stf_repair *repair, sunrealtype derivative, const bool *by_value,

@@ -65,6 +65,8 @@ int stf_evidence_points(stf_evidence *evidence);
 int stf_evidence_offsets(stf_evidence *evidence);
 /* the system Jacobian and test G at each; */
 int stf_evidence_growth(stf_evidence *evidence);
+/* the system Jacobian alone at each; */
+int stf_evidence_regular(stf_evidence *evidence);
 /* one point more, on all constraints, if the structure is certified; */
 int stf_evidence_consistent(stf_evidence *evidence);
 /* test D, where the others do not agree or it is cheap. */

@@ -101,16 +101,28 @@ static int add_consistent(stf_evidence *e)
   return code == STEIF_NO_MEMORY ? code : STEIF_OK;
 }
 
+static int measure_jacobian(stf_evidence *e, int k)
+{
+  const stf_offsets *S = &e->offsets;
+  STEIF_TRY(stf_view_take(e->point, e->at[k].t, e->at[k].y, e->at[k].yp, &e->view));
+  if (!S->matched) return STEIF_OK;
+  const int code = stf_factor_jacobian(e->factor, &e->view, S->c, S->d);
+  if (code) return code == STEIF_SINGULAR ? STEIF_OK : code;
+  return stf_factor_rcond(e->factor, &e->at[k].rcond);
+}
+
+int stf_evidence_regular(stf_evidence *e)
+{
+  STEIF_TRY(stf_factor_open(e->point, &e->view, &e->factor));
+  for (int k = 0; k < e->points; k++) STEIF_TRY(measure_jacobian(e, k));
+  return STEIF_OK;
+}
+
 static int measure(stf_evidence *e, int k)
 {
   stf_point *s = e->point;
   const stf_offsets *S = &e->offsets;
-  STEIF_TRY(stf_view_take(s, e->at[k].t, e->at[k].y, e->at[k].yp, &e->view));
-  if (S->matched) {
-    const int code = stf_factor_jacobian(e->factor, &e->view, S->c, S->d);
-    if (code && code != STEIF_SINGULAR) return code;
-    if (!code) STEIF_TRY(stf_factor_rcond(e->factor, &e->at[k].rcond));
-  }
+  STEIF_TRY(measure_jacobian(e, k));
   if (s->n > STEIF_DIAGNOSE_LARGEST && k > 0) return STEIF_OK;
   const bool good = S->matched && e->at[k].rcond >= STF_REGULAR_RCOND;
   return stf_resolvent_growth_find(s, &e->view, e->factor, good ? S->component_index : NULL,

@@ -27,6 +27,8 @@ typedef struct stf_run {
   const steif_problem *problem;
   int form;                     /* enum steif_form */
   const steif_options *options; /* complete: defaults filled in, t1 > t0 */
+  void *user;                   /* of the callbacks in options */
+  bool mass_of_time;            /* M of the mass form depends on t */
   N_Vector like;                /* vector to clone */
   sunrealtype t;                /* time of y */
   N_Vector y, yp;               /* in: start values (yp 0 where not known); out: after a step */
@@ -55,6 +57,7 @@ typedef struct steif_engine {
   int (*carry)(stf_run *run, void *state);
   int (*carried)(stf_run *run, void *state, sunrealtype t, int column, N_Vector out);
   void (*cost)(const stf_run *run, void *state, steif_sensitivity_cost *cost);
+  bool mass_of_time; /* M(t) y' = f(t, y) is taken in the mass form */
 } steif_engine;
 
 /* Filled by the shelf of the baseline room. */

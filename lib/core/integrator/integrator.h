@@ -7,6 +7,7 @@
 #include "event.h"
 #include "method.h"
 #include "repair.h"
+#include "consistent_start.h"
 #include <steif/solver.h>
 
 typedef struct stf_switching stf_switching;
@@ -45,6 +46,8 @@ struct steif_solver {
   unsigned long long fingerprint; /* of y, y', E and A at the start; 0: not known */
   bool inside;                    /* of a step whose events are being looked at */
   steif_problem semilinear;       /* the problem with its linear part as the matrix */
+  const steif_problem *lowered;   /* with an M that varies, as F = 0; NULL: there is none */
+  bool mass_of_time;              /* an engine takes M(t) itself */
   stf_repair repair;     /* of its start; the problem in use is its copy where one was made */
   steif_options options; /* complete */
   sunrealtype t1;
@@ -78,6 +81,8 @@ struct steif_solver {
   sunrealtype rounded;          /* in tolerances */
   stf_saltation *saltation;     /* derivatives through events and breaks; NULL: none */
   stf_quadratures *quadratures; /* NULL: none */
+  stf_start_nodes nodes;        /* of what is recomputed */
+  sunrealtype drift, corrected; /* of the solution shown, recomputed; NaN: it was not */
   int failure;
   char why[400];               /* the sentence of the failure */
   sunrealtype *invariants;     /* at the start, then room for as many */
@@ -98,6 +103,12 @@ int stf_whole_problem(steif_context *ctx, const steif_problem *given, size_t byt
 int stf_reserved_check(steif_context *ctx, const char *name, size_t count,
                        void *const *reserved);
 #define STF_COUNT(array) (sizeof(array) / sizeof *(array))
+
+/* opening/looks.c, before a method is opened. An M(t) or M(t, y) of M y' = f is looked for: s->problem becomes
+ * F(t, y, y') = 0 and *form that, or the engine is told, or STEIF_UNSUPPORTED. */
+int stf_look_at_mass(steif_solver *s, int *form, N_Vector y, N_Vector yp);
+/* The start of a DAE, for methods of ours with adaptive steps; linear systems have their jump. */
+int stf_look_at_start(steif_solver *s, int form);
 
 /* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. */
 int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o);
@@ -144,6 +155,10 @@ int stf_rounding_step(steif_solver *s);
 /* What this has cost. */
 void stf_rounding_count(const steif_solver *s, steif_stats *sum);
 void stf_rounding_keep(steif_solver *s, stf_image *m);
+
+/* output/recomputed.c: are unknowns of index 2 and 3 recomputed for output; that of the solution shown. */
+bool stf_recomputes(const steif_solver *s);
+int stf_recompute_shown(steif_solver *s);
 
 /* Derivatives by parameters, where options.sensitivities asks for them. */
 int stf_sensitivity_open(steif_solver *s);

@@ -222,6 +222,7 @@ int steif_solve_to(steif_solver *s, sunrealtype t)
   stop_clock(s);
   if (!code && s->end < t) return ended(s);
   if (!code) code = stf_check_reached(s);
+  if (!code) code = stf_recompute_shown(s);
   if (!code) steif_forget(s->ctx);
   return code;
 }

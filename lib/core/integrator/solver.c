@@ -1,6 +1,7 @@
 /* solver.c: the solver object: made from a problem, a spec and options.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "integrator.h"
+#include "varying_mass.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -59,6 +60,8 @@ static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vect
                      .problem = s->problem,
                      .form = form,
                      .options = &s->options,
+                     .user = s->given->user,
+                     .mass_of_time = s->mass_of_time,
                      .like = y,
                      .t = s->problem->t0,
                      .y = y,
@@ -195,7 +198,8 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   STEIF_TRY(stf_pool_adopt(s->pool, step, destroy_table));
   steif_method_info info = {0};
   STEIF_TRY(step->method->describe(s->ctx, spec, step->table, &info));
-  STEIF_CHECK(step->method->forms & (unsigned)form, s->ctx, STEIF_UNSUPPORTED,
+  const bool lowered = s->lowered && (step->method->traits & STF_VARYING_MASS);
+  STEIF_CHECK(lowered || (step->method->forms & (unsigned)form), s->ctx, STEIF_UNSUPPORTED,
               "'%s' does not accept problems of form %s such as '%s'", s->method,
               steif_form_name(form), p->name);
   step->adaptive = !o->mesh && !(o->h > 0);
@@ -233,7 +237,7 @@ static int begin_step(steif_solver *s)
 static int check_ewt(steif_solver *s, N_Vector y)
 {
   if (!s->options.ewt) return STEIF_OK;
-  const int returned = s->options.ewt(y, s->dense, s->problem->user);
+  const int returned = s->options.ewt(y, s->dense, s->given->user);
   STEIF_CHECK(returned == 0 && N_VMin(s->dense) > 0, s->ctx, STEIF_CALLBACK,
               "ewt of problem '%s' returned %d with the smallest weight %g at the start: it "
               "returns 0 with 1 / (error allowed in y_i) > 0",
@@ -250,29 +254,6 @@ static void take_fingerprint(steif_solver *s)
   if (!s->engine) stf_matrices_keep(&s->step.system, &m);
   s->fingerprint = m.code ? 0 : m.sum;
   if (m.code) steif_forget(s->ctx);
-}
-
-/* The start of a DAE, for methods of ours with adaptive steps; linear systems have their jump. */
-static int look_at_start(steif_solver *s, int form)
-{
-  const steif_options *o = &s->options;
-  const steif_problem *p = s->problem;
-  const bool dae = form == STEIF_MASS || form == STEIF_IMPLICIT;
-  const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
-  if (!dae || o->initial == STEIF_AS_GIVEN || o->h > 0 || o->mesh || o->like || p->start ||
-      storage == STEIF_KRYLOV || p->storage == STEIF_KRYLOV)
-    return STEIF_OK;
-  s->repair = (stf_repair){.ctx = s->ctx,
-                           .pool = s->pool,
-                           .given = p,
-                           .policy = o->initial,
-                           .attribute = o->attributes,
-                           .rtol = o->rtol,
-                           .atol = o->atol,
-                           .atols = o->atols};
-  STEIF_TRY(stf_repair_start(&s->repair));
-  s->problem = &s->repair.problem;
-  return STEIF_OK;
 }
 
 static int begin(const steif_solver *s)
@@ -295,25 +276,29 @@ static int open(steif_solver *s, const char *method)
 {
   steif_spec *spec = &s->parsed;
   N_Vector y = NULL, yp = NULL;
-  const int form = steif_problem_form(s->ctx, s->problem);
+  int form = steif_problem_form(s->ctx, s->problem);
   if (!form) return steif_status(s->ctx);
   STEIF_TRY(begin(s));
   STEIF_TRY(stf_options_complete(s->ctx, s->problem, &s->options));
   STEIF_TRY(check_vector(s->ctx, s->problem, &s->options));
   s->t1 = s->t1_opened = s->options.t1;
   s->t_shown = s->end = s->problem->t0;
+  s->drift = s->corrected = NAN;
   if (!(s->spec = copied(s->pool, method))) return STEIF_NO_MEMORY;
   STEIF_TRY(open_vectors(s, &y, &yp));
   snprintf(s->method, sizeof s->method, "%s", method);
   const bool automatic = !strcmp(method, "auto");
   STEIF_TRY(steif_spec_parse(s->ctx, method, spec));
-  if (automatic || !stf_engine_find(spec->name)) STEIF_TRY(look_at_start(s, form));
+  s->engine = stf_engine_find(spec->name);
+  STEIF_TRY(stf_look_at_mass(s, &form, y, yp));
+  if (automatic || !s->engine) STEIF_TRY(stf_look_at_start(s, form));
   if (automatic)
     s->chosen = method = stf_choose(s->problem, &s->options, form, s->method, sizeof s->method);
   STEIF_TRY(steif_spec_parse(s->ctx, method, spec));
   s->engine = stf_engine_find(spec->name);
   STEIF_TRY(s->engine ? open_engine(s, form, spec, y, yp) : open_step(s, form, spec, y, yp));
-  STEIF_TRY(stf_constant_matrices(s->ctx, s->problem, form, s->t1, y, s->spec));
+  if (form == STEIF_DESCRIPTOR)
+    STEIF_TRY(stf_constant_matrices(s->ctx, s->problem, form, s->t1, y, s->spec));
   if (s->engine) STEIF_TRY(check_ewt(s, y));
   if (s->engine && s->options.h > 0 && !s->options.mesh) STEIF_TRY(constant_steps(s));
   STEIF_TRY(stf_run_begin(s));

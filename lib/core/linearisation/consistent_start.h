@@ -7,14 +7,25 @@
 #include "pryce.h"
 #include "sparse_view.h"
 
+/* Node distances of derivatives along curves, which are dear to choose, for points of one run: they serve while the
+ * time scales of the problem stay as they were, and not for ever. */
+enum { STF_NODE_STAGES = 8, STF_NODE_ORDERS = 8 };
+typedef struct stf_start_nodes {
+  int uses; /* 0: nothing is known */
+  sunrealtype slowest, fastest;
+  bool known[STF_NODE_STAGES];
+  sunrealtype delta[STF_NODE_STAGES][STF_NODE_ORDERS];
+} stf_start_nodes;
+
 /* One search. */
 typedef struct stf_start_task {
   stf_point *point;
   const steif_request *request;
   steif_start *start;
   const stf_view *view;
-  sunrealtype *scale; /* n: size of the terms of each equation */
-  int most;           /* iterations of a stage */
+  sunrealtype *scale;     /* n: size of the terms of each equation */
+  int most;               /* iterations of a stage */
+  stf_start_nodes *nodes; /* NULL: they are chosen in every iteration */
 } stf_start_task;
 
 /* The lists of *start, from a pool of its own. */

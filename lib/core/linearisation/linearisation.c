@@ -5,6 +5,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "linearisation.h"
+#include "varying_mass.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -65,6 +66,23 @@ static int put_point(stf_point *s, const steif_point *q, int form)
 
 static void destroy_vector(void *v) { N_VDestroy(v); }
 
+/* M(t, y) y' = f(t, y) is looked at as F(t, y, y') = 0. */
+static int lower(stf_point *s, int *form)
+{
+  const steif_problem *p;
+  steif_problem *copy;
+  int variation = STF_CONSTANT;
+  if (*form == STEIF_MASS)
+    STEIF_TRY(stf_mass_variation(s->ctx, &s->problem, s->problem.t1, s->y, &variation));
+  if (variation == STF_CONSTANT) return STEIF_OK;
+  if (!(copy = stf_pool_array(s->pool, 1, sizeof *copy))) return STEIF_NO_MEMORY;
+  *copy = s->problem;
+  STEIF_TRY(stf_mass_lower(s->pool, s->ctx, copy, variation, s->y, &p));
+  s->problem = *p;
+  *form = STEIF_IMPLICIT;
+  return STEIF_OK;
+}
+
 static int open(stf_point *s, const steif_point *q, int form)
 {
   const steif_problem *p = &s->problem;
@@ -78,6 +96,7 @@ static int open(stf_point *s, const steif_point *q, int form)
     return STEIF_NO_MEMORY;
   STEIF_TRY(claim(s));
   STEIF_TRY(put_point(s, q, form));
+  STEIF_TRY(lower(s, &form));
   s->analytic = form == STEIF_IMPLICIT ? p->idajac || (p->E && p->A)
                                        : form == STEIF_DESCRIPTOR || p->A || p->jac;
   STEIF_TRY(stf_system_open(s->pool, s->ctx, p, form, p->storage, s->floor[0], s->floor, s->y,

@@ -78,6 +78,45 @@ static void fill_sparse(const stf_stage *w, SUNMatrix J)
   SM_INDEXPTRS_S(J)[w->columns] = used;
 }
 
+static int place_of(const stf_stage *w)
+{
+  const int place = w->deepest + w->stage;
+  return place >= 0 && place < STF_NODE_STAGES && w->derivatives.order < STF_NODE_ORDERS ? place
+                                                                                         : -1;
+}
+
+static void remember(const stf_stage *w)
+{
+  stf_start_nodes *nodes = w->task->nodes;
+  const int place = nodes ? place_of(w) : -1;
+  if (place < 0) return;
+  nodes->known[place] = true;
+  memcpy(nodes->delta[place], w->derivatives.delta,
+         ((size_t)w->derivatives.order + 1) * sizeof *w->derivatives.delta);
+}
+
+static bool remembered(stf_stage *w)
+{
+  const stf_start_nodes *nodes = w->task->nodes;
+  const int place = place_of(w);
+  if (place < 0 || !nodes->known[place]) return false;
+  memcpy(w->derivatives.delta, nodes->delta[place],
+         ((size_t)w->derivatives.order + 1) * sizeof *w->derivatives.delta);
+  return true;
+}
+
+/* Are the nodes of earlier points good enough for this one? */
+static void look_at_nodes(stf_start_nodes *nodes, sunrealtype slow, sunrealtype fast)
+{
+  enum { USES = 16 };
+  const sunrealtype apart = 1.5;
+  const bool near = slow <= apart * nodes->slowest && nodes->slowest <= apart * slow &&
+                    fast <= apart * nodes->fastest && nodes->fastest <= apart * fast;
+  if (nodes->uses == 0 || nodes->uses >= USES || !near)
+    *nodes = (stf_start_nodes){.slowest = slow, .fastest = fast};
+  nodes->uses++;
+}
+
 /* Nodes serve the curves near to that they were chosen for: large systems spare the search for others. */
 static int jacobian(void *data, stf_nearest_point *m)
 {
@@ -87,9 +126,11 @@ static int jacobian(void *data, stf_nearest_point *m)
   put(w, m->z);
   STEIF_TRY(stf_view_take(point, w->curve.t, w->u, w->u + w->n, &w->view));
   rescale(w);
-  if (!m->sparse || w->chosen < SEARCHES)
+  if (w->task->nodes ? w->chosen == 0 && !remembered(w) : !m->sparse || w->chosen < SEARCHES) {
     STEIF_TRY(
       stf_total_derivatives_choose(&w->derivatives, &w->curve, w->task->scale, w->order));
+    remember(w);
+  }
   w->chosen++;
   if (!m->sparse)
     fill_dense(w, m->J);
@@ -192,6 +233,7 @@ static int all(stf_stage *w, stf_pool *pool, int c, int d)
   stf_point *point = w->task->point;
   sunrealtype slow, fast;
   stf_view_rates(point, w->task->view, &slow, &fast);
+  if (w->task->nodes) look_at_nodes(w->task->nodes, slow, fast);
   STEIF_TRY(claim(pool, w));
   memcpy(w->u, point->y0, w->n * sizeof *w->u);
   memcpy(w->u + w->n, point->yp0, w->n * sizeof *w->u);

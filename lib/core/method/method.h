@@ -20,11 +20,13 @@ typedef struct stf_step stf_step;
 enum stf_rest { STF_REST_SHORTER, STF_REST_ACROSS, STF_REST_NONE };
 
 enum stf_trait {
-  STF_ADAPTIVE = 1,    /* fills s->error */
-  STF_MULTISTEP = 2,   /* keeps history: steps given at open */
-  STF_EXPLICIT = 4,    /* needs neither matrices nor, for given steps, weights */
-  STF_SEMILINEAR = 8,  /* the matrix is the constant linear part of a semilinear problem */
-  STF_UNCORRECTED = 16 /* nothing corrects the rounding of its linear solves */
+  STF_ADAPTIVE = 1,     /* fills s->error */
+  STF_MULTISTEP = 2,    /* keeps history: steps given at open */
+  STF_EXPLICIT = 4,     /* needs neither matrices nor, for given steps, weights */
+  STF_SEMILINEAR = 8,   /* the matrix is the constant linear part of a semilinear problem */
+  STF_UNCORRECTED = 16, /* nothing corrects the rounding of its linear solves */
+  STF_VARYING_MASS =
+    32 /* takes M(t, y) y' = f(t, y) although it does not take F(t, y, y') = 0 */
 };
 
 /* Where a family takes its coefficients from: the tables of one kind. Its specs are PREFIX:TABLE, or TABLE
@@ -261,6 +263,11 @@ int stf_check_index(const stf_step *s, const char *name);
 bool stf_interleaved_serves(const stf_step *s);
 extern const steif_method steif_method_irk_interleaved;
 extern const steif_method steif_method_bdf_adaptive;
+/* Of Rosenbrock methods, with y' as an unknown of its own. */
+extern const steif_method steif_method_rosenbrock_slopes;
+struct stf_rodas;
+int stf_rodas_inside(const stf_step *s, const struct stf_rodas *r, sunrealtype t,
+                     N_Vector before, N_Vector *u, N_Vector y);
 /* Collocation, which starting procedures use. */
 extern const steif_method steif_method_irk;
 

@@ -82,6 +82,8 @@ void stf_system_add_entries(const stf_system *system, sunrealtype (*weight)(void
  * tells whether yp can be relied on. */
 int stf_system_start(steif_context *ctx, const steif_problem *problem, int form,
                      const stf_space *space, N_Vector y, N_Vector yp, bool *known);
+/* Without a call of f, F or g, and unchecked; yp stays where it is not given. */
+int stf_start_values(steif_context *ctx, const steif_problem *problem, N_Vector y, N_Vector yp);
 
 /* system_image.c: E and A; these, the point they were made at, factors and counts. */
 void stf_matrices_keep(stf_system *system, stf_image *m);
@@ -89,11 +91,6 @@ void stf_system_keep(stf_system *system, stf_image *m);
 
 /* STEIF_BAD_INPUT where problem.index declares less than E and A at the start show. */
 int stf_index_check(stf_system *system);
-
-/* constant_matrices.c: STEIF_UNSUPPORTED, in the name of `who`, where E of the mass form, or E or A of the
- * descriptor form, is another one at other times up to t1 or other states than y, that of the start. */
-int stf_constant_matrices(steif_context *ctx, const steif_problem *problem, int form,
-                          sunrealtype t1, N_Vector y, const char *who);
 
 /* Is the problem complete for this kind of storage? */
 int stf_storage_check(steif_context *ctx, const steif_problem *problem,

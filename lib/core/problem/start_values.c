@@ -23,7 +23,7 @@ const char *stf_equation(const steif_problem *p, sunindextype i, char *room)
   return name(p->names ? p->names->equation : NULL, 'e', i, room);
 }
 
-static int start_values(steif_context *ctx, const steif_problem *p, N_Vector y, N_Vector yp)
+int stf_start_values(steif_context *ctx, const steif_problem *p, N_Vector y, N_Vector yp)
 {
   if (p->start) {
     const int returned = p->start(p->t0, y, yp, p->user);
@@ -88,7 +88,7 @@ static int first_call(steif_context *ctx, const steif_problem *p, int form, bool
 int stf_system_start(steif_context *ctx, const steif_problem *p, int form,
                      const stf_space *space, N_Vector y, N_Vector yp, bool *known)
 {
-  STEIF_TRY(start_values(ctx, p, y, yp));
+  STEIF_TRY(stf_start_values(ctx, p, y, yp));
   STEIF_CHECK(stf_finite(space, y), ctx, STEIF_NOT_FINITE,
               "start value %lld of problem '%s' is not finite", (long long)stf_not_finite(y),
               p->name);

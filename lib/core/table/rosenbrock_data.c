@@ -4,6 +4,7 @@
  * Steinebach, BIT 63 (2023).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "rosenbrock_data.h"
+#include <string.h>
 
 /* Inside the step: d solves the conditions of order 3 as functions of x, those of algebraic components
  * b omega alpha^2 = x^2 and, but for rodas4, b omega alpha^3 = x^3 and b omega (alpha A beta) = x^3/2
@@ -166,3 +167,10 @@ const stf_rodas stf_rodas_tables[] = {
    5, 0.21193756319429014, rodas5p_alpha, rodas5p_gamma, rodas5p_a, rodas5p_c, rodas5p_d},
 };
 const size_t stf_rodas_count = sizeof stf_rodas_tables / sizeof *stf_rodas_tables;
+
+const stf_rodas *stf_rodas_find(const char *name)
+{
+  for (size_t i = 0; i < stf_rodas_count; i++)
+    if (!strcmp(stf_rodas_tables[i].name, name)) return stf_rodas_tables + i;
+  return NULL;
+}

@@ -23,5 +23,7 @@ typedef struct stf_rodas {
 } stf_rodas;
 extern const stf_rodas stf_rodas_tables[];
 extern const size_t stf_rodas_count;
+/* NULL: there is none of that name. */
+const stf_rodas *stf_rodas_find(const char *name);
 
 #endif

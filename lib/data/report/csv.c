@@ -4,7 +4,7 @@
 #include "report.h"
 #include <string.h>
 
-static void quoted(FILE *stream, const char *text)
+void stf_report_quoted(FILE *stream, const char *text)
 {
   if (!strpbrk(text, ",\"\r\n")) {
     fputs(text, stream);
@@ -27,7 +27,7 @@ static void scalar(FILE *stream, const json_t *value)
   } else if (json_is_integer(value)) {
     fprintf(stream, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
   } else if (json_is_string(value)) {
-    quoted(stream, json_string_value(value));
+    stf_report_quoted(stream, json_string_value(value));
   } else if (json_is_boolean(value)) {
     fputs(json_is_true(value) ? "true" : "false", stream);
   }
@@ -91,7 +91,7 @@ static void header(FILE *stream, json_t *columns)
     const json_int_t count = json_integer_value(width);
     if (count == 0) {
       fputs(comma, stream);
-      quoted(stream, key);
+      stf_report_quoted(stream, key);
       comma = ",";
     }
     for (json_int_t i = 1; i <= count; i++) {

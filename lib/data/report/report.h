@@ -28,6 +28,8 @@ bool stf_report_is_number(const json_t *value);
 void stf_report_number(char *out, size_t size, char conversion, int precision, double value);
 /* One value as a person reads it: about six digits, exact values with more; lists shortened. */
 void stf_report_cell(char *out, size_t size, const char *key, const json_t *value);
+/* A text as a cell of comma-separated values. */
+void stf_report_quoted(FILE *stream, const char *text);
 /* Characters (not bytes) of UTF-8. */
 size_t stf_report_width(const char *text);
 

@@ -24,16 +24,27 @@ static void negate(SUNMatrix M)
   for (sunindextype i = 0; i < count; i++) x[i] = -x[i];
 }
 
+/* To = M, which may be sparse where `to`, full of zeros, is dense. */
+static int copy(SUNMatrix M, SUNMatrix to)
+{
+  if (sparse(M) == sparse(to)) return SUNMatCopy(M, to) ? -1 : 0;
+  if (sparse(to)) return -1;
+  for (sunindextype j = 0; j < order(M); j++)
+    for (sunindextype k = SM_INDEXPTRS_S(M)[j]; k < SM_INDEXPTRS_S(M)[j + 1]; k++)
+      SM_ELEMENT_D(to, SM_INDEXVALS_S(M)[k], j) += SM_DATA_S(M)[k];
+  return 0;
+}
+
 static int fill_E(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
 {
   (void)t, (void)y, (void)yp;
-  return SUNMatCopy(((const steif_linear *)user)->E, E) ? -1 : 0;
+  return copy(((const steif_linear *)user)->E, E);
 }
 
 static int fill_A(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix A, void *user)
 {
   (void)t, (void)y, (void)yp;
-  if (SUNMatCopy(((const steif_linear *)user)->F, A)) return -1;
+  if (copy(((const steif_linear *)user)->F, A)) return -1;
   negate(A);
   return 0;
 }
@@ -49,13 +60,9 @@ int steif_linear_problem(steif_context *ctx, const steif_linear *l, const sunrea
 {
   STEIF_CHECK(l && l->E && l->F && x0 && p, ctx, STEIF_BAD_INPUT,
               "E, F, start values and a problem are needed, one is NULL");
-  const bool same = order(l->E) == order(l->F) && sparse(l->E) == sparse(l->F);
-  STEIF_CHECK(
-    same, ctx, STEIF_BAD_INPUT,
-    "E and F must have one size and one storage: E has %lld rows and is %s, F has %lld "
-    "and is %s",
-    (long long)order(l->E), sparse(l->E) ? "sparse" : "dense", (long long)order(l->F),
-    sparse(l->F) ? "sparse" : "dense");
+  STEIF_CHECK(order(l->E) == order(l->F), ctx, STEIF_BAD_INPUT,
+              "E and F must have one size: E has %lld rows, F has %lld", (long long)order(l->E),
+              (long long)order(l->F));
   *p = (steif_problem){.name = "E x' + F x = f",
                        .n = order(l->E),
                        .t0 = t0,
@@ -65,7 +72,7 @@ int steif_linear_problem(steif_context *ctx, const steif_linear *l, const sunrea
                        .A = fill_A,
                        .g = l->f ? forcing : NULL,
                        .user = (void *)l,
-                       .storage = sparse(l->E) ? STEIF_SPARSE : STEIF_DENSE,
+                       .storage = sparse(l->E) && sparse(l->F) ? STEIF_SPARSE : STEIF_DENSE,
                        .nnz = entries(l->F) + 1,
                        .nnz_E = entries(l->E) + 1,
                        .dae_index = -1,

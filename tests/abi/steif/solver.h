@@ -104,7 +104,10 @@ typedef struct steif_options {
   const int *active;          /* numbers from 0; NULL: all */
   int untested_sensitivities; /* 1: their errors do not decide on steps */
   int test_quadratures;       /* 1: the errors of problem.quadrature do (quadrature.h) */
-  void *reserved[13];         /* 0, as in steif_problem */
+  int
+    recompute; /* 1: steif_solve_to shows unknowns of index 2 and 3 recomputed (steif_recomputed) */
+  int reserved_int;
+  void *reserved[12]; /* 0, as in steif_problem */
 } steif_options;
 
 /* What a run has cost. nli: iterations of GMRES, and then nlu is how often a preconditioner was made.
@@ -189,6 +192,18 @@ STEIF_EXPORT int steif_drift_now(steif_solver *s, int *count, sunrealtype *drift
  * of steif_consistent (consistent.h); a diagnosis, and some thousand evaluations. */
 STEIF_EXPORT int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift,
                                  sunrealtype *corrected);
+
+/* The same without the diagnosis, at a tenth of its cost, is done with what steif_output shows, and with
+ * options.recompute steif_solve_to (the program asks for both): of nonlinear DAEs of index 2 and 3 with at most
+ * STEIF_DIAGNOSE_LARGEST unknowns and a regular structure, by steif's own methods with adaptive steps. Some hundred
+ * evaluations and decompositions of matrices of order n a point. Steps, observers and steif_dense have y as the
+ * method has it. *drift and *corrected are those of the solution last shown; *corrected is how far the method was off in
+ * unknowns of index 2 and 3. NaN: nothing was recomputed, or components of index 1 would have moved by more than
+ * 10 tolerances. */
+STEIF_EXPORT int steif_recomputed(const steif_solver *s, sunrealtype *drift,
+                                  sunrealtype *corrected);
+/* The solution shown, or steif_dense, with unknowns of index 2 and 3 recomputed. */
+STEIF_EXPORT int steif_output(steif_solver *s, sunrealtype t, N_Vector y);
 
 /* Stage values of the last step of a Runge-Kutta method: vectors X_i at t_n + c_i h with quadrature
  * weights b_i (b = NULL: a general linear method, which has none); *count = 0 for methods without

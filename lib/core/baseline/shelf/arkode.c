@@ -81,8 +81,9 @@ static int verdict(arkode *s, int flag)
 static int mass(sunrealtype t, SUNMatrix M, void *user, N_Vector tmp1, N_Vector tmp2,
                 N_Vector tmp3)
 {
-  (void)t, (void)tmp1, (void)tmp2, (void)tmp3;
+  (void)tmp1, (void)tmp2, (void)tmp3;
   stf_baseline *b = user;
+  if (b->run->mass_of_time && stf_fill_mass(b, t)) return -1;
   if (b->storage == STEIF_SPARSE) return SUNMatCopy(b->E, M);
   stf_matrix_add(M, 1, b->E);
   return 0;
@@ -160,7 +161,7 @@ static int attach(arkode *s)
   if (b->preconditioned)
     STF_CALL(flag, ARK(SetPreconditioner)(m, stf_baseline_precsetup, stf_baseline_precsolve));
   if (s->M) {
-    STF_CALL(flag, ARK(SetMassLinearSolver)(m, s->mass_solver, s->M, 0));
+    STF_CALL(flag, ARK(SetMassLinearSolver)(m, s->mass_solver, s->M, b->run->mass_of_time));
     STF_CALL(flag, ARK(SetMassFn)(m, mass));
   }
   return flag;
@@ -320,4 +321,5 @@ const steif_engine steif_engine_arkode = {
   .dense = dense,
   .renew = stf_baseline_renewed,
   .close = close,
+  .mass_of_time = true,
 };

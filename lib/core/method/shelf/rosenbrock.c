@@ -5,7 +5,6 @@
 #include "method.h"
 #include <complex.h>
 #include <math.h>
-#include <string.h>
 
 typedef struct state {
   const stf_rodas *r;
@@ -17,13 +16,6 @@ typedef struct state {
   stf_rosenbrock kernel;
   sunrealtype h_factored;
 } state;
-
-static const stf_rodas *find(const char *name)
-{
-  for (size_t i = 0; i < stf_rodas_count; i++)
-    if (!strcmp(stf_rodas_tables[i].name, name)) return stf_rodas_tables + i;
-  return NULL;
-}
 
 /* Serial vectors and dense matrices of few unknowns. */
 static bool serves(const stf_step *s)
@@ -37,7 +29,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   (void)table;
   state *e = s->state;
   stf_transform transform;
-  e->r = find(spec->name);
+  e->r = stf_rodas_find(spec->name);
   STEIF_TRY(stf_check_index(s, spec->name));
   STEIF_TRY(stf_transform_single(s->pool, 1 / e->r->g, &transform));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &transform, s->weights, &s->newton));
@@ -187,18 +179,23 @@ static void commit(stf_step *s)
 }
 
 /* (1 - x) y_n + x y_{n+1} + x (1 - x) sum (d_i + x d_{s+i}) u_i. */
+int stf_rodas_inside(const stf_step *s, const stf_rodas *r, sunrealtype t, N_Vector before,
+                     N_Vector *u, N_Vector y)
+{
+  const stf_space *space = &s->system.space;
+  const sunrealtype x = (t - (s->t - s->h)) / s->h;
+  sunrealtype c[STF_RODAS_STAGES];
+  for (int i = 0; i < r->s; i++) c[i] = x * (1 - x) * (r->d[i] + x * r->d[r->s + i]);
+  stf_combine(space, r->s, c, u, y);
+  stf_axpy(space, 1 - x, before, y);
+  stf_axpy(space, x, s->y, y);
+  return STEIF_OK;
+}
+
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
   const state *e = s->state;
-  const stf_space *space = &s->system.space;
-  const sunrealtype x = (t - (s->t - s->h)) / s->h, *d = e->r->d;
-  sunrealtype c[STF_RODAS_STAGES];
-  const int count = e->r->s;
-  for (int i = 0; i < count; i++) c[i] = x * (1 - x) * (d[i] + x * d[count + i]);
-  stf_combine(space, count, c, e->old, y);
-  stf_axpy(space, 1 - x, e->before, y);
-  stf_axpy(space, x, s->y, y);
-  return STEIF_OK;
+  return stf_rodas_inside(s, e->r, t, e->before, (N_Vector *)(uintptr_t)e->old, y);
 }
 
 static void keep(stf_step *s, stf_image *m)
@@ -217,7 +214,7 @@ static int propagator(steif_context *ctx, const steif_spec *spec, const steif_ta
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
   (void)table;
-  const stf_rodas *t = find(spec->name);
+  const stf_rodas *t = stf_rodas_find(spec->name);
   const double complex zeta = z[0] + z[1] * I, pivot = 1 / t->g - zeta;
   double complex u[STF_RODAS_STAGES], Y = 1;
   sunrealtype R[2] = {0, 0};
@@ -246,14 +243,19 @@ static int describe(steif_context *ctx, const steif_spec *spec, const steif_tabl
 {
   (void)table;
   STEIF_TRY(stf_spec_only(ctx, spec, (const char *const[]){NULL}));
-  const stf_rodas *r = find(spec->name);
+  const stf_rodas *r = stf_rodas_find(spec->name);
   info->family = "rosenbrock", info->about = r->about;
   info->order = r->order, info->stages = r->s, info->adaptive = 1;
   info->claims = STEIF_A_STABLE | STEIF_L_STABLE;
   return STEIF_OK;
 }
 
-static bool owns(const char *name) { return find(name); }
+static bool owns(const char *name) { return stf_rodas_find(name); }
+
+static const steif_method *variant(const stf_step *s)
+{
+  return s->system.form == STEIF_IMPLICIT ? &steif_method_rosenbrock_slopes : NULL;
+}
 
 static stf_example example(size_t i)
 {
@@ -263,8 +265,9 @@ static stf_example example(size_t i)
 const steif_method steif_method_rosenbrock = {
   .about = "Rosenbrock methods of Rodas type",
   .forms = STEIF_ODE | STEIF_MASS,
-  .traits = STF_ADAPTIVE | STF_UNCORRECTED,
+  .traits = STF_ADAPTIVE | STF_UNCORRECTED | STF_VARYING_MASS,
   .owns = owns,
+  .variant = variant,
   .example = example,
   .size = sizeof(state),
   .open = open,

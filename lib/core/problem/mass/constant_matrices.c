@@ -1,7 +1,7 @@
-/* constant_matrices.c: are the matrices of the forms M y' = f(t, y) and E x' = A x + g(t) constant, as every
- * method takes them? They are filled again at other times and states and compared.
+/* constant_matrices.c: are the matrices of the forms M y' = f(t, y) and E x' = A x + g(t) constant? They are
+ * filled again at other times and states and compared.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "problem.h"
+#include "varying_mass.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -24,6 +24,7 @@ typedef struct look {
   const char *who;
   sunrealtype t1;
   N_Vector y, yp, moved;
+  int *variation; /* where it is only noted */
 } look;
 
 static sunrealtype time_of(const look *l, const struct place *at)
@@ -45,14 +46,21 @@ static int refuse(const look *l, char which, const char *place, sunrealtype a, s
   const steif_problem *p = l->problem;
   const sunrealtype t = time_of(l, at);
   const bool product = place[0] == 0;
+  char remedy[160];
+  snprintf(remedy, sizeof remedy,
+           p->f ? "%s does not take that; radau, bdf, dirk and ida do"
+                : "%s takes constant matrices in this form; state E x' - A x - g(t) as .F, "
+                  "which radau, bdf, dirk and ida take",
+           l->who);
+  if (l->variation) {
+    *l->variation |= at->part > 0 ? STF_OF_TIME : STF_OF_STATE;
+    return STEIF_OK;
+  }
   return STEIF_FAIL(
     l->ctx, STEIF_UNSUPPORTED,
-    "%c%s of problem '%s' is %.9g%s at the start, t = %.6g, and %.9g at t = %.6g%s: %s takes "
-    "constant matrices in this form; state %s as .F with .E as it is, which radau, bdf, dirk "
-    "and ida take",
-    which, place, p->name, a, product ? " in size" : "", p->t0, b, t,
-    at->part > 0 ? "" : " for another state", l->who,
-    p->f ? "E y' - f(t, y)" : "E x' - A x - g(t)");
+    "%c%s of problem '%s' is %.9g%s at the start, t = %.6g, and %.9g at t = %.6g%s: %s", which,
+    place, p->name, a, product ? " in size" : "", p->t0, b, t,
+    at->part > 0 ? "" : " for another state", remedy);
 }
 
 /* -- matrices -------------------------------------------------------------------------------- */
@@ -195,18 +203,31 @@ static int look_at(look *l, char which, stf_pool *pool)
   return look_at_product(l, which, x[0], x[1], x[2]);
 }
 
+static int look_at_all(look *l, int form)
+{
+  stf_pool *pool = stf_pool_new(l->ctx);
+  if (!pool) return STEIF_NO_MEMORY;
+  l->yp = stf_pool_vector(pool, l->y), l->moved = stf_pool_vector(pool, l->y);
+  int code = l->yp && l->moved ? STEIF_OK : STEIF_NO_MEMORY;
+  if (!code) N_VConst(0, l->yp);
+  if (!code) code = look_at(l, 'E', pool);
+  if (!code && form == STEIF_DESCRIPTOR) code = look_at(l, 'A', pool);
+  stf_pool_free(&pool);
+  return code;
+}
+
 int stf_constant_matrices(steif_context *ctx, const steif_problem *problem, int form,
                           sunrealtype t1, N_Vector y, const char *who)
 {
   if (form != STEIF_MASS && form != STEIF_DESCRIPTOR) return STEIF_OK;
-  stf_pool *pool = stf_pool_new(ctx);
-  if (!pool) return STEIF_NO_MEMORY;
   look l = {.ctx = ctx, .problem = problem, .who = who, .t1 = t1, .y = y};
-  l.yp = stf_pool_vector(pool, y), l.moved = stf_pool_vector(pool, y);
-  int code = l.yp && l.moved ? STEIF_OK : STEIF_NO_MEMORY;
-  if (!code) N_VConst(0, l.yp);
-  if (!code) code = look_at(&l, 'E', pool);
-  if (!code && form == STEIF_DESCRIPTOR) code = look_at(&l, 'A', pool);
-  stf_pool_free(&pool);
-  return code;
+  return look_at_all(&l, form);
+}
+
+int stf_mass_variation(steif_context *ctx, const steif_problem *problem, sunrealtype t1,
+                       N_Vector y, int *variation)
+{
+  look l = {.ctx = ctx, .problem = problem, .t1 = t1, .y = y, .variation = variation};
+  *variation = STF_CONSTANT;
+  return look_at_all(&l, STEIF_MASS);
 }

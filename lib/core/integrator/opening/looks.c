@@ -1,0 +1,47 @@
+/* looks.c: what is looked at before a method is opened: whether the mass matrix varies, and the start of a DAE.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "integrator.h"
+#include "varying_mass.h"
+
+int stf_look_at_mass(steif_solver *s, int *form, N_Vector y, N_Vector yp)
+{
+  const steif_problem *p = s->problem;
+  const steif_engine *engine = s->engine;
+  int variation;
+  if (*form != STEIF_MASS) return STEIF_OK;
+  STEIF_TRY(stf_start_values(s->ctx, p, y, yp));
+  STEIF_TRY(stf_mass_variation(s->ctx, p, s->t1, y, &variation));
+  if (variation == STF_CONSTANT) return STEIF_OK;
+  if (engine && !(engine->forms & STEIF_IMPLICIT)) {
+    s->mass_of_time = engine->mass_of_time && !(variation & STF_OF_STATE);
+    return s->mass_of_time ? STEIF_OK
+                           : stf_constant_matrices(s->ctx, p, *form, s->t1, y, s->spec);
+  }
+  STEIF_TRY(stf_mass_lower(s->pool, s->ctx, p, variation, y, &s->problem));
+  s->lowered = s->problem;
+  *form = STEIF_IMPLICIT;
+  return STEIF_OK;
+}
+
+/* The start of a DAE, for methods of ours with adaptive steps; linear systems have their jump. */
+int stf_look_at_start(steif_solver *s, int form)
+{
+  const steif_options *o = &s->options;
+  const steif_problem *p = s->problem;
+  const bool dae = form == STEIF_MASS || form == STEIF_IMPLICIT;
+  const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
+  if (!dae || o->initial == STEIF_AS_GIVEN || o->h > 0 || o->mesh || o->like || p->start ||
+      storage == STEIF_KRYLOV || p->storage == STEIF_KRYLOV)
+    return STEIF_OK;
+  s->repair = (stf_repair){.ctx = s->ctx,
+                           .pool = s->pool,
+                           .given = p,
+                           .policy = o->initial,
+                           .attribute = o->attributes,
+                           .rtol = o->rtol,
+                           .atol = o->atol,
+                           .atols = o->atols};
+  STEIF_TRY(stf_repair_start(&s->repair));
+  s->problem = &s->repair.problem;
+  return STEIF_OK;
+}

@@ -1,0 +1,105 @@
+/* recomputed.c: the solution shown, put on all constraints: positions and velocities move least, and unknowns of
+ * index 2 and 3 are computed from them instead of from stages, which have lower orders for them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "array_start.h"
+#include "integrator.h"
+#include <math.h>
+#include <string.h>
+
+/* Components of index 1 that would move by more tolerances than this: the point is another one. */
+static const sunrealtype furthest = 10;
+
+/* What y_j may err by. */
+static sunrealtype tolerance(const steif_solver *s, const sunrealtype *y, size_t j)
+{
+  const steif_options *o = &s->options;
+  return o->rtol * fabs(y[j]) + (o->atols ? o->atols[j] : o->atol);
+}
+
+static void measure(const steif_solver *s, const sunrealtype *y, const steif_start *start,
+                    sunrealtype *drift, sunrealtype *corrected)
+{
+  const int *index = s->problem->index;
+  sunrealtype most[2] = {0, 0};
+  for (size_t j = 0; j < (size_t)s->problem->n; j++) {
+    const bool high = index && index[j] > 1;
+    most[high] = fmax(most[high], fabs(start->moved[j]) / tolerance(s, y, j));
+  }
+  if (drift) *drift = most[0];
+  if (corrected) *corrected = most[1];
+}
+
+int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift, sunrealtype *corrected)
+{
+  if (!s) return STEIF_BAD_INPUT;
+  const size_t n = (size_t)s->problem->n;
+  STEIF_CHECK(y && N_VGetArrayPointer(y) && N_VGetLength(y) == s->problem->n &&
+                N_VGetArrayPointer(s->shown),
+              s->ctx, STEIF_BAD_INPUT, "a vector of %zu components with a host array is needed",
+              n);
+  steif_start start;
+  const steif_point at = {.y = N_VGetArrayPointer(s->shown), .t = s->t_shown};
+  STEIF_TRY(stf_start_project(s->ctx, s->problem, &at, &start));
+  measure(s, at.y, &start, drift, corrected);
+  memcpy(N_VGetArrayPointer(y), start.y, n * sizeof *start.y);
+  steif_start_clear(&start);
+  return STEIF_OK;
+}
+
+bool stf_recomputes(const steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  return !s->engine && s->step.adaptive && s->step.count > 0 && p->index && p->dae_index > 1 &&
+         p->dae_index <= 3 && p->n <= STEIF_DIAGNOSE_LARGEST && !p->linear &&
+         s->step.system.form != STEIF_DESCRIPTOR && s->step.system.space.serial &&
+         s->step.system.storage != STEIF_KRYLOV && !s->step.system.krylov;
+}
+
+/* y at t as the method has it moves where it belongs, or stays where that cannot be told. */
+static int put_in_place(steif_solver *s, sunrealtype t, N_Vector y)
+{
+  steif_start start;
+  const steif_point at = {.y = N_VGetArrayPointer(y), .t = t};
+  const bool before = stf_silence(s->ctx, true);
+  const int code = stf_start_beside(s->ctx, s->problem, &at, &s->nodes, &start);
+  stf_silence(s->ctx, before);
+  if (code == STEIF_NO_MEMORY) return code;
+  sunrealtype drift, corrected;
+  if (!code) measure(s, at.y, &start, &drift, &corrected);
+  if (!code && drift <= furthest) {
+    memcpy(N_VGetArrayPointer(y), start.y, (size_t)s->problem->n * sizeof *start.y);
+    s->drift = drift, s->corrected = corrected;
+  }
+  steif_start_clear(&start);
+  if (code) steif_forget(s->ctx);
+  return STEIF_OK;
+}
+
+int stf_recompute_shown(steif_solver *s)
+{
+  s->drift = s->corrected = NAN;
+  if (!s->options.recompute || !stf_recomputes(s)) return STEIF_OK;
+  if (s->shown != s->dense) N_VScale(1, s->shown, s->dense);
+  STEIF_TRY(put_in_place(s, s->t_shown, s->dense));
+  s->shown = s->dense;
+  return STEIF_OK;
+}
+
+int steif_output(steif_solver *s, sunrealtype t, N_Vector y)
+{
+  if (!s) return STEIF_BAD_INPUT;
+  if (t == s->t_shown)
+    N_VScale(1, s->shown, y);
+  else
+    STEIF_TRY(steif_dense(s, t, y));
+  s->drift = s->corrected = NAN;
+  return stf_recomputes(s) ? put_in_place(s, t, y) : STEIF_OK;
+}
+
+int steif_recomputed(const steif_solver *s, sunrealtype *drift, sunrealtype *corrected)
+{
+  if (!s) return STEIF_BAD_INPUT;
+  if (drift) *drift = s->drift;
+  if (corrected) *corrected = s->corrected;
+  return STEIF_OK;
+}
