@@ -67,10 +67,11 @@ static void to_csv(trajectory *tr)
 
 /* -- times asked for, on the terminal ---------------------------------------------------------- */
 
-static void list(const double *x, size_t count)
+static void list(const double *x, size_t count, int digits)
 {
   enum { SHOWN = 12 };
-  for (size_t j = 0; j < count && j < SHOWN; j++) printf("%s%.12g", j ? " " : "  ", x[j]);
+  for (size_t j = 0; j < count && j < SHOWN; j++)
+    printf("%s%.*g", j ? " " : "  ", digits, x[j]);
   if (count > SHOWN) printf(" ... (%zu)", count);
 }
 
@@ -92,8 +93,8 @@ static void to_terminal(trajectory *tr)
   for (; tr->shown_rows < tr->count; tr->shown_rows++) {
     const size_t i = tr->shown_rows;
     printf("%*.10g", width, tr->t[i]);
-    list(tr->y + i * tr->n, tr->n);
-    if (tr->outputs) list(tr->output + i * tr->outputs, tr->outputs);
+    list(tr->y + i * tr->n, tr->n, 12);
+    if (tr->outputs) list(tr->output + i * tr->outputs, tr->outputs, 6);
     putchar('\n');
   }
   fflush(stdout);

@@ -104,7 +104,42 @@ static void link_stays_a_link(void)
   steif_report_free(&r), steif_context_free(&ctx);
 }
 
+/* Whoever reads the file before the run is at its end, or after it was killed, has all rows so far. */
+static void rows_are_there_as_they_come(void)
+{
+  static const char *const name[] = {"t", "a,b"};
+  static const double row[3][2] = {{0, 1}, {0.1, 1e300 * 1e300}, {2, -3}};
+  static const char *const line[] = {"t,\"a,b\"\n", "0,1\n", "0.10000000000000001,inf\n",
+                                     "2,-3\n"};
+  const char *path = "rows.csv";
+  char expected[128] = "", found[128];
+  steif_context *ctx = steif_context_new(NULL);
+  steif_rows *r = steif_rows_new(ctx, path, 2, name);
+  CU_ASSERT_FATAL(r != NULL);
+  for (int k = 0; k < 4; k++) {
+    if (k) CHECK(steif_rows_add(r, row[k - 1]) == STEIF_OK);
+    strcat(expected, line[k]);
+    FILE *file = fopen(path, "r");
+    CU_ASSERT_FATAL(file != NULL);
+    found[fread(found, 1, sizeof found - 1, file)] = 0;
+    fclose(file);
+    CHECK(!strcmp(found, expected));
+  }
+  CHECK(steif_rows_close(&r) == STEIF_OK && !r);
+  remove(path);
+  CHECK(!steif_rows_new(ctx, "no_such_folder/rows.csv", 2, name));
+  CHECK(steif_status(ctx) == STEIF_IO && strstr(steif_message(ctx), "no_such_folder"));
+  CHECK(!steif_rows_new(ctx, "", 2, name) && steif_status(ctx) == STEIF_BAD_INPUT);
+  if ((r = steif_rows_new(ctx, "/dev/full", 2, name)))
+    CHECK(steif_rows_add(r, row[0]) == STEIF_IO);
+  CHECK(steif_status(ctx) == STEIF_IO);
+  steif_rows_close(&r);
+  CHECK(steif_rows_add(NULL, row[0]) == STEIF_NO_MEMORY && steif_rows_close(NULL) == STEIF_OK);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_files[] = {
+  {"rows are there as they come", rows_are_there_as_they_come},
   {"a saved file is complete and replaces the old one", saved_file_is_complete},
   {"an unwritable path leaves nothing", unwritable_path_leaves_nothing},
   {"a full disk is told, a device stays a device", full_disk_is_told},

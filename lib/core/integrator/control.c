@@ -236,7 +236,10 @@ static int attempt(steif_solver *s, sunrealtype h, int tries, sunrealtype *e)
   *e = stf_norm(&step->system.space, step->error, step->weights) / step->control.tolerance;
   if (*e <= 1 && step->carry) STEIF_TRY(carry(s, h, e));
   if (*e <= 1 && s->options.test_quadratures) STEIF_TRY(stf_quadrature_test(s, h, e));
-  return *e <= 1 && s->problem->constraint ? stf_constraint_keep(s, h, tries) : STEIF_OK;
+  if (!(*e <= 1) || !s->problem->constraint) return STEIF_OK;
+  const int code = stf_constraint_keep(s, h, tries);
+  if (code == STEIF_RETRY) stf_switching_constrained(s);
+  return code;
 }
 
 /* Estimate of the error of a run that is a success, in tolerances; and of errors that will not come back to

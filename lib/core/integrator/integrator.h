@@ -213,6 +213,8 @@ sunrealtype stf_first_step(const steif_solver *s);
  * them is to make it. */
 int stf_switching_open(steif_solver *s, const char *name);
 int stf_switching_look(steif_solver *s);
+/* A constraint has refused a step: its length is no verdict on the method. Nothing where there is no other. */
+void stf_switching_constrained(steif_solver *s);
 /* After a step that failed: dense output of the one before is asked of who made it. */
 void stf_switching_stay(steif_solver *s);
 /* Back to the implicit method, before the other one goes. */

@@ -53,6 +53,7 @@ struct stf_switching {
   double spent;       /* cost of the run up to the last look */
   steif_stats seen;   /* at the last look */
   int changes;
+  bool constrained; /* a constraint has refused or moved a step since the last look */
   N_Vector work;
 };
 
@@ -208,6 +209,21 @@ static void first_look(steif_solver *s)
   r->look = s->step.count + PERIOD;
 }
 
+void stf_switching_constrained(steif_solver *s)
+{
+  if (s->switching) s->switching->constrained = true;
+}
+
+/* Steps that constraints have made short tell neither of stiffness nor of accuracy: looks begin anew. */
+static bool unsettled(steif_solver *s)
+{
+  stf_switching *r = s->switching;
+  if (!r->constrained) return false;
+  r->constrained = false, r->h = 0;
+  first_look(s);
+  return true;
+}
+
 int stf_switching_look(steif_solver *s)
 {
   stf_switching *r = s->switching;
@@ -217,6 +233,7 @@ int stf_switching_look(steif_solver *s)
   const double span = s->t1 - step->t, h = (step->t - r->t) / window, cost = spent(s) / window;
   r->look = step->count + (3 * (step->count - r->seen_at) + 1) / 2;
   r->seen_at = step->count, r->t = step->t, r->h = h, r->spent += window * cost;
+  if (unsettled(s)) return STEIF_OK;
   if (!(before > 0)) return first_look(s), STEIF_OK;
   const double here = expected(step, r, span, window, h, before) * cost;
   double there;
@@ -256,6 +273,7 @@ void stf_switching_keep(steif_solver *s, stf_image *m)
   STF_KEEP(m, r->spent);
   STF_KEEP(m, r->seen);
   STF_KEEP(m, r->changes);
+  STF_KEEP(m, r->constrained);
 }
 
 void stf_switching_leave(steif_solver *s)
