@@ -9,6 +9,7 @@ cmake_minimum_required(VERSION 3.19)
 # The lowest room that may see a public header, where its name is not that of a room: methods read
 # the options and the statistics of solver.h, whose functions are those of the integrator.
 set(room_of_solver method)
+set(room_of_gradient checkpoint)
 set(room_of_record integrator)
 set(room_of_sensitivity integrator)
 set(room_of_quadrature integrator)

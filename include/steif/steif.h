@@ -6,6 +6,7 @@
 
 #include <steif/base.h>
 #include <steif/problem.h>
+#include <steif/gradient.h>
 #include <steif/index.h>
 #include <steif/consistent.h>
 #include <steif/initial.h>

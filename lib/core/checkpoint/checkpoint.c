@@ -144,6 +144,20 @@ steif_solver *(steif_solver_copy)(steif_solver *s, const steif_problem *problem)
   return steif_solver_copy_sized(0, s, problem);
 }
 
+steif_solver *stf_checkpoint_revive(steif_context *ctx, const steif_problem *problem,
+                                    const steif_options *options, const unsigned char *bytes,
+                                    size_t count)
+{
+  stf_opened file;
+  unsigned char *own = stf_allocate(ctx, count, 1);
+  if (!own) return NULL;
+  memcpy(own, bytes, count);
+  if (stf_checkpoint_open(ctx, "image", own, count, &file)) return NULL;
+  steif_solver *s = load(ctx, problem, 0, options, &file);
+  stf_checkpoint_close(ctx, &file);
+  return s;
+}
+
 /* -- look ------------------------------------------------------------------------------------ */
 
 typedef struct reading {

@@ -53,6 +53,11 @@ int stf_checkpoint_open(steif_context *ctx, const char *name, unsigned char *byt
                         size_t count, stf_opened *file);
 void stf_checkpoint_close(steif_context *ctx, stf_opened *file);
 
+/* A solver that goes on from such bytes, which stay the caller's; NULL with the message set. */
+steif_solver *stf_checkpoint_revive(steif_context *ctx, const steif_problem *problem,
+                                    const steif_options *options, const unsigned char *bytes,
+                                    size_t count);
+
 /* disk.c: a file as one block; and a block as a file that takes its name when it is whole. */
 int stf_disk_read(steif_context *ctx, const char *path, unsigned char **bytes, size_t *count);
 int stf_disk_write(steif_context *ctx, const char *path, const void *bytes, size_t count);

@@ -160,7 +160,8 @@ static int attempt(stf_step *s, sunrealtype h)
   if (e->k <= 2 && h < CLOCK * STF_EPS * fabs(s->t))
     s->control.tolerance = fmax(s->control.tolerance, first);
   stf_share_newton(s, rounding);
-  if (stf_bdf_halves(s)) return halves(s, h);
+  e->halved = stf_bdf_halves(s);
+  if (e->halved) return halves(s, h);
   predict(s, h);
   STEIF_TRY(solve(s, h));
   if (s->system.nje != e->omega_of) STEIF_TRY(find_oscillation(s));
@@ -351,6 +352,14 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   return open_shares(s);
 }
 
+static int trace(const stf_step *s, stf_trace *out)
+{
+  state *e = s->state;
+  *out = (stf_trace){.kind = STF_TRACE_BDF, .order = e->last, .alpha = e->alpha, .past = e->y};
+  if (e->halved) out->between = e->other;
+  return STEIF_OK;
+}
+
 const steif_method steif_method_bdf_adaptive = {
   .about = "backward differentiation formulas of variable step and order",
   .forms = STEIF_ODE | STEIF_MASS | STEIF_IMPLICIT | STEIF_DESCRIPTOR,
@@ -362,4 +371,5 @@ const steif_method steif_method_bdf_adaptive = {
   .dense = dense,
   .keep = keep,
   .carrier = &stf_bdf_carrier,
+  .trace = trace,
 };

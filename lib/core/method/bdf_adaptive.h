@@ -11,6 +11,7 @@ typedef struct stf_bdf {
   int p, k, last;   /* highest order; order of the trial; of the last step */
   int points, wait; /* valid past points; steps until the order is looked at */
   int refusals;
+  bool halved;       /* the attempt is two steps of half its length */
   sunrealtype omega; /* frequency of the fastest part if that oscillates; 0: it does not */
   long seen, since;  /* Jacobians made, and the step of the last one */
   long omega_of;     /* Jacobians made when omega was found */

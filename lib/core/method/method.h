@@ -87,6 +87,17 @@ int stf_newton_carry_apply(stf_step *s, sunrealtype h, int count, N_Vector *cons
                            N_Vector *const *other);
 int stf_newton_carry_renew(stf_step *s, sunrealtype t, sunrealtype h, N_Vector Y, N_Vector Yp);
 
+/* The step just committed, as its transpose needs it. */
+enum stf_trace_kind { STF_TRACE_COLLOCATION, STF_TRACE_CHAIN, STF_TRACE_BDF };
+typedef struct stf_trace {
+  enum stf_trace_kind kind;
+  N_Vector *Y, *Yp; /* chains of the table's stages: F(t_i, Y_i, Yp_i) = 0 */
+  int order;        /* BDF: h y'(t) = sum of alpha_j past_j over j <= order, past_0 = y ... */
+  const sunrealtype *alpha;
+  N_Vector *past;
+  N_Vector between; /* ... or two halves with this in the middle; NULL: one step */
+} stf_trace;
+
 typedef struct steif_method {
   const char *about;
   unsigned forms, traits;
@@ -122,6 +133,8 @@ typedef struct steif_method {
   /* The method as a general linear one; NULL: that of its table, or none. */
   int (*general)(steif_context *ctx, const steif_spec *spec, steif_glm *glm);
   const stf_carrier *carrier; /* NULL: derivatives by parameters are not carried */
+  /* NULL: gradients are not pulled back. Of an opened step without a past, only the kind. */
+  int (*trace)(const stf_step *s, stf_trace *trace);
 } steif_method;
 
 struct stf_step {

@@ -276,6 +276,13 @@ static void keep(stf_step *s, stf_image *m)
   STF_KEEP(m, e->J_from_stage);
 }
 
+static int trace(const stf_step *s, stf_trace *out)
+{
+  (void)s;
+  *out = (stf_trace){.kind = STF_TRACE_COLLOCATION};
+  return STEIF_OK;
+}
+
 const steif_method steif_method_irk_interleaved = {
   .about = "fully implicit Runge-Kutta, all shifts in vector lanes",
   .forms = STEIF_ODE | STEIF_MASS,
@@ -289,4 +296,5 @@ const steif_method steif_method_irk_interleaved = {
   .trial = trial,
   .keep = keep,
   .carrier = &stf_irk_interleaved_carrier,
+  .trace = trace,
 };

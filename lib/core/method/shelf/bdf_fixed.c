@@ -285,6 +285,13 @@ static const stf_carrier carrier = {.check = check_carry,
                                     .commit = stf_carry_bdf_commit,
                                     .dense = carried_dense};
 
+static int trace(const stf_step *s, stf_trace *out)
+{
+  state *e = s->state;
+  *out = (stf_trace){.kind = STF_TRACE_BDF, .order = e->last, .alpha = e->alpha, .past = e->y};
+  return check_carry(s);
+}
+
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
@@ -368,4 +375,5 @@ const steif_method steif_method_bdf_fixed = {
   .describe = describe,
   .general = general,
   .carrier = &carrier,
+  .trace = trace,
 };

@@ -260,6 +260,13 @@ static const stf_carrier carrier = {.check = check_carry,
                                     .renew = stf_newton_carry_renew,
                                     .dense = carried_dense};
 
+static int trace(const stf_step *s, stf_trace *out)
+{
+  const state *e = s->state;
+  *out = (stf_trace){.kind = STF_TRACE_CHAIN, .Y = e->chain.X, .Yp = e->old};
+  return check_carry(s);
+}
+
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
@@ -300,4 +307,5 @@ const steif_method steif_method_dirk = {
   .propagator = propagator,
   .describe = describe,
   .carrier = &carrier,
+  .trace = trace,
 };

@@ -333,6 +333,13 @@ static const stf_carrier carrier = {.size = sizes,
                                     .renew = stf_newton_carry_renew,
                                     .dense = carried_dense};
 
+static int trace(const stf_step *s, stf_trace *out)
+{
+  (void)s;
+  *out = (stf_trace){.kind = STF_TRACE_COLLOCATION};
+  return STEIF_OK;
+}
+
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
@@ -390,4 +397,5 @@ const steif_method steif_method_irk = {
   .propagator = propagator,
   .describe = describe,
   .carrier = &carrier,
+  .trace = trace,
 };

@@ -1,0 +1,99 @@
+/* steif/gradient.h: gradients of functionals of a solution by all parameters and start values, in one run backwards.
+ *
+ *     J_i(p) = G_i(y(T), p) + int_{t0}^T g_i(t, y, p) dt
+ *
+ *     steif_functional J = {.count = 1, .integrand = g};
+ *     steif_gradient a = {0};
+ *     if (!steif_gradient_find(ctx, &problem, "radau:s=3", &options, &J, &a)) use(a.value, a.dp, a.dy0);
+ *     steif_gradient_free(ctx, &a);
+ *
+ * Differentiated is the run, not the equation: J is the number that the steps of the run give, integrals by the
+ * quadrature of the method (BDF: by BDF), and with mesh and orders held its derivative is exact up to rounding and
+ * what Newton's iteration left. With stages Y_j, their matrix K (sensitivity.h), E = F_y', and weights w_j
+ * and b_j of the end and of the quadrature, a step is gone through backwards by
+ *
+ *     K^T w = w_j lambda + h b_j g_y^T,   lambda <- lambda + sum_j (h b_j g_y^T - F_y^T w_j),
+ *     mu <- mu + sum_j (h b_j g_p - F_p^T w_j),
+ *
+ * from lambda = G_y^T at T; then dJ/dp = mu + (dy0/dp)^T lambda and dJ/dy0 = lambda. E, F_y are made anew
+ * at the stages, one factorisation (DIRK: one per stage) serves all functionals and parameters.
+ *
+ * lambda at t0 is the derivative by free start values; with algebraic equations only derivatives along
+ * consistent starts mean something (parameters.start), others say what the step makes of inconsistent ones: Radau and
+ * BDF do not read algebraic components, and of index 3 a velocity off the constraint is projected.
+ *
+ * Memory. The forward run keeps its stages while they fit into `memory`; else it logs 24 bytes a step, and segments
+ * are repeated from images of the solver, placed by the binomial schedule of A. Griewank and A. Walther (ACM TOMS
+ * 26, 2000), in memory or in files. Repeated steps come to the same bits, which a hash of each step is asked for
+ * (STEIF_UNSUPPORTED names the step otherwise): results do not depend on the limit.
+ *
+ * Served: collocation (gauss, radau, radau1a, lobatto3c), BDF with start=ramp, DIRK; dense, band and sparse
+ * matrices, serial vectors, any index that the method integrates. STEIF_UNSUPPORTED: other methods, Krylov
+ * storage, breaks, event handlers and terminal events, constraints, options.reinitialise, options.sensitivities,
+ * starts that had to be repaired, constant steps of BDF that do not end at T.
+ *
+ * Sources: W. W. Hager, Numer. Math. 87 (2000) 247-282; A. Sandu, Lect. Notes Comput. Sci. 3994 (2006); Y. Cao,
+ * S. Li, L. Petzold and R. Serban, SIAM J. Sci. Comput. 24 (2003) 1076-1089.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_GRADIENT_H
+#define STEIF_GRADIENT_H
+
+#include <steif/parameters.h>
+#include <steif/solver.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct steif_functional {
+  int count;              /* of functionals, 1 at least */
+  steif_values integrand; /* g, all of them; NULL: none */
+  steif_values end;       /* G, all of them; NULL: none */
+  /* Of functional i: dy = dg/dy and dp[k] = dg/dp_k, or of G at the end; both come as zeros, dp is NULL without
+   * parameters. NULL: central differences, 2 (n + P) evaluations at each stage. */
+  int (*slopes)(sunrealtype t, N_Vector y, int i, int at_end, N_Vector dy, sunrealtype *dp,
+                void *user);
+  void *user; /* of these callbacks; NULL: that of the problem */
+} steif_functional;
+
+typedef struct steif_gradient_cost {
+  long steps, recomputed_steps; /* of the run; made again */
+  long factors;                 /* made backwards, beside those of the run */
+  long solves, transposed_solves;
+  size_t bytes; /* most that stages, images and the log took at a time */
+} steif_gradient_cost;
+
+typedef struct steif_gradient {
+  /* Asked for; 0 takes the default. */
+  size_t memory; /* limit in bytes; 1 GiB */
+  int
+    checkpoints; /* images kept at a time, at least 3, beside one segment of stages; as many as fit */
+  const char *
+    folder; /* images go into files of this folder, and memory limits stages only; NULL: none do */
+  /* Found; blocks belong to the gradient. */
+  int count, parameters; /* J's, P */
+  sunindextype n;
+  sunrealtype *value; /* J_i */
+  sunrealtype *dp;    /* dJ_i/dp_k at i P + k; NULL without parameters */
+  sunrealtype *dy0;   /* dJ_i/dy0_j at i n + j: lambda at t0 */
+  sunrealtype *
+    error_estimate; /* of J_i: sum of lambda . (error estimate) over adaptive steps, else 0. What
+                                  quadratures add is not in it. */
+  steif_gradient_cost cost;
+  void *reserved[8]; /* 0 */
+} steif_gradient;
+
+/* A run of the problem from t0 to options.t1 and back. options NULL: defaults. Codes of the run;
+ * STEIF_BAD_INPUT: no functional, a limit of memory below what one step and 3 images need (the sentence says how much);
+ * STEIF_NOT_FINITE: names functional and time. After failures nothing is there to be freed. */
+STEIF_EXPORT int steif_gradient_find(steif_context *ctx, const steif_problem *problem,
+                                     const char *method, const steif_options *options,
+                                     const steif_functional *functional,
+                                     steif_gradient *gradient);
+STEIF_EXPORT void steif_gradient_free(steif_context *ctx, steif_gradient *gradient);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

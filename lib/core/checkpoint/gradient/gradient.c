@@ -1,0 +1,232 @@
+/* gradient.c: gradients by a run forward and back: what is refused, opened and told.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "journey.h"
+#include <math.h>
+#include <string.h>
+
+static const size_t usual = (size_t)1 << 30; /* bytes */
+
+/* ---- what is refused ------------------------------------------------------------------------ */
+
+static int check_problem(steif_context *ctx, const steif_problem *p, const steif_options *o)
+{
+  bool ends = false;
+  for (int i = 0; p->event_list && i < p->events; i++) ends |= p->event_list[i].terminal != 0;
+  STEIF_CHECK(
+    !(p->events > 0 && p->handle_event) && !ends, ctx, STEIF_UNSUPPORTED,
+    "gradients do not pass event handlers or terminal events such as those of problem "
+    "'%s'",
+    p->name);
+  STEIF_CHECK(p->break_count == 0, ctx, STEIF_UNSUPPORTED,
+              "gradients do not pass breaks such as those of problem '%s'", p->name);
+  STEIF_CHECK(!p->constraint, ctx, STEIF_UNSUPPORTED,
+              "gradients are not served beside the constraints of problem '%s', which move the "
+              "solution",
+              p->name);
+  STEIF_CHECK(
+    !o->reinitialise && !o->ewt && !o->sensitivities, ctx, STEIF_UNSUPPORTED,
+    "gradients do not pass options.reinitialise, .ewt or .sensitivities: leave them 0");
+  return STEIF_OK;
+}
+
+static int check_parameters(steif_context *ctx, const steif_problem *p)
+{
+  const steif_parameters *q = p->parameters;
+  if (!q) return STEIF_OK;
+  STEIF_CHECK(q->count > 0 && q->value, ctx, STEIF_BAD_INPUT,
+              "problem '%s' has %d parameters and %s values", p->name, q->count,
+              q->value ? "some" : "no");
+  for (int k = 0; k < q->count; k++)
+    STEIF_CHECK(isfinite(q->value[k]), ctx, STEIF_NOT_FINITE,
+                "parameter %d of problem '%s' is %g", k + 1, p->name, q->value[k]);
+  return STEIF_OK;
+}
+
+static int check_call(steif_context *ctx, const steif_problem *p, const steif_functional *J,
+                      const steif_gradient *g)
+{
+  STEIF_CHECK(p && J && g, ctx, STEIF_BAD_INPUT, "a gradient needs a problem and functionals");
+  STEIF_CHECK(J->count > 0 && (J->integrand || J->end), ctx, STEIF_BAD_INPUT,
+              "%d functionals, with %s: give a count, and .integrand or .end", J->count,
+              J->integrand || J->end ? "values" : "no values");
+  STEIF_CHECK(g->checkpoints == 0 || g->checkpoints >= STF_FEWEST, ctx, STEIF_BAD_INPUT,
+              "%d checkpoints: at least %d are needed, 0 takes as many as fit", g->checkpoints,
+              STF_FEWEST);
+  return check_parameters(ctx, p);
+}
+
+static int check_solver(stf_journey *J)
+{
+  const steif_solver *s = J->back.home;
+  STEIF_CHECK(!s->chosen, s->ctx, STEIF_UNSUPPORTED,
+              "'auto' may change the method: gradients need one, take radau:s=3 or bdf");
+  STEIF_CHECK(s->step.system.space.serial || s->engine, s->ctx, STEIF_UNSUPPORTED,
+              "gradients of problem '%s' need serial vectors", s->problem->name);
+  STEIF_CHECK(s->repair.report.moved == 0, s->ctx, STEIF_UNSUPPORTED,
+              "the start of problem '%s' was repaired, and its derivative is not known: give a "
+              "consistent start",
+              s->problem->name);
+  STEIF_CHECK(!s->final, s->ctx, STEIF_UNSUPPORTED,
+              "constant steps of '%s' do not end at t1 = %.12g: take an h that divides the "
+              "interval",
+              s->spec, s->t1);
+  return STEIF_OK;
+}
+
+/* ---- opening ------------------------------------------------------------------------------------- */
+
+static int vectors(stf_backwards *B, int count, N_Vector **v)
+{
+  *v = stf_pool_vectors(B->pool, count, B->space.like);
+  for (int i = 0; *v && i < count; i++) stf_zero(&B->space, (*v)[i]);
+  return *v ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+static int claim(stf_backwards *B)
+{
+  const size_t count = (size_t)B->count, P = (size_t)B->P;
+  const int stages = B->table && B->kind != STF_TRACE_BDF ? B->table->s : 1;
+  N_Vector **one[] = {&B->lambda, &B->kappa, &B->gy};
+  for (size_t i = 0; i < STF_COUNT(one); i++) STEIF_TRY(vectors(B, B->count, one[i]));
+  for (int j = 1; j < STF_PAST; j++) STEIF_TRY(vectors(B, B->count, &B->past[j]));
+  STEIF_TRY(vectors(B, B->points, &B->Y));
+  STEIF_TRY(vectors(B, B->points, &B->Yp));
+  STEIF_TRY(vectors(B, (stages + 1) * B->count, &B->r));
+  STEIF_TRY(vectors(B, stages, &B->w));
+  N_Vector *scratch[] = {&B->before, &B->work, &B->error};
+  for (size_t i = 0; i < STF_COUNT(scratch); i++)
+    if (!(*scratch[i] = stf_pool_vector(B->pool, B->space.like))) return STEIF_NO_MEMORY;
+  const size_t size[] = {count * P, count,     3 * count, STF_PAST * count,
+                         count,     count * P, 2 * count};
+  sunrealtype **array[] = {&B->gp, &B->g, &B->other, &B->nu, &B->value, &B->mu, &B->estimate};
+  for (size_t i = 0; i < STF_COUNT(array); i++)
+    if (!(*array[i] = stf_pool_array(B->pool, size[i] + 1, sizeof(sunrealtype))))
+      return STEIF_NO_MEMORY;
+  return STEIF_OK;
+}
+
+static int open_back(stf_journey *J)
+{
+  stf_backwards *B = &J->back;
+  stf_system *system = &B->home->step.system;
+  B->pool = stf_pool_new(B->ctx);
+  if (!B->pool) return STEIF_NO_MEMORY;
+  STEIF_TRY(stf_record_open(B));
+  STEIF_TRY(check_solver(J));
+  B->space = system->space;
+  STEIF_TRY(claim(B));
+  const int m = B->kind == STF_TRACE_COLLOCATION ? B->table->s : 1;
+  STEIF_TRY(stf_adjoint_open(B->pool, system, m, B->table, &B->adjoint));
+  if (m == 1 && B->kind == STF_TRACE_COLLOCATION)
+    STEIF_TRY(stf_transform_build(B->pool, B->ctx, B->table, &B->adjoint.transform));
+  if (B->kind == STF_TRACE_COLLOCATION)
+    STEIF_TRY(stf_stage_polynomial_open(B->pool, B->table, B->adjoint.transform.B, &B->u));
+  if (!B->P) return STEIF_OK;
+  return stf_slopes_open(B->pool, B->ctx, B->problem, system->form, B->space.like, &B->slopes);
+}
+
+/* lambda, mu and J at the end. */
+static int at_end(stf_journey *J)
+{
+  stf_backwards *B = &J->back;
+  for (int i = 0; i < B->count; i++) B->nu[i] = 1;
+  if (!B->functional->end) return STEIF_OK;
+  STEIF_TRY(stf_functional_at(B, 1, J->runner->step.t, J->runner->step.y));
+  for (int i = 0; i < B->count; i++) {
+    B->value[i] = B->g[i];
+    stf_copy(&B->space, B->gy[i], B->lambda[i]);
+  }
+  memcpy(B->mu, B->gp, (size_t)(B->count * B->P) * sizeof *B->mu);
+  return STEIF_OK;
+}
+
+/* ---- results --------------------------------------------------------------------------------------- */
+
+static int claim_results(stf_backwards *B, steif_gradient *g)
+{
+  const size_t count = (size_t)B->count, P = (size_t)B->P, n = (size_t)B->n;
+  g->count = B->count, g->parameters = B->P, g->n = B->n;
+  g->value = stf_allocate(B->ctx, count, sizeof *g->value);
+  g->dp = P ? stf_allocate(B->ctx, count * P, sizeof *g->dp) : NULL;
+  g->dy0 = stf_allocate(B->ctx, count * n, sizeof *g->dy0);
+  g->error_estimate = stf_allocate(B->ctx, count, sizeof *g->error_estimate);
+  return g->value && (g->dp || !P) && g->dy0 && g->error_estimate ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
+static int results(stf_journey *J)
+{
+  stf_backwards *B = &J->back;
+  steif_gradient *g = J->out;
+  STEIF_TRY(claim_results(B, g));
+  for (int i = 0; i < B->count; i++) {
+    g->value[i] = B->value[i], g->error_estimate[i] = B->estimate[i];
+    memcpy(g->dy0 + i * B->n, STF_ARRAY(B->lambda[i]), (size_t)B->n * sizeof *g->dy0);
+  }
+  for (int k = 0; k < B->P; k++) {
+    const int code = steif_parameter_start(B->ctx, B->problem, k, B->work);
+    if (code) return code > 0 ? steif_status(B->ctx) : code;
+    for (int i = 0; i < B->count; i++)
+      g->dp[i * B->P + k] = B->mu[i * B->P + k] + N_VDotProd(B->work, B->lambda[i]);
+  }
+  g->cost.steps = J->steps, g->cost.bytes = J->bytes;
+  g->cost.factors = B->adjoint.factors;
+  g->cost.transposed_solves = B->adjoint.solves;
+  return STEIF_OK;
+}
+
+/* ---- all --------------------------------------------------------------------------------------------- */
+
+static int travel(stf_journey *J)
+{
+  stf_backwards *B = &J->back;
+  B->home = J->runner = steif_solver_new(B->ctx, B->problem, J->method, &J->options);
+  if (!B->home) return steif_status(B->ctx);
+  STEIF_TRY(open_back(J));
+  N_Vector start[] = {stf_pool_vector(B->pool, B->space.like),
+                      stf_pool_vector(B->pool, B->space.like)};
+  if (!start[0] || !start[1]) return STEIF_NO_MEMORY;
+  const stf_step *first = &B->home->step;
+  const sunrealtype t0 = first->t;
+  stf_copy(&B->space, first->y, start[0]), stf_copy(&B->space, first->yp, start[1]);
+  STEIF_TRY(stf_journey_forward(J));
+  J->out->cost.solves = steif_statistics(J->runner)->nsolve;
+  STEIF_TRY(at_end(J));
+  STEIF_TRY(stf_journey_back(J));
+  STEIF_TRY(stf_pull_start(B, t0, start[0], start[1]));
+  return results(J);
+}
+
+static void clear(steif_context *ctx, steif_gradient *g)
+{
+  sunrealtype *block[] = {g->value, g->dp, g->dy0, g->error_estimate};
+  for (size_t i = 0; i < STF_COUNT(block); i++) stf_release(ctx, block[i]);
+  g->value = g->dp = g->dy0 = g->error_estimate = NULL;
+}
+
+int steif_gradient_find(steif_context *ctx, const steif_problem *problem, const char *method,
+                        const steif_options *options, const steif_functional *functional,
+                        steif_gradient *g)
+{
+  if (!ctx) return STEIF_BAD_INPUT;
+  steif_forget(ctx);
+  STEIF_TRY(check_call(ctx, problem, functional, g));
+  stf_journey J = {.method = method, .out = g, .limit = g->memory ? g->memory : usual};
+  J.options = options ? *options : steif_defaults();
+  STEIF_TRY(check_problem(ctx, problem, &J.options));
+  J.options.observe = NULL, J.options.on_event = NULL;
+  J.back =
+    (stf_backwards){.ctx = ctx, .problem = problem, .functional = functional, .n = problem->n};
+  J.back.count = functional->count;
+  J.back.P = problem->parameters ? problem->parameters->count : 0;
+  g->value = g->dp = g->dy0 = g->error_estimate = NULL;
+  g->cost = (steif_gradient_cost){0};
+  const int code = travel(&J);
+  stf_journey_close(&J);
+  if (code) clear(ctx, g);
+  return code > 0 ? steif_status(ctx) : code;
+}
+
+void steif_gradient_free(steif_context *ctx, steif_gradient *g)
+{
+  if (ctx && g) clear(ctx, g);
+}

@@ -1,0 +1,38 @@
+/* journey.h: a run forward and back, its records and images.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_JOURNEY_H
+#define STF_JOURNEY_H
+
+#include "backwards.h"
+
+enum { STF_FEWEST = 3 }; /* images */
+
+/* An image of the solver before step `step`. */
+typedef struct stf_run_image {
+  unsigned char *bytes; /* NULL: in a file */
+  size_t count;
+  long step;
+} stf_run_image;
+
+typedef struct stf_journey {
+  stf_backwards back;
+  steif_options options;
+  const char *method;
+  steif_gradient *out;
+  steif_solver *runner; /* makes steps; the first one is the run */
+  stf_logged *log;
+  long steps, room;      /* of the log */
+  sunrealtype *record;   /* `window` of them ... */
+  long window, recorded; /* ... of which so many hold the first steps */
+  bool whole;            /* all steps so far are recorded */
+  stf_run_image *image;
+  int images, images_most;
+  size_t limit, bytes, on_images;
+} stf_journey;
+
+/* The start as an image, then all steps, recorded while that fits; and back through them. */
+int stf_journey_forward(stf_journey *J);
+int stf_journey_back(stf_journey *J);
+void stf_journey_close(stf_journey *J);
+
+#endif

@@ -1,0 +1,11 @@
+/* main.c: the suites of gradients.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "suite.h"
+
+extern CU_TestInfo tests_of_gradients[], tests_of_checkpoints[], tests_of_duality[],
+  tests_of_gradient_input[];
+
+SUITE_MAIN({.pName = "gradients", .pTests = tests_of_gradients},
+           {.pName = "checkpoints", .pTests = tests_of_checkpoints},
+           {.pName = "duality", .pTests = tests_of_duality},
+           {.pName = "input", .pTests = tests_of_gradient_input})
