@@ -1,6 +1,7 @@
 /* sensitivity.c: derivatives of a solution by parameters.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
+#include "gradient_answer.h"
 #include "integration.h"
 
 static int find(struct call *call, const steif_problem *p)
@@ -17,10 +18,19 @@ static int find(struct call *call, const steif_problem *p)
   return code;
 }
 
-static int run(struct call *call) { return with_problem(call, find); }
+static int run(struct call *call)
+{
+  const bool back = given(call, "--adjoint") || given(call, "--end");
+  if (given(call, "--adjoint") && !given(call, "--functional") && !given(call, "--end"))
+    return bad_usage(call, "--adjoint needs --functional 'int y1' or --end y1");
+  return with_problem(call, back ? gradient_answer : find);
+}
 
 static const struct option options[] = {
   {"--parameters", WORD, "P,...", "names of the parameters, or all", "all"},
+  {"--adjoint", FLAG, NULL, "the gradient of --functional by all parameters, going back", NULL},
+  {"--end", WORD, "E", "gradient of E at the end, which is added to --functional", NULL},
+  {"--memory", COUNT, "BYTES", "for gradients (default: 1 GiB)", NULL},
   {"--points", COUNT, "N", "times shown, at equal distances to the end", "1"},
   {"--check", FLAG, NULL, "compare with differences of runs on the same mesh", NULL},
   {"--functional", WORD, "int G", "integral of an expression in t, unknowns and parameters",
@@ -35,7 +45,7 @@ static const struct option options[] = {
 const struct verb verb_sensitivity = {
   .name = "sensitivity",
   .about = "Find derivatives of a solution by parameters",
-  .usage = "PROBLEM METHOD [--parameters k1,k2 --functional 'int G' --t1 T --rtol R --check]",
+  .usage = "PROBLEM METHOD [--parameters k1,k2 --functional 'int G' --adjoint --end E --check]",
   .least = 2,
   .most = 2,
   .matrices = true,

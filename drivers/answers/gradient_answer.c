@@ -1,0 +1,211 @@
+/* gradient_answer.c: a gradient, its start values and cost, and what differences of runs on its mesh say.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "gradient_answer.h"
+#include "answers.h"
+#include "gradient_terms.h"
+#include "integration.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct gradient {
+  const steif_problem *problem;
+  steif_options options;
+  steif_functional functional;
+  struct sum integrand, end;
+  steif_gradient found;
+  double *mesh;
+  size_t times, room;
+  bool checked;
+  double disagreement;
+};
+
+/* ---- what is asked ------------------------------------------------------------------------------ */
+
+static int integrand(double t, N_Vector y, double *g, void *user)
+{
+  (void)t;
+  g[0] = sum_at(&((struct gradient *)user)->integrand, N_VGetArrayPointer(y));
+  return 0;
+}
+
+static int end(double t, N_Vector y, double *g, void *user)
+{
+  (void)t;
+  g[0] = sum_at(&((struct gradient *)user)->end, N_VGetArrayPointer(y));
+  return 0;
+}
+
+static int slopes(double t, N_Vector y, int i, int at_end, N_Vector dy, double *dp, void *user)
+{
+  const struct gradient *a = user;
+  (void)t, (void)i, (void)dp;
+  sum_slope(at_end ? &a->end : &a->integrand, N_VGetArrayPointer(y), N_VGetArrayPointer(dy));
+  return 0;
+}
+
+static int read_functional(struct call *call, struct gradient *a)
+{
+  const char *integral = word_of(call, "--functional"), *last = word_of(call, "--end");
+  a->functional = (steif_functional){.count = 1, .slopes = slopes, .user = a};
+  if (integral && strncmp(integral, "int ", 4))
+    return bad_usage(call, "--functional '%s': an integral is written 'int y1'", integral);
+  int code = integral ? sum_read(call, a->problem, integral + 4, &a->integrand) : EXIT_OK;
+  if (!code && last) code = sum_read(call, a->problem, last, &a->end);
+  if (integral) a->functional.integrand = integrand;
+  if (last) a->functional.end = end;
+  return code;
+}
+
+/* ---- differences ---------------------------------------------------------------------------------- */
+
+static int note(steif_solver *s, double t, N_Vector y, void *user)
+{
+  struct gradient *a = user;
+  (void)s, (void)y;
+  if (a->times == a->room) {
+    double *more = realloc(a->mesh, 2 * (a->room + 64) * sizeof *more);
+    if (!more) return 1;
+    a->mesh = more, a->room = 2 * (a->room + 64);
+  }
+  a->mesh[a->times++] = t;
+  return 0;
+}
+
+static int find_mesh(struct call *call, struct gradient *a)
+{
+  steif_options o = a->options;
+  o.observe = note, o.observer = a;
+  if (note(NULL, a->problem->t0, NULL, a))
+    return no_memory(call, "the mesh", "leave --check out");
+  steif_solver *s = steif_solver_new(call->ctx, a->problem, call->word[1], &o);
+  const int code = s && !steif_solve_to(s, a->options.t1) ? EXIT_OK : fail(call);
+  steif_solver_free(&s);
+  return code;
+}
+
+/* The value of a run on the mesh of the problem found once more, p_k moved by d. */
+static int moved(struct call *call, const struct gradient *a, const steif_options *o, int k,
+                 double d, double *value)
+{
+  steif_problem p;
+  double old;
+  const double p_k = a->problem->parameters->value[k] + d;
+  int code = find_problem(call, call->word[0], &p);
+  if (code) return code;
+  if (!steif_model_parameter(&p, 0, &old))
+    p.parameters->value[k] = p_k;
+  else if (steif_model_set(call->ctx, &p, p.parameters->name[k], p_k))
+    code = fail(call);
+  steif_gradient g = {.memory = a->found.memory};
+  if (!code && steif_gradient_find(call->ctx, &p, call->word[1], o, &a->functional, &g))
+    code = fail(call);
+  if (!code) *value = g.value[0];
+  steif_gradient_free(call->ctx, &g);
+  steif_problem_clear(call->ctx, &p);
+  return code;
+}
+
+/* Central differences with d and d / 2, extrapolated; d within what 4 runs of 15 digits can tell. */
+static int compare(struct call *call, struct gradient *a, const steif_options *o,
+                   const steif_gradient *g)
+{
+  const steif_parameters *q = a->problem->parameters;
+  double size = 0;
+  int code = EXIT_OK;
+  for (int k = 0; k < g->parameters; k++) {
+    const double p = q->scale ? q->scale[k] : fabs(q->value[k]);
+    size = fmax(size, fabs(g->dp[k]) * (p > 0 ? p : 1));
+  }
+  for (int k = 0; !code && k < g->parameters; k++) {
+    const double p = q->scale ? q->scale[k] : fabs(q->value[k]), scale = p > 0 ? p : 1;
+    const double d = 2e-3 * scale, by[] = {d / 2, -d / 2, d, -d}, c[] = {8, -8, -1, 1};
+    double quotient = 0, value = 0;
+    for (int j = 0; !code && j < 4; j++) {
+      code = moved(call, a, o, k, by[j], &value);
+      quotient += c[j] * value / (6 * d);
+    }
+    if (!code && size > 0)
+      a->disagreement = fmax(a->disagreement, fabs(g->dp[k] - quotient) * scale / size);
+  }
+  return code;
+}
+
+static int check(struct call *call, struct gradient *a)
+{
+  steif_options o = a->options;
+  steif_gradient g = {.memory = a->found.memory};
+  if (o.h <= 0) {
+    const int code = find_mesh(call, a);
+    if (code) return code;
+    o.mesh = a->mesh, o.mesh_size = a->times;
+  }
+  int code = EXIT_OK;
+  if (steif_gradient_find(call->ctx, a->problem, call->word[1], &o, &a->functional, &g))
+    code = fail(call);
+  if (!code) code = compare(call, a, &o, &g);
+  steif_gradient_free(call->ctx, &g);
+  a->checked = !code;
+  return code;
+}
+
+/* ---- the answer ------------------------------------------------------------------------------------ */
+
+static void costs(steif_report *r, const steif_gradient_cost *c)
+{
+  steif_report_whole(r, "cost.steps", c->steps);
+  steif_report_whole(r, "cost.factors", c->factors);
+  steif_report_whole(r, "cost.solves", c->solves);
+  steif_report_whole(r, "cost.transposed_solves", c->transposed_solves);
+  steif_report_whole(r, "cost.recomputed_steps", c->recomputed_steps);
+  steif_report_whole(r, "cost.bytes", (long)c->bytes);
+}
+
+static void rows(steif_report *r, const struct gradient *a)
+{
+  const steif_parameters *q = a->problem->parameters;
+  for (int k = 0; k < a->found.parameters; k++) {
+    char own[STEIF_SPEC_WORD];
+    snprintf(own, sizeof own, "p%d", k + 1);
+    const double typical = q->scale ? q->scale[k] : fabs(q->value[k]);
+    steif_report_row(r, "rows");
+    steif_report_text(r, "rows.parameter", q->name ? q->name[k] : own);
+    steif_report_real(r, "rows.p", q->value[k]);
+    steif_report_real(r, "rows.gradient", a->found.dp[k]);
+    steif_report_real(r, "rows.scaled", a->found.dp[k] * (typical > 0 ? typical : 1));
+  }
+}
+
+static void fill(steif_report *r, const struct call *call, const void *result)
+{
+  const struct gradient *a = result;
+  const steif_gradient *g = &a->found;
+  steif_report_text(r, "problem", call->word[0]);
+  steif_report_text(r, "method", call->word[1]);
+  steif_report_real(r, "value", g->value[0]);
+  steif_report_real(r, "error_estimate", g->error_estimate[0]);
+  if (g->parameters) {
+    steif_report_list(r, "p", (size_t)g->parameters, a->problem->parameters->value);
+    steif_report_list(r, "gradient", (size_t)g->parameters, g->dp);
+  }
+  steif_report_list(r, "lambda0", (size_t)g->n, g->dy0);
+  rows(r, a);
+  costs(r, &g->cost);
+  if (a->checked) steif_report_real(r, "disagreement", a->disagreement);
+}
+
+int gradient_answer(struct call *call, const steif_problem *p)
+{
+  struct gradient a = {.problem = p, .options = options_of(call)};
+  if (a.options.t1 == 0) a.options.t1 = p->t1;
+  a.found.memory = (size_t)whole_or(call, "--memory", 0);
+  int code = read_functional(call, &a);
+  if (!code &&
+      steif_gradient_find(call->ctx, p, call->word[1], &a.options, &a.functional, &a.found))
+    code = fail(call);
+  if (!code && given(call, "--check")) code = check(call, &a);
+  if (!code) code = present_result(call, fill, &a);
+  steif_gradient_free(call->ctx, &a.found);
+  free(a.mesh);
+  return code;
+}

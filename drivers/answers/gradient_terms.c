@@ -1,0 +1,76 @@
+/* gradient_terms.c: sums of components and of their squares.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "gradient_terms.h"
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The component of a name, or of y1, x1, ...; -1: there is none. */
+static sunindextype component(const steif_problem *p, const char *name)
+{
+  const char *const *names = p->names ? p->names->unknown : NULL;
+  for (sunindextype i = 0; names && i < p->n; i++)
+    if (!strcmp(names[i], name)) return i;
+  char *end;
+  const long k = (name[0] == 'y' || name[0] == 'x') && isdigit((unsigned char)name[1])
+                   ? strtol(name + 1, &end, 10)
+                   : 0;
+  return k >= 1 && k <= p->n && !*end ? k - 1 : -1;
+}
+
+/* [+-][number*]name[^2], from *at on. */
+static bool term(const steif_problem *p, const char **at, struct sum *sum)
+{
+  const char *s = *at;
+  char name[STEIF_SPEC_WORD];
+  double factor = 1;
+  if (*s == '+' || *s == '-') factor = *s++ == '-' ? -1 : 1;
+  if (isdigit((unsigned char)*s) || *s == '.') {
+    char *end;
+    factor *= strtod(s, &end);
+    if (*end != '*') return false;
+    s = end + 1;
+  }
+  const size_t length = strcspn(s, "+-^*");
+  if (!length || length >= sizeof name) return false;
+  memcpy(name, s, length);
+  name[length] = 0, s += length;
+  const bool square = !strncmp(s, "^2", 2);
+  if (square) s += 2;
+  const int i = sum->count++;
+  sum->term[i].factor = factor, sum->term[i].power = square ? 2 : 1;
+  sum->term[i].component = component(p, name);
+  *at = s;
+  return sum->term[i].component >= 0 && (!*s || *s == '+' || *s == '-');
+}
+
+int sum_read(struct call *call, const steif_problem *p, const char *text, struct sum *sum)
+{
+  sum->count = 0;
+  const char *at = text;
+  while (*at && sum->count < TERMS)
+    if (!term(p, &at, sum)) break;
+  if (!*at && sum->count) return EXIT_OK;
+  return bad_usage(call,
+                   "'%s' is no sum of unknowns of problem '%s' and of their squares, such as "
+                   "0.5*y1^2+y%lld: stopped at '%s'",
+                   text, call->word[0], (long long)p->n, at);
+}
+
+double sum_at(const struct sum *sum, const double *y)
+{
+  double value = 0;
+  for (int i = 0; i < sum->count; i++) {
+    const double x = y[sum->term[i].component];
+    value += sum->term[i].factor * (sum->term[i].power == 2 ? x * x : x);
+  }
+  return value;
+}
+
+void sum_slope(const struct sum *sum, const double *y, double *slope)
+{
+  for (int i = 0; i < sum->count; i++) {
+    const sunindextype j = sum->term[i].component;
+    slope[j] += sum->term[i].factor * (sum->term[i].power == 2 ? 2 * y[j] : 1);
+  }
+}
