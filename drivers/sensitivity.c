@@ -23,6 +23,10 @@ static int run(struct call *call)
   const bool back = given(call, "--adjoint") || given(call, "--end");
   if (given(call, "--adjoint") && !given(call, "--functional") && !given(call, "--end"))
     return bad_usage(call, "--adjoint needs --functional 'int y1' or --end y1");
+  if (back && (given(call, "--parameters") || given(call, "--points")))
+    return bad_usage(call,
+                     "gradients are by all parameters, at the end: leave --parameters and "
+                     "--points out");
   return with_problem(call, back ? gradient_answer : find);
 }
 
