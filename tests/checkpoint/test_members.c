@@ -178,7 +178,7 @@ static void structs_may_have_other_sizes(void)
   steif_solver_free(&s); /* the copy stands alone */
   CHECK(copy && !steif_solve_to(copy, 3));
   steif_solver_free(&copy);
-  o.reserved[12] = &o;
+  o.reserved[11] = &o;
   const steif_problem p = oscillator();
   CHECK(!steif_solver_new(ctx, &p, "bdf", &o) && strstr(steif_message(ctx), "reserved[12]"));
   steif_context_free(&ctx);

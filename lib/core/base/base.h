@@ -35,6 +35,11 @@ bool stf_silence(steif_context *ctx, bool silent);
 /* How many failures there have been: a callback's own is told by it, and not replaced. */
 long stf_failures(const steif_context *ctx);
 
+/* The sentence as it stands, in STF_MESSAGE characters, zeros after it; and another one with its code. */
+enum { STF_MESSAGE = 1024 };
+void stf_message_copy(const steif_context *ctx, char *text);
+void stf_message_take(steif_context *ctx, int code, const char *text);
+
 /* Single blocks, zeroed; NULL with the message set when memory is short. */
 void *stf_allocate(steif_context *ctx, size_t count, size_t size);
 void stf_release(steif_context *ctx, void *block);

@@ -11,7 +11,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-enum { MESSAGE = 1024 };
+enum { MESSAGE = STF_MESSAGE };
 
 struct steif_context {
   steif_setup setup;
@@ -139,6 +139,17 @@ int stf_recover(steif_context *ctx, int cause, const char *format, ...)
   keep(ctx, cause, format, arguments);
   va_end(arguments);
   return STEIF_RETRY;
+}
+
+void stf_message_copy(const steif_context *ctx, char *text)
+{
+  strncpy(text, ctx->message, MESSAGE);
+}
+
+void stf_message_take(steif_context *ctx, int code, const char *text)
+{
+  ctx->code = code, ctx->failures++;
+  strcpy(ctx->message, text);
 }
 
 bool stf_foreign_memory(const steif_context *ctx) { return ctx->setup.allocate != allocate; }

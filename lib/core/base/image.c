@@ -1,6 +1,7 @@
 /* image.c: the parts of an image.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "image.h"
+#include "space.h"
 #include <stdint.h>
 #include <string.h>
 
@@ -93,7 +94,7 @@ static void keep_packed(stf_image *m, N_Vector v)
 void stf_keep_vector(stf_image *m, N_Vector v)
 {
   if (m->code) return;
-  sunrealtype *a = v->ops->nvgetarraypointer ? N_VGetArrayPointer(v) : NULL;
+  sunrealtype *a = stf_array(v);
   if (a)
     stf_keep(m, a, (size_t)N_VGetLength(v) * sizeof *a);
   else

@@ -11,6 +11,15 @@ void stf_space_open(stf_space *space, N_Vector like)
   space->serial = N_VGetVectorID(like) == SUNDIALS_NVEC_SERIAL;
 }
 
+sunrealtype *stf_own_rows(N_Vector v, sunindextype *rows)
+{
+  static sunrealtype
+    none; /* the array of a rank without rows: nothing is read or written there */
+  *rows = stf_local_length(v);
+  if (!v->ops->nvgetarraypointer) return NULL;
+  return *rows > 0 ? N_VGetArrayPointer(v) : &none;
+}
+
 void stf_zero(const stf_space *space, N_Vector x)
 {
   if (!space->serial) {

@@ -5,6 +5,7 @@
 #define STF_SPACE_H
 
 #include "base.h"
+#include "compat.h"
 #include <nvector/nvector_serial.h>
 
 typedef struct stf_space {
@@ -14,6 +15,24 @@ typedef struct stf_space {
 } stf_space;
 
 void stf_space_open(stf_space *space, N_Vector like);
+
+/* Are its components spread over the ranks of a communicator, a part of them here? The same answer on all
+ * ranks; yes for a communicator of one rank too. */
+static inline bool stf_spread(N_Vector v)
+{
+  return v->ops->nvgetcommunicator && N_VGetCommunicator(v) != STF_NO_COMM;
+}
+
+/* The host array of all components, or NULL: there is none, or the vector is spread. Without a call for a serial
+ * vector. */
+static inline sunrealtype *stf_array(N_Vector v)
+{
+  if (v->ops->nvgetarraypointer == N_VGetArrayPointer_Serial) return NV_DATA_S(v);
+  return v->ops->nvgetarraypointer && !stf_spread(v) ? N_VGetArrayPointer(v) : NULL;
+}
+
+/* The host array of the rows that are here, and how many; NULL: there is none. */
+sunrealtype *stf_own_rows(N_Vector v, sunindextype *rows);
 
 /* The array of a serial vector, without a call. */
 #define STF_ARRAY(v) NV_DATA_S(v)

@@ -68,11 +68,12 @@ static int tolerances(stf_baseline *base)
   stf_run *run = base->run;
   if (!run->options->atols) return STEIF_OK;
   if (!(base->atol = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
-  sunrealtype *a = N_VGetArrayPointer(base->atol);
+  sunindextype rows;
+  sunrealtype *a = stf_own_rows(base->atol, &rows);
   STEIF_CHECK(a, run->ctx, STEIF_UNSUPPORTED,
               "%s cannot take options.atols with vectors without a host array: give atol",
               base->package);
-  memcpy(a, run->options->atols, (size_t)run->problem->n * sizeof *a);
+  memcpy(a, run->options->atols, (size_t)rows * sizeof *a);
   return STEIF_OK;
 }
 
@@ -81,8 +82,9 @@ static int constraints(stf_baseline *base)
   stf_run *run = base->run;
   if (!run->problem->constraint) return STEIF_OK;
   if (!(base->constraint = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
-  sunrealtype *c = N_VGetArrayPointer(base->constraint);
-  for (sunindextype i = 0; c && i < run->problem->n; i++) c[i] = run->problem->constraint[i];
+  sunindextype rows;
+  sunrealtype *c = stf_own_rows(base->constraint, &rows);
+  for (sunindextype i = 0; c && i < rows; i++) c[i] = run->problem->constraint[i];
   return STEIF_OK;
 }
 
@@ -104,10 +106,9 @@ int stf_baseline_open(stf_baseline *base, stf_run *run, const char *package,
     package);
   base->preconditioned = base->storage == STEIF_KRYLOV && run->problem->precsolve;
   if (!(base->work = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
-  STEIF_CHECK(base->storage == STEIF_KRYLOV || N_VGetArrayPointer(base->work), run->ctx,
-              STEIF_UNSUPPORTED,
-              "%s with matrices needs vectors with a host array; use storage = STEIF_KRYLOV",
-              package);
+  STEIF_CHECK(
+    base->storage == STEIF_KRYLOV || stf_array(base->work), run->ctx, STEIF_UNSUPPORTED,
+    "%s with matrices needs vectors with a host array; use storage = STEIF_KRYLOV", package);
   STEIF_TRY(constraints(base));
   STEIF_TRY(stf_coloured_open(base));
   return tolerances(base);
@@ -193,7 +194,7 @@ static bool finite_numbers(sunindextype n, const sunrealtype *x)
 
 bool stf_baseline_finite(N_Vector v)
 {
-  const sunrealtype *x = N_VGetArrayPointer(v);
+  const sunrealtype *x = stf_array(v);
   return x ? finite_numbers(N_VGetLength(v), x) : isfinite(N_VL1Norm(v));
 }
 
@@ -225,7 +226,7 @@ int stf_baseline_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
   stf_baseline *base = user;
   const steif_problem *p = base->run->problem;
   const int verdict = p->f(t, y, ydot, p->user);
-  const sunrealtype *x = N_VGetArrayPointer(ydot);
+  const sunrealtype *x = stf_array(ydot);
   if (verdict || !x) return stf_baseline_watch(base, "f", verdict, t, ydot);
   return finite_numbers(p->n, x) ? 0 : stf_baseline_watch(base, "f", 0, t, ydot);
 }

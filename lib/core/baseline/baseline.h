@@ -3,6 +3,7 @@
 #ifndef STF_BASELINE_H
 #define STF_BASELINE_H
 
+#include "space.h"
 #include "compat.h"
 #include "engine.h"
 #include <steif/pencil.h>

@@ -114,7 +114,7 @@ static int product(stf_baseline *base, char which, sunrealtype a, sunrealtype t,
   SUNMatrix M = which == 'E' ? base->E : base->A;
   const steif_product apply = which == 'E' ? p->Ev : p->Av;
   if (M) {
-    stf_matrix_times(M, a, N_VGetArrayPointer(x), N_VGetArrayPointer(out));
+    stf_matrix_times(M, a, stf_array(x), stf_array(out));
     return 0;
   }
   if (!apply) {
@@ -130,7 +130,7 @@ static int product(stf_baseline *base, char which, sunrealtype a, sunrealtype t,
 
 static void negate(N_Vector r)
 {
-  sunrealtype *x = N_VGetArrayPointer(r);
+  sunrealtype *x = stf_array(r);
   if (!x) {
     N_VScale(-1, r, r);
     return;
@@ -161,8 +161,8 @@ static int without_slopes(stf_baseline *base, sunrealtype t, N_Vector y, N_Vecto
 /* out = yp - x in a loop of our own: a call of SUNDIALS for few numbers costs more than they do. */
 static void slopes_less(N_Vector yp, N_Vector x, N_Vector out)
 {
-  const sunrealtype *p = N_VGetArrayPointer(yp), *a = N_VGetArrayPointer(x);
-  sunrealtype *b = N_VGetArrayPointer(out);
+  const sunrealtype *p = stf_array(yp), *a = stf_array(x);
+  sunrealtype *b = stf_array(out);
   if (!p || !a || !b) {
     N_VLinearSum(1, yp, -1, x, out);
     return;
@@ -176,9 +176,8 @@ static int ode_residual(stf_baseline *base, sunrealtype t, N_Vector y, N_Vector 
 {
   const steif_problem *p = base->run->problem;
   const int verdict = p->f(t, y, r, p->user);
-  const sunrealtype *slope = N_VGetArrayPointer(yp);
-  sunrealtype *x = N_VGetArrayPointer(r),
-              sum = 0; /* 0 * x is NaN exactly where x is not finite */
+  const sunrealtype *slope = stf_array(yp);
+  sunrealtype *x = stf_array(r), sum = 0; /* 0 * x is NaN exactly where x is not finite */
   if (verdict || !slope || !x) {
     const int failed = stf_baseline_watch(base, "f", verdict, t, r);
     if (!failed) slopes_less(yp, r, r);

@@ -80,7 +80,7 @@ static bool solve(stf_baseline *base, N_Vector b, N_Vector yp)
   if (SUNLinSolInitialize(base->solver) || SUNLinSolSetup(base->solver, base->J) ||
       SUNLinSolSolve(base->solver, base->J, yp, b, 0))
     return false;
-  const sunrealtype *x = N_VGetArrayPointer(yp), *f = N_VGetArrayPointer(b);
+  const sunrealtype *x = stf_array(yp), *f = stf_array(b);
   sunrealtype large = 0, most = 0;
   for (sunindextype i = 0; i < n; i++) {
     if (!isfinite(x[i])) return false;
@@ -100,8 +100,8 @@ static int mass_slopes(stf_baseline *base)
   int code = count && value && v ? STEIF_OK : STEIF_NO_MEMORY;
   if (!code && !stf_lower_residual(run->t, run->y, run->yp, v[0], base) && !zero(v[0])) {
     N_VScale(-1, v[0], v[0]);
-    if (!single_rows(base->E, run->problem->n, N_VGetArrayPointer(v[0]),
-                     N_VGetArrayPointer(run->yp), count, count + n, value) &&
+    if (!single_rows(base->E, run->problem->n, stf_array(v[0]), stf_array(run->yp), count,
+                     count + n, value) &&
         solve(base, v[0], v[1]))
       N_VScale(1, v[1], run->yp);
   }
@@ -135,7 +135,7 @@ static int probe_columns(stf_baseline *base, sunrealtype *large)
   N_Vector *v = stf_pool_vectors(run->pool, 3, run->like);
   if (!v) return STEIF_NO_MEMORY;
   N_Vector moved = v[0], r = v[1], r0 = v[2];
-  sunrealtype *x = N_VGetArrayPointer(moved);
+  sunrealtype *x = stf_array(moved);
   const bool residual = run->form == STEIF_IMPLICIT;
   STEIF_CHECK(
     x, run->ctx, STEIF_UNSUPPORTED,
@@ -191,7 +191,7 @@ int stf_start_id(stf_baseline *base, const char *which, N_Vector id)
 {
   steif_context *ctx = base->run->ctx;
   const bool columns = !strcmp(which, "E"), ones = !strcmp(which, "ones");
-  sunrealtype *x = N_VGetArrayPointer(id);
+  sunrealtype *x = stf_array(id);
   STEIF_CHECK(columns || ones || !strcmp(which, "index"), ctx, STEIF_BAD_INPUT,
               "id=%s is not known to ida: E (columns of dF/dy' that are not 0), index "
               "(components of index 1) or ones",

@@ -16,7 +16,7 @@ int stf_baseline_near(stf_baseline *base)
   stf_run *run = base->run;
   const steif_problem *p = run->problem;
   if (base->storage != STEIF_KRYLOV || base->preconditioned || p->storage != STEIF_SPARSE ||
-      !stf_baseline_has_jac(base) || !N_VGetArrayPointer(base->work))
+      !stf_baseline_has_jac(base) || !stf_array(base->work))
     return STEIF_OK;
   STEIF_TRY(stf_baseline_native(base));
   base->near = steif_pencil_new_incomplete(run->ctx, NULL, base->A);
@@ -56,7 +56,7 @@ int stf_baseline_precsolve(sunrealtype t, N_Vector y, N_Vector fy, N_Vector r, N
     N_VScale(1, r, z);
     code = steif_pencil_solve(base->near, 0, 1, &z, NULL);
   }
-  sunrealtype *x = N_VGetArrayPointer(z);
+  sunrealtype *x = stf_array(z);
   if (!x) N_VScale(base->c, z, z);
   const sunindextype n = x ? N_VGetLength(z) : 0;
   for (sunindextype i = 0; i < n; i++) x[i] *= base->c;

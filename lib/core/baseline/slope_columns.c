@@ -47,7 +47,7 @@ int stf_slope_rhs(stf_slope_columns *c, sunrealtype t, N_Vector y, N_Vector fy, 
   if (seen) return seen;
   for (int k = 0; k < c->base->run->columns.count; k++) {
     N_VConst(0, out[k]);
-    stf_matrix_times(c->J[0], 1, N_VGetArrayPointer(S[k]), N_VGetArrayPointer(out[k]));
+    stf_matrix_times(c->J[0], 1, stf_array(S[k]), stf_array(out[k]));
     const int said = add_slope(c, k, t, y, fy, -1, out[k]);
     if (said) return said;
   }
@@ -71,11 +71,11 @@ int stf_slope_residual(stf_slope_columns *c, sunrealtype t, N_Vector y, N_Vector
   int seen = fill(c, 0, 0, t, y, yp);
   if (!seen && Sp) seen = fill(c, 1, 1, t, y, yp);
   for (int k = 0; !seen && k < c->base->run->columns.count; k++) {
-    sunrealtype *r = N_VGetArrayPointer(out[k]);
+    sunrealtype *r = stf_array(out[k]);
     N_VConst(0, out[k]);
     if (Sp) N_VLinearSum(1, S[k], -1, Sp[k], c->work[1]);
-    stf_matrix_times(c->J[0], 1, N_VGetArrayPointer(Sp ? c->work[1] : S[k]), r);
-    if (Sp) stf_matrix_times(c->J[1], 1, N_VGetArrayPointer(Sp[k]), r);
+    stf_matrix_times(c->J[0], 1, stf_array(Sp ? c->work[1] : S[k]), r);
+    if (Sp) stf_matrix_times(c->J[1], 1, stf_array(Sp[k]), r);
     seen = add_slope(c, k, t, y, yp, 1, out[k]);
   }
   return seen;

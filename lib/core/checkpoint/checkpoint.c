@@ -11,6 +11,8 @@ int steif_checkpoint_save(steif_solver *s, const char *path, const void *note,
   size_t count = 0;
   if (!s) return STEIF_BAD_INPUT;
   STEIF_CHECK(path, s->ctx, STEIF_BAD_INPUT, "a checkpoint needs the path of a file, got NULL");
+  STEIF_CHECK(!s->agreed, s->ctx, STEIF_UNSUPPORTED,
+              "a run over ranks cannot be saved: each rank holds its own rows only");
   STEIF_CHECK(note || !note_bytes, s->ctx, STEIF_BAD_INPUT, "a note of %zu bytes is NULL",
               note_bytes);
   STEIF_TRY(stf_checkpoint_bytes(s, note, note_bytes, &bytes, &count));

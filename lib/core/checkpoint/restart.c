@@ -60,6 +60,8 @@ static int check(steif_solver *s, start *a)
 {
   STEIF_CHECK(!s->engine, s->ctx, STEIF_UNSUPPORTED,
               "'%s' cannot be restarted: make a new solver", s->spec);
+  STEIF_CHECK(!s->agreed, s->ctx, STEIF_UNSUPPORTED,
+              "a run over ranks cannot be restarted: make a new solver");
   STEIF_CHECK(!s->step.carry && !s->quadratures && !a->options.sensitivities, s->ctx,
               STEIF_UNSUPPORTED,
               "a run with sensitivities or quadratures is not restarted: make a new solver");
@@ -81,7 +83,7 @@ static int check(steif_solver *s, start *a)
   STEIF_TRY(check_problem(s, &a->problem));
   STEIF_TRY(check_options(s, &a->options));
   a->problem.t0 = a->t;
-  return stf_options_complete(s->ctx, &a->problem, &a->options);
+  return stf_options_complete(s->ctx, &a->problem, &a->options, a->problem.n);
 }
 
 /* -- and done ------------------------------------------------------------------------------------ */
@@ -153,8 +155,7 @@ static void take_start(steif_solver *s, const start *a)
     N_VConst(0, step->yp);
   step->yp_known = a->yp;
   if (s->options.atols && s->atols)
-    memcpy(N_VGetArrayPointer(s->atols), s->options.atols,
-           (size_t)s->problem->n * sizeof(sunrealtype));
+    memcpy(stf_array(s->atols), s->options.atols, (size_t)s->problem->n * sizeof(sunrealtype));
 }
 
 static void clear_counts(stf_system *system)

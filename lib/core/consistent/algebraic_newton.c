@@ -26,7 +26,7 @@ static sunrealtype known(SUNMatrix C, size_t j)
 static sunrealtype probe(stf_repair *r, const stf_view_factor *c)
 {
   N_Vector x = r->point.r;
-  sunrealtype *a = N_VGetArrayPointer(x), worst = 0;
+  sunrealtype *a = stf_array(x), worst = 0;
   const size_t n = r->point.n;
   memset(a, 0, n * sizeof *a);
   for (size_t j = 0; j < n; j++) {
@@ -59,9 +59,9 @@ static int correction(stf_repair *r, const stf_view_factor *c, const sunrealtype
   const size_t n = r->point.n;
   N_Vector x = r->point.r;
   STEIF_TRY(stf_point_residual(&r->point, r->point.t, y, yp, delta));
-  memcpy(N_VGetArrayPointer(x), delta, n * sizeof *delta);
+  memcpy(stf_array(x), delta, n * sizeof *delta);
   STEIF_TRY(steif_pencil_solve(c->pencil, 0, 1, &x, NULL));
-  for (size_t j = 0; j < n; j++) delta[j] = -N_VGetArrayPointer(x)[j];
+  for (size_t j = 0; j < n; j++) delta[j] = -stf_array(x)[j];
   return STEIF_OK;
 }
 

@@ -19,10 +19,10 @@ static int move(stf_repair *r, sunrealtype h, sunrealtype *work, sunrealtype *de
   sunrealtype *rest = work, *F = work + r->point.n;
   if (!code) code = stf_point_residual(&r->point, r->point.t + h, r->y, rest, F);
   if (!code) {
-    memcpy(N_VGetArrayPointer(x), F, r->point.n * sizeof *F);
+    memcpy(stf_array(x), F, r->point.n * sizeof *F);
     code = steif_pencil_solve(c.pencil, 0, 1, &x, NULL);
   }
-  for (size_t j = 0; j < r->point.n && !code; j++) delta[j] = -N_VGetArrayPointer(x)[j];
+  for (size_t j = 0; j < r->point.n && !code; j++) delta[j] = -stf_array(x)[j];
   stf_view_factor_close(&c);
   return code;
 }

@@ -48,9 +48,9 @@ static int step(jump *q, sunrealtype h, sunrealtype *out)
   for (int k = 0; k < ROUNDS && !code; k++) {
     code = residual(q, h);
     if (code) break;
-    memcpy(N_VGetArrayPointer(x), q->F, q->n * sizeof *q->F);
+    memcpy(stf_array(x), q->F, q->n * sizeof *q->F);
     code = steif_pencil_solve(c.pencil, 0, 1, &x, NULL);
-    for (size_t j = 0; j < q->n && !code; j++) q->w[j] -= N_VGetArrayPointer(x)[j];
+    for (size_t j = 0; j < q->n && !code; j++) q->w[j] -= stf_array(x)[j];
   }
   stf_view_factor_close(&c);
   memcpy(out, q->w, q->n * sizeof *out);

@@ -156,9 +156,9 @@ static int list_invariants(stf_repair *r, const sunrealtype *y)
   const size_t count = (size_t)p->invariants;
   sunrealtype *a = stf_allocate(r->ctx, 2 * count, sizeof *a);
   if (!a) return STEIF_NO_MEMORY;
-  memcpy(N_VGetArrayPointer(r->point.y), r->point.y0, r->point.n * sizeof *y);
+  memcpy(stf_array(r->point.y), r->point.y0, r->point.n * sizeof *y);
   int code = p->invariant(r->point.t, r->point.y, a, p->user);
-  memcpy(N_VGetArrayPointer(r->point.y), y, r->point.n * sizeof *y);
+  memcpy(stf_array(r->point.y), y, r->point.n * sizeof *y);
   if (!code) code = p->invariant(r->point.t, r->point.y, a + count, p->user);
   for (size_t k = 0; k < count && !code; k++)
     if (fabs(a[count + k] - a[k]) > r->rtol * (fabs(a[k]) + 1))

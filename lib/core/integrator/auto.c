@@ -78,7 +78,8 @@ static enum stf_auto_method rosenbrock(const steif_problem *p, const steif_optio
 static bool linearly(const steif_problem *p, const steif_options *o)
 {
   const sunrealtype most = p->n <= TINY ? 1e-2 : p->autonomous ? 1e-4 : 1e-1;
-  if (p->dae_index > 1 || !p->jac || !p->y0 || o->ewt || !stf_above_rounding(p, o, p->y0, 100))
+  if (p->dae_index > 1 || !p->jac || (o->like && stf_spread(o->like)) || !p->y0 || o->ewt ||
+      !stf_above_rounding(p, o, p->y0, 100))
     return false;
   return p->n <= (p->autonomous ? SOME : FEW) && o->rtol >= 0.9 * most;
 }

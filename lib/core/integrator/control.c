@@ -39,8 +39,10 @@ static int weigh_levels(steif_solver *s, sunrealtype h)
 {
   stf_step *step = &s->step;
   STEIF_TRY(stf_weigh(s));
-  sunrealtype *w = s->problem->index ? N_VGetArrayPointer(step->weights) : NULL;
-  for (sunindextype i = 0; w && i < s->problem->n; i++)
+  if (!s->problem->index) return STEIF_OK;
+  sunindextype rows;
+  sunrealtype *w = stf_own_rows(step->weights, &rows);
+  for (sunindextype i = 0; w && i < rows; i++)
     for (int level = s->problem->index[i]; level > 1; level--) w[i] *= h;
   return STEIF_OK;
 }

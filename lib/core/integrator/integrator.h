@@ -3,6 +3,7 @@
 #ifndef STF_MARCH_H
 #define STF_MARCH_H
 
+#include "agree.h"
 #include "engine.h"
 #include "event.h"
 #include "method.h"
@@ -83,6 +84,7 @@ struct steif_solver {
   stf_quadratures *quadratures; /* NULL: none */
   stf_start_nodes nodes;        /* of what is recomputed */
   sunrealtype drift, corrected; /* of the solution shown, recomputed; NaN: it was not */
+  struct stf_agreed *agreed;    /* of vectors spread over ranks; NULL: they are not */
   int failure;
   char why[400];               /* the sentence of the failure */
   sunrealtype *invariants;     /* at the start, then room for as many */
@@ -110,8 +112,13 @@ int stf_look_at_mass(steif_solver *s, int *form, N_Vector y, N_Vector yp);
 /* The start of a DAE, for methods of ours with adaptive steps; linear systems have their jump. */
 int stf_look_at_start(steif_solver *s, int form);
 
-/* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. */
-int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o);
+/* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. `rows`: of absolute tolerances. */
+int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o,
+                         sunindextype rows);
+
+/* agreed.c: problem and options checked, the same on all ranks; where vectors are spread over several ranks,
+ * they become copies whose callbacks return the same code on all of them. */
+int stf_agreed_open(steif_solver *s, int *form);
 
 /* One accepted step of a method of ours, not beyond t_stop where step sizes are adaptive: breaks.c, which
  * looks at limits and breaks, and control.c, which decides on step sizes. */

@@ -33,7 +33,8 @@ static int check_mesh(steif_context *ctx, const steif_options *o, sunrealtype t0
   return STEIF_OK;
 }
 
-int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o)
+int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o,
+                         sunindextype rows)
 {
   if (o->rtol == 0) o->rtol = 1e-6;
   if (o->atol == 0) o->atol = o->rtol * (p->rtol_scale > 0 ? p->rtol_scale : 1);
@@ -46,7 +47,7 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
               "rtol = %g asks for more than double precision has: use 1e-14 or more", o->rtol);
   STEIF_CHECK(o->atol > 0 && isfinite(o->atol), ctx, STEIF_BAD_INPUT,
               "atol = %g must be positive and finite", o->atol);
-  for (sunindextype i = 0; o->atols && i < p->n; i++)
+  for (sunindextype i = 0; o->atols && i < rows; i++)
     STEIF_CHECK(o->atols[i] > 0 && isfinite(o->atols[i]), ctx, STEIF_BAD_INPUT,
                 "atols[%lld] = %g must be positive and finite", (long long)i, o->atols[i]);
   STEIF_CHECK(o->h >= 0 && isfinite(o->h) && o->h0 >= 0 && isfinite(o->h0) && o->h_max >= 0 &&

@@ -74,8 +74,7 @@ static int grow(steif_record *r)
 
 static int begin(steif_record *r, const steif_solver *s, N_Vector y)
 {
-  STEIF_CHECK(N_VGetArrayPointer(y) && N_VGetLength(y) == (sunindextype)r->n, r->ctx,
-              STEIF_BAD_INPUT,
+  STEIF_CHECK(stf_array(y) && N_VGetLength(y) == (sunindextype)r->n, r->ctx, STEIF_BAD_INPUT,
               "a record of %zu components needs vectors of as many with a host array", r->n);
   if (!r->pool) r->pool = stf_pool_new(r->ctx);
   r->work = r->pool ? stf_pool_vector(r->pool, y) : NULL;
@@ -96,7 +95,7 @@ int steif_record_step(steif_solver *s, sunrealtype t, N_Vector y, void *record)
   for (int j = 0; j <= r->degree; j++, to += r->n) {
     N_Vector v = j < r->degree ? r->work : y;
     if (j < r->degree) STEIF_TRY(stf_dense(s, from + r->point[j] * (t - from), v));
-    memcpy(to, N_VGetArrayPointer(v), r->n * sizeof *to);
+    memcpy(to, stf_array(v), r->n * sizeof *to);
   }
   r->t[++r->count] = t;
   return STEIF_OK;

@@ -39,7 +39,7 @@ int stf_rounding_open(steif_solver *s)
 {
   const stf_step *step = &s->step;
   const stf_system *from = &step->system;
-  const sunrealtype *y = step->y->ops->nvgetarraypointer ? N_VGetArrayPointer(step->y) : NULL;
+  const sunrealtype *y = stf_array(step->y);
   if (!step->adaptive || (step->method->traits & STF_EXPLICIT) || s->options.ewt || !y ||
       from->storage == STEIF_KRYLOV || stf_above_rounding(s->problem, &s->options, y, errors))
     return STEIF_OK;
@@ -83,8 +83,8 @@ static sunrealtype surviving_noise(void *data)
 
 static void add(stf_rounding *r, const stf_step *step)
 {
-  const sunrealtype *y = N_VGetArrayPointer(step->y);
-  sunrealtype *e = N_VGetArrayPointer(r->error);
+  const sunrealtype *y = stf_array(step->y);
+  sunrealtype *e = stf_array(r->error);
   for (sunindextype j = 0; j < step->problem->n; j++)
     e[j] += 2 * noise(r) * fabs(y[j]); /* sqrt(EVERY) */
 }
@@ -104,8 +104,8 @@ int stf_rounding_step(steif_solver *s)
   N_VScale(rate, r->work, r->work);
   N_VConst(0, r->imaginary);
   if (step->method->traits & STF_UNCORRECTED)
-    stf_system_add_entries(&r->system, surviving_noise, r, N_VGetArrayPointer(step->y),
-                           N_VGetArrayPointer(r->work));
+    stf_system_add_entries(&r->system, surviving_noise, r, stf_array(step->y),
+                           stf_array(r->work));
   if (!code) code = steif_pencil_solve(r->system.pencil, 0, 1, &r->work, &r->imaginary);
   N_VScale(-2, r->imaginary, r->error);
   stf_silence(s->ctx, before);

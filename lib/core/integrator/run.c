@@ -81,12 +81,13 @@ static int integrated(steif_solver *s)
 static int within_limits(steif_solver *s, sunrealtype begun)
 {
   const steif_options *o = &s->options;
-  STEIF_CHECK(!o->stop || !*o->stop, s->ctx, STEIF_STOPPED,
+  const sunrealtype seconds = o->max_seconds > 0 ? now(CLOCK_MONOTONIC) - begun : 0;
+  bool limit[] = {o->stop && *o->stop, o->max_seconds > 0 && !(seconds < o->max_seconds)};
+  if (s->agreed) stf_agree_any(o->like, 2, limit);
+  STEIF_CHECK(!limit[0], s->ctx, STEIF_STOPPED,
               "the run was stopped from outside at t = %.12g after %ld steps", s->end,
               steif_statistics(s)->steps);
-  if (!(o->max_seconds > 0)) return STEIF_OK;
-  const sunrealtype seconds = now(CLOCK_MONOTONIC) - begun;
-  STEIF_CHECK(seconds < o->max_seconds, s->ctx, STEIF_TIME_LIMIT,
+  STEIF_CHECK(!limit[1], s->ctx, STEIF_TIME_LIMIT,
               "the run took %.3g seconds to t = %.12g (%ld steps), max_seconds is %.3g: raise "
               "it or loosen the tolerance",
               seconds, s->end, steif_statistics(s)->steps, o->max_seconds);
@@ -96,7 +97,7 @@ static int within_limits(steif_solver *s, sunrealtype begun)
 bool stf_observed(const steif_solver *s)
 {
   const steif_options *o = &s->options;
-  return s->events || o->observe || o->stop || o->max_seconds > 0;
+  return s->agreed || s->events || o->observe || o->stop || o->max_seconds > 0;
 }
 
 /* A step and all that may hang on it. */
@@ -108,10 +109,10 @@ static int step_once(steif_solver *s, sunrealtype begun)
   if (!(s->finished && s->events->silent)) stf_observe(s, s->end, stf_last(s));
   const bool asked = s->observer_stopped, explained = s->observer_failed;
   s->observer_stopped = s->observer_failed = false;
-  if (asked && explained) return steif_status(s->ctx);
-  STEIF_CHECK(!asked, s->ctx, STEIF_CALLBACK, "the observer stopped the run at t = %.12g",
-              s->end);
-  return STEIF_OK;
+  if (asked && !explained)
+    STEIF_FAIL(s->ctx, STEIF_CALLBACK, "the observer stopped the run at t = %.12g", s->end);
+  const int code = asked ? steif_status(s->ctx) : STEIF_OK;
+  return s->agreed ? stf_agree(s->ctx, s->options.like, code) : code;
 }
 
 /* Steps of an engine that nobody looks at, in one call: what lies between them costs nothing then. Where
@@ -126,6 +127,7 @@ static int stretch(steif_solver *s, sunrealtype t, sunrealtype begun)
   s->end = s->t_shown = s->run.t;
   s->shown = s->run.y;
   if (code) return failed(s, code);
+  if (s->agreed) return STEIF_OK; /* clocks differ */
   const sunrealtype took = s->observed ? now(CLOCK_MONOTONIC) - from : 0;
   if (took < soon && s->stretch < most) s->stretch *= 2;
   if (took > 10 * soon && s->stretch > 1) s->stretch /= 2;
@@ -188,7 +190,7 @@ int steif_solve_step(steif_solver *s)
   if (s) start_clock(s);
   const int code = stf_step_untimed(s);
   if (s) stop_clock(s);
-  return code;
+  return s && s->agreed ? stf_agree(s->ctx, s->options.like, code) : code;
 }
 
 /* Show the solution at t inside the last step. */
@@ -199,7 +201,7 @@ static int show(steif_solver *s, sunrealtype t)
   return STEIF_OK;
 }
 
-int steif_solve_to(steif_solver *s, sunrealtype t)
+static int solve_to(steif_solver *s, sunrealtype t)
 {
   STEIF_TRY(ready(s));
   STEIF_CHECK(isfinite(t) && t >= s->problem->t0 &&
@@ -225,6 +227,12 @@ int steif_solve_to(steif_solver *s, sunrealtype t)
   if (!code) code = stf_recompute_shown(s);
   if (!code) steif_forget(s->ctx);
   return code;
+}
+
+int steif_solve_to(steif_solver *s, sunrealtype t)
+{
+  const int code = solve_to(s, t);
+  return s && s->agreed ? stf_agree(s->ctx, s->options.like, code) : code;
 }
 
 int stf_dense(steif_solver *s, sunrealtype t, N_Vector y)

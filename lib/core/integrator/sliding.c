@@ -26,8 +26,7 @@ static int evaluate(steif_solver *s, N_Vector y, N_Vector out)
 /* F at y, y + w e_j and y - w e_j: which equation bends most? */
 static void compare(sunindextype n, sunindextype j, N_Vector *F, corner *c)
 {
-  const sunrealtype *at = N_VGetArrayPointer(F[0]), *up = N_VGetArrayPointer(F[1]),
-                    *down = N_VGetArrayPointer(F[2]);
+  const sunrealtype *at = stf_array(F[0]), *up = stf_array(F[1]), *down = stf_array(F[2]);
   for (sunindextype i = 0; i < n; i++) {
     const sunrealtype a = fabs(up[i] - at[i]), b = fabs(down[i] - at[i]);
     const sunrealtype bend = fabs(up[i] - 2 * at[i] + down[i]), size = a + b;
@@ -43,8 +42,8 @@ static int search(steif_solver *s, N_Vector *v, corner *c)
 {
   const stf_step *step = &s->step;
   const sunindextype n = s->problem->n;
-  const sunrealtype *w = N_VGetArrayPointer(step->weights);
-  sunrealtype *y = N_VGetArrayPointer(v[3]);
+  const sunrealtype *w = stf_array(step->weights);
+  sunrealtype *y = stf_array(v[3]);
   N_VScale(1, step->y, v[3]);
   STEIF_TRY(evaluate(s, v[3], v[0]));
   for (sunindextype j = 0; j < n; j++) {
@@ -66,7 +65,7 @@ static int find(steif_solver *s, corner *c)
 {
   *c = (corner){-1, -1, 0};
   if (s->problem->n > MOST_UNKNOWNS || s->step.system.form == STEIF_DESCRIPTOR ||
-      !N_VGetArrayPointer(s->step.y))
+      !stf_array(s->step.y))
     return STEIF_OK;
   stf_pool *pool = stf_pool_new(s->ctx);
   N_Vector *v = pool ? stf_pool_vectors(pool, 4, s->step.y) : NULL;
@@ -87,7 +86,7 @@ static int told(const steif_solver *s, const corner *c, long rejected)
     "a rule for that (hysteresis, a sliding mode, an event), or make the law smooth",
     WINDOW, s->problem->name, rejected, step->h, step->t,
     stf_equation(s->problem, c->equation, equation),
-    stf_unknown(s->problem, c->unknown, unknown), N_VGetArrayPointer(step->y)[c->unknown]);
+    stf_unknown(s->problem, c->unknown, unknown), stf_array(step->y)[c->unknown]);
 }
 
 int stf_corner_check(steif_solver *s)

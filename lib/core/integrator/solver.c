@@ -8,16 +8,6 @@
 
 /* -- opening ----------------------------------------------------------------------------- */
 
-static int check_vector(steif_context *ctx, const steif_problem *p, const steif_options *o)
-{
-  if (!o->like) return STEIF_OK;
-  const sunindextype n = N_VGetLength(o->like);
-  STEIF_CHECK(n == p->n, ctx, STEIF_BAD_INPUT,
-              "options.like has %lld components, problem '%s' has %lld", (long long)n, p->name,
-              (long long)p->n);
-  return STEIF_OK;
-}
-
 static void destroy_vector(void *v) { N_VDestroy(v); }
 
 static int open_vectors(steif_solver *s, N_Vector *y, N_Vector *yp)
@@ -36,9 +26,10 @@ static int open_vectors(steif_solver *s, N_Vector *y, N_Vector *yp)
   if (!s->options.atols) return STEIF_OK;
   s->atols = stf_pool_vector(s->pool, like);
   if (!s->atols) return STEIF_NO_MEMORY;
-  sunrealtype *a = N_VGetArrayPointer(s->atols);
+  sunindextype rows;
+  sunrealtype *a = stf_own_rows(s->atols, &rows);
   STEIF_CHECK(a, s->ctx, STEIF_UNSUPPORTED, "options.atols needs vectors with a host array");
-  const size_t n = (size_t)s->problem->n;
+  const size_t n = (size_t)rows;
   memcpy(a, s->options.atols, n * sizeof *a);
   s->floors = stf_pool_array(s->pool, n, sizeof *s->floors);
   if (!s->floors) return STEIF_NO_MEMORY;
@@ -276,11 +267,9 @@ static int open(steif_solver *s, const char *method)
 {
   steif_spec *spec = &s->parsed;
   N_Vector y = NULL, yp = NULL;
-  int form = steif_problem_form(s->ctx, s->problem);
-  if (!form) return steif_status(s->ctx);
+  int form = 0;
+  STEIF_TRY(stf_agreed_open(s, &form));
   STEIF_TRY(begin(s));
-  STEIF_TRY(stf_options_complete(s->ctx, s->problem, &s->options));
-  STEIF_TRY(check_vector(s->ctx, s->problem, &s->options));
   s->t1 = s->t1_opened = s->options.t1;
   s->t_shown = s->end = s->problem->t0;
   s->drift = s->corrected = NAN;
@@ -353,7 +342,7 @@ steif_solver *steif_solver_new_sized(size_t problem_bytes, size_t options_bytes,
   s->ctx = ctx;
   s->pool = stf_pool_new(ctx);
   if (!s->pool || take_given(s, problem, problem_bytes, options, options_bytes) ||
-      open(s, method))
+      stf_agree(ctx, s->options.like, open(s, method)))
     steif_solver_free(&s);
   return s;
 }

@@ -76,7 +76,7 @@ static void take(stf_step *s, const candidate *c)
 /* The spectral radius of the Jacobian at hand, from a vector that has a part of everything. */
 static int radius(stf_step *s, stf_switching *r, sunrealtype *rho)
 {
-  sunrealtype *v = N_VGetArrayPointer(s->next), *w = N_VGetArrayPointer(s->weights);
+  sunrealtype *v = stf_array(s->next), *w = stf_array(s->weights);
   unsigned bits = 1;
   for (sunindextype i = 0; i < s->problem->n; i++) {
     bits =

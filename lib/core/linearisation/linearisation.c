@@ -50,7 +50,7 @@ static int put_point(stf_point *s, const steif_point *q, int form)
   stf_space_open(&space, s->y);
   if (!here || constant)
     STEIF_TRY(stf_system_start(s->ctx, &s->problem, form, &space, s->y, s->yp, &known));
-  sunrealtype *y = N_VGetArrayPointer(s->y), *yp = N_VGetArrayPointer(s->yp);
+  sunrealtype *y = stf_array(s->y), *yp = stf_array(s->yp);
   for (size_t j = 0; j < s->n; j++) {
     const sunrealtype begun = fabs(y[j]);
     if (here) y[j] = q->y[j];
@@ -191,8 +191,8 @@ static bool finite(const sunrealtype *x, size_t n)
 
 static void move_to(stf_point *s, const sunrealtype *y, const sunrealtype *yp)
 {
-  memcpy(N_VGetArrayPointer(s->y), y, s->n * sizeof *y);
-  memcpy(N_VGetArrayPointer(s->yp), yp, s->n * sizeof *yp);
+  memcpy(stf_array(s->y), y, s->n * sizeof *y);
+  memcpy(stf_array(s->yp), yp, s->n * sizeof *yp);
 }
 
 int stf_point_residual(stf_point *s, sunrealtype t, const sunrealtype *y, const sunrealtype *yp,
@@ -200,7 +200,7 @@ int stf_point_residual(stf_point *s, sunrealtype t, const sunrealtype *y, const 
 {
   move_to(s, y, yp);
   STEIF_TRY(stf_system_residual(&s->system, t, s->y, s->yp, s->r));
-  memcpy(r, N_VGetArrayPointer(s->r), s->n * sizeof *r);
+  memcpy(r, stf_array(s->r), s->n * sizeof *r);
   return finite(r, s->n) ? STEIF_OK : STEIF_RETRY;
 }
 

@@ -177,7 +177,7 @@ static int solve(augmented *a, sunrealtype *b)
 {
   linear_system *s = a->now;
   const size_t bytes = s->order * sizeof *b;
-  sunrealtype *x = N_VGetArrayPointer(s->x);
+  sunrealtype *x = stf_array(s->x);
   memcpy(a->rest, b, bytes);
   memset(b, 0, bytes);
   for (int k = 0; k < 2; k++) {
@@ -194,7 +194,7 @@ static int probe(stf_nearest_point *m, bool *independent)
 {
   augmented *a = m->augmented;
   linear_system *s = a->now;
-  sunrealtype *x = N_VGetArrayPointer(s->x), worst = 0;
+  sunrealtype *x = stf_array(s->x), worst = 0;
   unsigned seed = 4711;
   for (size_t i = 0; i < s->order; i++) {
     x[i] = s->order > m->rows && i < m->columns ? 0 : 1 + 0.5 * stf_point_random(&seed);

@@ -177,7 +177,7 @@ static void subtract(const stf_factor *f, int which, const sunrealtype *x, sunre
 static int solve(stf_factor *f, int which, const sunrealtype *b, sunrealtype *x)
 {
   const size_t bytes = f->n * sizeof *x;
-  sunrealtype *v = N_VGetArrayPointer(f->x);
+  sunrealtype *v = stf_array(f->x);
   memset(x, 0, bytes);
   for (int k = 0; k <= REFINEMENTS; k++) {
     memcpy(v, b, bytes);

@@ -204,8 +204,8 @@ static int evaluate(stf_point *s, sunrealtype t, const sunrealtype *y, const sun
   if (s->quick || n > STEIF_DIAGNOSE_LARGEST) {
     if (!s->analytic) from->noise = 1e-6;
     if (s->quick && s->views++ == 0) return STEIF_OK; /* as opened */
-    memcpy(N_VGetArrayPointer(s->y), y, n * sizeof *y);
-    memcpy(N_VGetArrayPointer(s->yp), yp, n * sizeof *yp);
+    memcpy(stf_array(s->y), y, n * sizeof *y);
+    memcpy(stf_array(s->yp), yp, n * sizeof *yp);
     return stf_system_linearise(&s->system, t, s->y, s->yp);
   }
   sunrealtype *E = stf_allocate(s->ctx, 2 * n * n, sizeof *E);

@@ -104,8 +104,9 @@ void stf_estimate_levels(stf_step *s)
   const int *index = s->problem->index;
   const sunrealtype rounding = 1e-11, strict = 0.05 + rounding / s->options->rtol;
   if (!index || !watched(s) || !settled(s) || s->control.tolerance <= strict) return;
-  sunrealtype *error = N_VGetArrayPointer(s->error);
-  for (sunindextype i = 0; i < s->problem->n; i++)
+  sunindextype rows;
+  sunrealtype *error = stf_own_rows(s->error, &rows);
+  for (sunindextype i = 0; error && i < rows; i++)
     if (index[i] > 1) error[i] *= s->control.tolerance / strict;
 }
 

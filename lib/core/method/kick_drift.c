@@ -326,7 +326,7 @@ static int masks(stf_pool *pool, stf_kick_drift *h, const char *name)
               s->problem->name);
   for (int k = 0; k < 2; k++) {
     if (!(h->mask[k] = stf_pool_vector(pool, s->space.like))) return STEIF_NO_MEMORY;
-    sunrealtype *a = N_VGetArrayPointer(h->mask[k]);
+    sunrealtype *a = stf_array(h->mask[k]);
     for (sunindextype i = 0; i < s->space.n; i++) a[i] = (i < h->m) == (k == 0);
   }
   return STEIF_OK;

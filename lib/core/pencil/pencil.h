@@ -4,6 +4,7 @@
 #define STF_PENCIL_H
 
 #include "image.h"
+#include "space.h"
 #include <nvector/nvector_serial.h>
 #include <steif/pencil.h>
 
@@ -84,13 +85,6 @@ static inline void stf_pencil_aim(steif_pencil *p, N_Vector weights, double aim)
 
 /* saved/pencil_image.c: factors and counts; the matrices are the owner's and have been read before. */
 void stf_pencil_keep(steif_pencil *p, stf_image *m);
-
-/* The host array of v, or NULL; without a call for a serial vector. */
-static inline sunrealtype *stf_array(N_Vector v)
-{
-  if (v->ops->nvgetarraypointer == N_VGetArrayPointer_Serial) return NV_DATA_S(v);
-  return v->ops->nvgetarraypointer ? N_VGetArrayPointer(v) : NULL;
-}
 
 /* threads.c: piece(task, i) for i < count on up to so many threads; the pieces are independent. */
 void stf_parallel(int threads, int count, void (*piece)(void *task, int i), void *task);

@@ -35,7 +35,7 @@ static int perturb(steif_pencil *p, sunrealtype s, N_Vector x)
 {
   const steif_shift shift = {.re = s};
   unsigned state = 4711;
-  sunrealtype *a = N_VGetArrayPointer(x);
+  sunrealtype *a = stf_array(x);
   for (sunindextype i = 0; i < N_VGetLength(x); i++) {
     state = state * 1103515245u + 12345u;
     a[i] = 0.5 + (sunrealtype)(state >> 16 & 1023) / 2048;
@@ -59,8 +59,7 @@ static int compare(const stf_system *s, N_Vector *x)
   const steif_problem *p = s->problem;
   sunindextype ones = 0, high = -1;
   for (sunindextype i = 0; i < s->space.n; i++) {
-    const int index = shown(N_VGetArrayPointer(x[0])[i], N_VGetArrayPointer(x[1])[i],
-                            N_VGetArrayPointer(x[2])[i]);
+    const int index = shown(stf_array(x[0])[i], stf_array(x[1])[i], stf_array(x[2])[i]);
     STEIF_CHECK(
       index <= p->index[i], s->ctx, STEIF_BAD_INPUT,
       "index[%lld] = %d of problem '%s' contradicts its equations, which show index %d "

@@ -185,9 +185,8 @@ int stf_differ(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp
   if (s->linear) stf_zero(&s->space, y = yp = s->work[2]);
   STEIF_TRY(stf_groups_evaluate(s, t, y, yp, base));
   stf_copy(&s->space, which == 'A' ? y : yp, moved);
-  sunrealtype *m = N_VGetArrayPointer(moved), *d = N_VGetArrayPointer(changed);
-  const sunrealtype *b = N_VGetArrayPointer(base),
-                    *at = N_VGetArrayPointer(which == 'A' ? y : yp);
+  sunrealtype *m = stf_array(moved), *d = stf_array(changed);
+  const sunrealtype *b = stf_array(base), *at = stf_array(which == 'A' ? y : yp);
   for (int group = 0; group < g->count; group++) {
     const sunindextype from = g->start[group], to = g->start[group + 1];
     for (sunindextype k = from; k < to; k++) {

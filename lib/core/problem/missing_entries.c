@@ -26,8 +26,8 @@ static int shove(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector 
                  sunindextype from, sunindextype to, sunindextype row)
 {
   N_Vector moved = s->work[4], d = s->work[5];
-  const sunrealtype *at = N_VGetArrayPointer(which == 'A' ? y : yp);
-  sunrealtype *m = N_VGetArrayPointer(moved), *v = N_VGetArrayPointer(s->work[2]);
+  const sunrealtype *at = stf_array(which == 'A' ? y : yp);
+  sunrealtype *m = stf_array(moved), *v = stf_array(s->work[2]);
   unsigned state = 12345;
   for (sunindextype j = 0; j < s->space.n; j++) {
     state = state * 1103515245u + 12345u;
@@ -47,7 +47,7 @@ static int shove(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector 
 static int halve(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp,
                  sunindextype i, sunrealtype wrong, sunindextype *column)
 {
-  const sunrealtype *d = N_VGetArrayPointer(s->work[5]);
+  const sunrealtype *d = stf_array(s->work[5]);
   sunindextype from = 0, to = s->space.n;
   *column = -1;
   STEIF_TRY(shove(s, which, t, y, yp, from, to, i));
@@ -68,7 +68,7 @@ static int halve(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector 
 
 static int outside_band(stf_system *s, sunrealtype t, sunindextype i, sunindextype j)
 {
-  const sunrealtype *d = N_VGetArrayPointer(s->work[5]), *v = N_VGetArrayPointer(s->work[2]);
+  const sunrealtype *d = stf_array(s->work[5]), *v = stf_array(s->work[2]);
   char row[STEIF_SPEC_WORD], column[STEIF_SPEC_WORD];
   return STEIF_FAIL(
     s->ctx, STEIF_BAD_INPUT,
@@ -161,7 +161,7 @@ static int grow(stf_system *s, list *l)
 /* All columns one by one: what moves and is not in the pattern is listed. */
 static int sweep(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp, list *l)
 {
-  const sunrealtype *d = N_VGetArrayPointer(s->work[5]);
+  const sunrealtype *d = stf_array(s->work[5]);
   for (sunindextype j = 0; j < s->space.n; j++) {
     const int code = shove(s, which, t, y, yp, j, j + 1, -1);
     if (code < 0) return code;
@@ -204,10 +204,10 @@ static int deviations(stf_system *s, char which, sunrealtype t, N_Vector y, N_Ve
 {
   STEIF_TRY(stf_groups_evaluate(s, t, y, yp, s->work[3]));
   STEIF_TRY(shove(s, which, t, y, yp, 0, s->space.n, -1));
-  const sunrealtype *d = N_VGetArrayPointer(s->work[5]), *base = N_VGetArrayPointer(s->work[3]);
-  sunrealtype *wrong = N_VGetArrayPointer(s->work[1]), *size = N_VGetArrayPointer(s->work[0]);
+  const sunrealtype *d = stf_array(s->work[5]), *base = stf_array(s->work[3]);
+  sunrealtype *wrong = stf_array(s->work[1]), *size = stf_array(s->work[0]);
   const sunrealtype sign = which == 'A' && s->form == STEIF_IMPLICIT ? -1 : 1;
-  multiply(s, M, N_VGetArrayPointer(s->work[2]), wrong, size);
+  multiply(s, M, stf_array(s->work[2]), wrong, size);
   *count = 0;
   for (sunindextype i = 0; i < s->space.n; i++) {
     wrong[i] = fabs(d[i] - sign * wrong[i]);
@@ -221,7 +221,7 @@ static int deviations(stf_system *s, char which, sunrealtype t, N_Vector y, N_Ve
 /* Row by row, at most ASKED of them. */
 static int ask_rows(stf_system *s, char which, sunrealtype t, N_Vector y, N_Vector yp, list *l)
 {
-  const sunrealtype *wrong = N_VGetArrayPointer(s->work[1]);
+  const sunrealtype *wrong = stf_array(s->work[1]);
   int asked = 0;
   for (sunindextype i = 0; i < s->space.n && asked < ASKED; i++) {
     if (!(wrong[i] > 0)) continue;

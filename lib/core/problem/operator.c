@@ -100,7 +100,7 @@ bool stf_operator_has_near(const stf_system *s)
     p->A || p->pattern || (s->form == STEIF_IMPLICIT ? p->idajac != NULL : p->jac != NULL);
   const bool fills_E = s->form == STEIF_ODE || p->E || (s->form == STEIF_IMPLICIT && fills_A);
   return s->krylov && p->storage == STEIF_SPARSE && !p->precsolve && fills_A && fills_E &&
-         (s->space.serial || N_VGetArrayPointer(s->space.like));
+         (s->space.serial || stf_array(s->space.like));
 }
 
 static int near_E(N_Vector x, N_Vector out, void *user)

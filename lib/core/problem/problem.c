@@ -22,11 +22,11 @@ static int form_of(const steif_problem *p)
   return E && (p->A || p->Av) ? STEIF_DESCRIPTOR : 0;
 }
 
-static int check_values(steif_context *ctx, const steif_problem *p)
+static int check_values(steif_context *ctx, const steif_problem *p, sunindextype rows)
 {
   STEIF_CHECK(p->y0 || p->start, ctx, STEIF_BAD_INPUT,
               "problem '%s' has no start values: set .y0 or .start", p->name);
-  for (sunindextype i = 0; i < p->n; i++) {
+  for (sunindextype i = 0; i < rows; i++) {
     STEIF_CHECK(!p->y0 || isfinite(p->y0[i]), ctx, STEIF_NOT_FINITE,
                 "start value y0[%lld] = %g of problem '%s' is not finite", (long long)i,
                 p->y0[i], p->name);
@@ -75,6 +75,11 @@ int stf_storage_check(steif_context *ctx, const steif_problem *p, enum steif_sto
 
 int steif_problem_form(steif_context *ctx, const steif_problem *p)
 {
+  return stf_problem_form(ctx, p, p ? p->n : 0);
+}
+
+int stf_problem_form(steif_context *ctx, const steif_problem *p, sunindextype rows)
+{
   if (!p || !p->name) {
     STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a problem with a name is needed");
     return 0;
@@ -94,7 +99,7 @@ int steif_problem_form(steif_context *ctx, const steif_problem *p)
                "interval [%g, %g] of problem '%s' must be finite and "
                "ascending",
                p->t0, p->t1, p->name);
-  else if (!check_values(ctx, p) && !check_breaks(ctx, p) &&
+  else if (!check_values(ctx, p, rows) && !check_breaks(ctx, p) &&
            !stf_storage_check(ctx, p, p->storage))
     return form;
   return 0;
@@ -102,7 +107,7 @@ int steif_problem_form(steif_context *ctx, const steif_problem *p)
 
 sunindextype stf_not_finite(N_Vector v)
 {
-  const sunrealtype *a = N_VGetArrayPointer(v);
+  const sunrealtype *a = stf_array(v);
   const sunindextype n = a ? N_VGetLength(v) : 0;
   for (sunindextype i = 0; i < n; i++)
     if (!isfinite(a[i])) return i;

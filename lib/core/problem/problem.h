@@ -100,6 +100,9 @@ int stf_storage_check(steif_context *ctx, const steif_problem *problem,
 const char *stf_unknown(const steif_problem *problem, sunindextype i, char *room);
 const char *stf_equation(const steif_problem *problem, sunindextype i, char *room);
 
+/* steif_problem_form where this rank has so many rows of start values and index. */
+int stf_problem_form(steif_context *ctx, const steif_problem *problem, sunindextype rows);
+
 /* The 0-based component that is not finite, or -1. Needs a host array (else -1). */
 sunindextype stf_not_finite(N_Vector v);
 

@@ -31,27 +31,22 @@ int stf_start_values(steif_context *ctx, const steif_problem *p, N_Vector y, N_V
                 p->name, returned);
     return STEIF_OK;
   }
-  sunrealtype *a = N_VGetArrayPointer(y), *b = N_VGetArrayPointer(yp);
+  sunindextype rows;
+  sunrealtype *a = stf_own_rows(y, &rows), *b = stf_own_rows(yp, &rows);
   STEIF_CHECK(a && b, ctx, STEIF_UNSUPPORTED,
               "vectors without a host array need the callback "
               ".start of problem '%s'",
               p->name);
-  memcpy(a, p->y0, (size_t)p->n * sizeof *a);
-  if (p->yp0) memcpy(b, p->yp0, (size_t)p->n * sizeof *b);
+  memcpy(a, p->y0, (size_t)rows * sizeof *a);
+  if (p->yp0) memcpy(b, p->yp0, (size_t)rows * sizeof *b);
   return STEIF_OK;
-}
-
-/* NULL without a host array. */
-static sunrealtype *array_of(N_Vector v)
-{
-  return v->ops->nvgetarraypointer ? N_VGetArrayPointer(v) : NULL;
 }
 
 /* A vector must come back from a callback as it went. */
 static int check_size(steif_context *ctx, const steif_problem *p, const char *what, N_Vector v,
                       const sunrealtype *array)
 {
-  STEIF_CHECK(N_VGetLength(v) == p->n && array_of(v) == array, ctx, STEIF_BAD_INPUT,
+  STEIF_CHECK(N_VGetLength(v) == p->n && stf_array(v) == array, ctx, STEIF_BAD_INPUT,
               "%s of problem '%s' gave a vector back with %lld components%s, it had %lld: "
               "callbacks fill vectors and never replace or resize them",
               what, p->name, (long long)N_VGetLength(v),
@@ -66,7 +61,7 @@ static int first_call(steif_context *ctx, const steif_problem *p, int form, bool
   const char *what = form == STEIF_IMPLICIT ? "F" : form == STEIF_DESCRIPTOR ? "g" : "f";
   if ((form == STEIF_IMPLICIT && !known) || (form == STEIF_DESCRIPTOR && !p->g))
     return STEIF_OK;
-  sunrealtype *kept[] = {array_of(y), array_of(out)};
+  sunrealtype *kept[] = {stf_array(y), stf_array(out)};
   const int returned = form == STEIF_IMPLICIT     ? p->F(p->t0, y, yp, out, p->user)
                        : form == STEIF_DESCRIPTOR ? p->g(p->t0, 0, out, p->user)
                                                   : p->f(p->t0, y, out, p->user);

@@ -251,7 +251,7 @@ static int matrix(stf_pool *pool, stf_system *s, sunindextype nnz, SUNMatrix *M)
 static int open_matrices(stf_pool *pool, stf_system *s)
 {
   const steif_problem *p = s->problem;
-  STEIF_CHECK(s->space.serial || N_VGetArrayPointer(s->space.like), s->ctx, STEIF_UNSUPPORTED,
+  STEIF_CHECK(s->space.serial || stf_array(s->space.like), s->ctx, STEIF_UNSUPPORTED,
               "vectors of problem '%s' have no host array: only Krylov storage can serve them",
               p->name);
   const bool fills = s->form == STEIF_DESCRIPTOR ? p->E && p->A : s->form != STEIF_MASS || p->E;

@@ -63,7 +63,7 @@ static void name_equation(ida *s)
   if (run->stats.steps || b->fault.now) return;
   const int seen = stf_lower_residual(run->t, run->y, run->yp, b->start, b);
   b->fault.now = false;
-  const sunrealtype *r = N_VGetArrayPointer(b->start);
+  const sunrealtype *r = stf_array(b->start);
   if (seen || !r) return;
   char name[STEIF_SPEC_WORD];
   sunindextype worst = 0;

@@ -33,7 +33,7 @@ static bool holds(int constraint, sunrealtype y)
 int stf_constraint_check(steif_solver *s, sunrealtype t, N_Vector v, const char *where)
 {
   const steif_problem *p = s->problem;
-  const sunrealtype *y = N_VGetArrayPointer(v);
+  const sunrealtype *y = stf_array(v);
   for (sunindextype i = 0; p->constraint && i < p->n; i++)
     STEIF_CHECK(
       holds(p->constraint[i], y[i]), s->ctx, STEIF_INFEASIBLE,
@@ -52,9 +52,8 @@ int stf_constraint_open(steif_solver *s)
                 "constraint[%lld] = %d of problem '%s' must be 0 (none), 1 (y >= 0), 2 (> 0), "
                 "-1 (<= 0) or -2 (< 0)",
                 (long long)i, p->constraint[i], p->name);
-  STEIF_CHECK(s->shown->ops->nvgetarraypointer && N_VGetArrayPointer(s->shown), s->ctx,
-              STEIF_UNSUPPORTED, "constraints of problem '%s' need vectors with a host array",
-              p->name);
+  STEIF_CHECK(stf_array(s->shown), s->ctx, STEIF_UNSUPPORTED,
+              "constraints of problem '%s' need all unknowns in one host array", p->name);
   return stf_constraint_check(s, p->t0, s->shown, "at the start");
 }
 
@@ -62,7 +61,7 @@ int stf_constraint_open(steif_solver *s)
 static sunrealtype allowed(const steif_solver *s, sunindextype i)
 {
   const steif_options *o = &s->options;
-  const sunrealtype y = N_VGetArrayPointer(s->step.y)[i];
+  const sunrealtype y = stf_array(s->step.y)[i];
   return o->rtol * fabs(y) + (o->atols ? o->atols[i] : o->atol);
 }
 
@@ -79,7 +78,7 @@ static int left(steif_solver *s, sunindextype i, sunrealtype y, sunrealtype h)
 int stf_constraint_keep(steif_solver *s, sunrealtype h, int tries)
 {
   const steif_problem *p = s->problem;
-  sunrealtype *y = N_VGetArrayPointer(s->step.next);
+  sunrealtype *y = stf_array(s->step.next);
   bool pressed = false;
   /* a hundredth of what a step may err */
   const sunrealtype noise =

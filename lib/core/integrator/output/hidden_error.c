@@ -19,8 +19,8 @@ static sunrealtype largest(const steif_problem *p, const sunrealtype *x, const s
 static int distance(steif_solver *s, sunrealtype *error)
 {
   const stf_step *step = &s->step;
-  const sunrealtype *weight = N_VGetArrayPointer(step->weights);
-  const steif_point at = {.t = step->t, .y = N_VGetArrayPointer(step->y)};
+  const sunrealtype *weight = stf_array(step->weights);
+  const steif_point at = {.t = step->t, .y = stf_array(step->y)};
   const steif_request request = {.weight = weight};
   steif_start start = {.y = NULL};
   const bool before = stf_silence(s->ctx, true);
@@ -35,7 +35,9 @@ static int distance(steif_solver *s, sunrealtype *error)
 int steif_hidden_error(steif_solver *s, sunrealtype *error)
 {
   *error = NAN;
-  if (!s || s->engine || s->failed || !s->step.adaptive || s->step.count == 0) return STEIF_OK;
+  if (!s || s->engine || s->failed || !s->step.adaptive || !stf_array(s->step.y) ||
+      s->step.count == 0)
+    return STEIF_OK;
   const steif_problem *p = s->problem;
   const bool served = p->index && p->dae_index > 1 && p->n <= STEIF_DIAGNOSE_LARGEST &&
                       !s->step.system.linear && s->step.system.space.serial &&

@@ -33,15 +33,14 @@ int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift, sunrealtype
 {
   if (!s) return STEIF_BAD_INPUT;
   const size_t n = (size_t)s->problem->n;
-  STEIF_CHECK(y && N_VGetArrayPointer(y) && N_VGetLength(y) == s->problem->n &&
-                N_VGetArrayPointer(s->shown),
+  STEIF_CHECK(y && stf_array(y) && N_VGetLength(y) == s->problem->n && stf_array(s->shown),
               s->ctx, STEIF_BAD_INPUT, "a vector of %zu components with a host array is needed",
               n);
   steif_start start;
-  const steif_point at = {.y = N_VGetArrayPointer(s->shown), .t = s->t_shown};
+  const steif_point at = {.y = stf_array(s->shown), .t = s->t_shown};
   STEIF_TRY(stf_start_project(s->ctx, s->problem, &at, &start));
   measure(s, at.y, &start, drift, corrected);
-  memcpy(N_VGetArrayPointer(y), start.y, n * sizeof *start.y);
+  memcpy(stf_array(y), start.y, n * sizeof *start.y);
   steif_start_clear(&start);
   return STEIF_OK;
 }
@@ -59,7 +58,7 @@ bool stf_recomputes(const steif_solver *s)
 static int put_in_place(steif_solver *s, sunrealtype t, N_Vector y)
 {
   steif_start start;
-  const steif_point at = {.y = N_VGetArrayPointer(y), .t = t};
+  const steif_point at = {.y = stf_array(y), .t = t};
   const bool before = stf_silence(s->ctx, true);
   const int code = stf_start_beside(s->ctx, s->problem, &at, &s->nodes, &start);
   stf_silence(s->ctx, before);
@@ -67,7 +66,7 @@ static int put_in_place(steif_solver *s, sunrealtype t, N_Vector y)
   sunrealtype drift, corrected;
   if (!code) measure(s, at.y, &start, &drift, &corrected);
   if (!code && drift <= furthest) {
-    memcpy(N_VGetArrayPointer(y), start.y, (size_t)s->problem->n * sizeof *start.y);
+    memcpy(stf_array(y), start.y, (size_t)s->problem->n * sizeof *start.y);
     s->drift = drift, s->corrected = corrected;
   }
   steif_start_clear(&start);

@@ -129,7 +129,7 @@ static int slope(steif_solver *s, sunrealtype t, N_Vector y, N_Vector dy, int k,
     return STEIF_OK;
   }
   const sunrealtype typical = q->scale ? q->scale[k] : fabs(q->value[k]);
-  const sunrealtype *from = N_VGetArrayPointer(y), *along = N_VGetArrayPointer(dy);
+  const sunrealtype *from = stf_array(y), *along = stf_array(dy);
   sunrealtype most = 1 / (typical > 0 ? typical : 1);
   for (sunindextype i = 0; i < s->problem->n; i++)
     most = fmax(most, fabs(along[i]) / (fabs(from[i]) + s->step.system.scale));

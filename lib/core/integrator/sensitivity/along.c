@@ -14,7 +14,7 @@ static sunrealtype largest(const steif_solver *s, const stf_line *line)
   const stf_saltation *w = s->saltation;
   const steif_parameters *q = s->problem->parameters;
   const sunrealtype span = 1e-2 * (s->t1 - s->problem->t0), floor = s->step.system.scale;
-  const sunrealtype *y = N_VGetArrayPointer(w->y), *dy = N_VGetArrayPointer(line->dy);
+  const sunrealtype *y = stf_array(w->y), *dy = stf_array(line->dy);
   sunrealtype most = fabs(line->dt) / span;
   for (sunindextype i = 0; i < s->problem->n; i++)
     most = fmax(most, fabs(dy[i]) / (fabs(y[i]) + floor));

@@ -43,7 +43,7 @@ int stf_saltation_look(steif_solver *s, sunrealtype t)
 
 static int event_values(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
 {
-  return s->problem->event(t, y, N_VGetArrayPointer(out), s->problem->user);
+  return s->problem->event(t, y, stf_array(out), s->problem->user);
 }
 
 static int undifferentiable(steif_solver *s, int i, int code)
@@ -62,15 +62,15 @@ static int undifferentiable(steif_solver *s, int i, int code)
 static int rate_expected(steif_solver *s, int i, sunrealtype *expected)
 {
   stf_saltation *w = s->saltation;
-  const sunrealtype *y = N_VGetArrayPointer(w->y), *f = N_VGetArrayPointer(w->slope);
+  const sunrealtype *y = stf_array(w->y), *f = stf_array(w->slope);
   const stf_line line = {.dy = w->direction, .k = -1};
-  sunrealtype *v = N_VGetArrayPointer(w->direction), sum = 0, rate = 0;
+  sunrealtype *v = stf_array(w->direction), sum = 0, rate = 0;
   stf_random random = {1};
   for (int probe = 0; probe < PROBES; probe++) {
     for (sunindextype j = 0; j < s->problem->n; j++)
       v[j] = (stf_random_in(&random, -1, 1) < 0 ? -1 : 1) * (fabs(y[j]) + s->step.system.scale);
     STEIF_TRY(stf_along(s, event_values, &line, w->g[0], w->g + 1));
-    const sunrealtype along = N_VGetArrayPointer(w->g[0])[i];
+    const sunrealtype along = stf_array(w->g[0])[i];
     sum += along * along / PROBES;
   }
   for (sunindextype j = 0; j < s->problem->n; j++) {
@@ -90,7 +90,7 @@ static int times_of(steif_solver *s, int i, sunrealtype *tau)
   const stf_line ahead = {.dt = 1, .dy = w->slope, .k = -1};
   int code = stf_along(s, event_values, &ahead, w->g[0], w->g + 1);
   if (code) return undifferentiable(s, i, code);
-  const sunrealtype rate = N_VGetArrayPointer(w->g[0])[i];
+  const sunrealtype rate = stf_array(w->g[0])[i];
   code = rate_expected(s, i, &expected);
   if (code) return undifferentiable(s, i, code);
   if (!(fabs(rate) >= grazing * expected) || rate == 0) {
@@ -106,7 +106,7 @@ static int times_of(steif_solver *s, int i, sunrealtype *tau)
     const stf_line line = {.dy = w->S[k], .k = T->parameter[k]};
     code = stf_along(s, event_values, &line, w->g[0], w->g + 1);
     if (code) return undifferentiable(s, i, code);
-    tau[k] = -N_VGetArrayPointer(w->g[0])[i] / rate;
+    tau[k] = -stf_array(w->g[0])[i] / rate;
   }
   return STEIF_OK;
 }

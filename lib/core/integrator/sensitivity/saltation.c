@@ -182,11 +182,10 @@ int stf_saltation_before(steif_solver *s, sunrealtype t)
 /* y' of all components of a DAE that starts from y. */
 static int consistent_slope(steif_solver *s, sunrealtype t, N_Vector y, N_Vector slope)
 {
-  const steif_point at = {.y = N_VGetArrayPointer(y), .t = t};
+  const steif_point at = {.y = stf_array(y), .t = t};
   steif_start start = {0};
   const int code = steif_consistent(s->ctx, s->problem, &at, NULL, &start);
-  if (!code)
-    memcpy(N_VGetArrayPointer(slope), start.yp, (size_t)s->problem->n * sizeof *start.yp);
+  if (!code) memcpy(stf_array(slope), start.yp, (size_t)s->problem->n * sizeof *start.yp);
   steif_start_clear(&start);
   return code;
 }

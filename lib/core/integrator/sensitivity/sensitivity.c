@@ -82,14 +82,13 @@ static int check_start(steif_solver *s, stf_carry *T)
   const stf_step *step = &s->step;
   N_Vector Ex = T->Y, r = T->Yp, x = T->error[0];
   if (step->system.form == STEIF_ODE) return STEIF_OK;
-  sunrealtype *v = N_VGetArrayPointer(x);
+  sunrealtype *v = stf_array(x);
   for (sunindextype i = 0; i < s->problem->n; i++) v[i] = sqrt(2 + (sunrealtype)i);
   int code = stf_carry_point(T, 0, step->t, step->y, step->yp);
   if (!code) code = stf_matrices_at_product(&T->at, 0, 'E', x, Ex);
   for (int k = 0; !code && k < T->count; k++) {
     code = stf_carry_residual(T, 0, k, T->S[k], NULL, r);
-    const sunrealtype *e = N_VGetArrayPointer(Ex), *d = N_VGetArrayPointer(r),
-                      *f = N_VGetArrayPointer(T->slope[0][k]);
+    const sunrealtype *e = stf_array(Ex), *d = stf_array(r), *f = stf_array(T->slope[0][k]);
     for (sunindextype i = 0; !code && i < s->problem->n; i++) {
       char row[STEIF_SPEC_WORD];
       STEIF_CHECK(

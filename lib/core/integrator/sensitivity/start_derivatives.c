@@ -16,7 +16,7 @@ static int consistent(steif_solver *s, N_Vector S0, int k, sunrealtype x, sunrea
                       N_Vector out)
 {
   const steif_parameters *q = s->problem->parameters;
-  const sunrealtype *from = s->given->y0, *along = N_VGetArrayPointer(S0), p = q->value[k];
+  const sunrealtype *from = s->given->y0, *along = stf_array(S0), p = q->value[k];
   for (sunindextype i = 0; i < s->problem->n; i++) y0[i] = from[i] + x * along[i];
   steif_problem here = *s->given;
   here.y0 = y0;
@@ -30,7 +30,7 @@ static int consistent(steif_solver *s, N_Vector S0, int k, sunrealtype x, sunrea
                        .atol = exact * s->step.system.scale};
   int code = stf_set_parameter(s, k, p + x);
   if (!code) code = stf_repair_start(&repair);
-  if (!code) memcpy(N_VGetArrayPointer(out), repair.problem.y0, (size_t)here.n * sizeof *y0);
+  if (!code) memcpy(stf_array(out), repair.problem.y0, (size_t)here.n * sizeof *y0);
   stf_pool_free(&pool);
   const int back = stf_set_parameter(s, k, p);
   return code ? code : back;
@@ -56,7 +56,7 @@ static int differences(steif_solver *s, N_Vector S0, int k, sunrealtype *y0, N_V
 static int compare(steif_solver *s, int k, N_Vector S0, N_Vector found)
 {
   const steif_problem *p = s->problem;
-  const sunrealtype *a = N_VGetArrayPointer(S0), *b = N_VGetArrayPointer(found);
+  const sunrealtype *a = stf_array(S0), *b = stf_array(found);
   const sunrealtype size = fmax(N_VMaxNorm(S0), N_VMaxNorm(found));
   char name[STEIF_SPEC_WORD];
   for (sunindextype i = 0; i < p->n; i++)

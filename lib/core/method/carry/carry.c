@@ -169,8 +169,8 @@ static void weigh(stf_carry *T, sunrealtype h)
   const sunrealtype rtol = s->adaptive ? o->rtol : 1e-10;
   const int *index = s->problem->index;
   for (int k = 0; k < T->count; k++) {
-    const sunrealtype *S = N_VGetArrayPointer(T->S[k]);
-    sunrealtype *w = N_VGetArrayPointer(T->weights[k]);
+    const sunrealtype *S = stf_array(T->S[k]);
+    sunrealtype *w = stf_array(T->weights[k]);
     for (sunindextype i = 0; i < s->problem->n; i++) {
       const sunrealtype given = o->atols ? o->atols[i] : o->atol,
                         atol = s->adaptive ? given : 1e-10 * s->system.scale;

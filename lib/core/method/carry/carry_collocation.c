@@ -9,8 +9,9 @@ static sunrealtype size_of(stf_carry *T, const stf_collocation_stages *c, int k,
   const stf_step *s = T->step;
   const int *index = s->problem->index;
   stf_combine(&s->system.space, c->u->s, weight, T->trial[k], T->work);
-  sunrealtype *work = index ? N_VGetArrayPointer(T->work) : NULL;
-  for (sunindextype i = 0; work && i < s->problem->n; i++)
+  sunindextype rows = 0;
+  sunrealtype *work = index ? stf_own_rows(T->work, &rows) : NULL;
+  for (sunindextype i = 0; work && i < rows; i++)
     if (index[i] > 1) work[i] = 0;
   return stf_norm(&s->system.space, T->work, T->weights[k]);
 }

@@ -169,8 +169,9 @@ static sunrealtype size(stf_step *s, const sunrealtype *weight)
   state *e = s->state;
   const int *index = s->problem->index;
   stf_combine(&s->system.space, e->s, weight, e->trial, e->work);
-  sunrealtype *work = index ? N_VGetArrayPointer(e->work) : NULL;
-  for (sunindextype i = 0; work && i < s->problem->n; i++)
+  sunindextype rows = 0;
+  sunrealtype *work = index ? stf_own_rows(e->work, &rows) : NULL;
+  for (sunindextype i = 0; work && i < rows; i++)
     if (index[i] > 1) work[i] = 0;
   return stf_norm(&s->system.space, e->work, s->weights);
 }

@@ -282,7 +282,7 @@ static int find_slopes(stf_pool *work, steif_context *ctx, lowered *l, N_Vector 
   N_VConst(0, l->product);
   if (fill_mass(l, p->t0, y, l->product) || p->f(p->t0, y, b, p->user)) return STEIF_OK;
   STEIF_TRY(list(work, l->M, p->n, &m));
-  sunrealtype *x = N_VGetArrayPointer(b);
+  sunrealtype *x = stf_array(b);
   if (!m.count || !complete(&m, row, column)) return STEIF_OK;
   STEIF_TRY(stay_empty(work, l, y, column, &stay));
   if (!stay) return STEIF_OK;
@@ -300,8 +300,7 @@ static int add_slopes(stf_pool *pool, steif_context *ctx, lowered *l, N_Vector y
   N_Vector b = stf_pool_vector(pool, y);
   int code = work && b ? find_slopes(work, ctx, l, y, b) : STEIF_NO_MEMORY;
   stf_pool_free(&work);
-  if (!code && l->regular && !l->from.yp0 && !l->from.start)
-    l->problem.yp0 = N_VGetArrayPointer(b);
+  if (!code && l->regular && !l->from.yp0 && !l->from.start) l->problem.yp0 = stf_array(b);
   return code;
 }
 

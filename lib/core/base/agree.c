@@ -1,0 +1,128 @@
+/* agree.c: one decision for all ranks that vectors are spread over.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "agree.h"
+#include "image.h"
+#include <stdint.h>
+#include <string.h>
+
+enum { MOST = 256 };
+
+/* x_i summed over the ranks; integers below 2^53 exactly, in any order. */
+static void sum(N_Vector like, int count, sunrealtype *x)
+{
+  like->ops->nvdotprodmultiallreduce(count, like, x);
+}
+
+int stf_agree_check(steif_context *ctx, N_Vector like)
+{
+  if (!like || !stf_spread(like)) return STEIF_OK;
+  STEIF_CHECK(
+    like->ops->nvdotprodmultiallreduce, ctx, STEIF_UNSUPPORTED,
+    "options.like is spread over ranks and has no operation nvdotprodmultiallreduce, by "
+    "which they agree on failures");
+  return STEIF_OK;
+}
+
+static bool alone(N_Vector like)
+{
+  return !like || !stf_spread(like) || !like->ops->nvdotprodmultiallreduce;
+}
+
+/* The ranks with the largest of 53 bit keys among those that stand: bit by bit, those without it step back
+ * where another has it. `count`: how many stand. Returns how many they are, *stands whether this is one. */
+static sunrealtype elect(N_Vector like, uint64_t key, sunrealtype count, bool *stands)
+{
+  if (count == 1) return count;
+  for (int bit = 52; bit >= 0; bit--) {
+    const bool has = *stands && (key >> bit & 1);
+    sunrealtype having = has;
+    sum(like, 1, &having);
+    if (having > 0) *stands = has;
+  }
+  count = *stands;
+  sum(like, 1, &count);
+  return count;
+}
+
+int stf_agree_returned(N_Vector like, int returned)
+{
+  if (alone(like)) return returned;
+  sunrealtype failed = returned != 0;
+  sum(like, 1, &failed);
+  if (failed == 0) return 0;
+  bool stands = returned != 0;
+  const uint64_t size = returned < 0 ? -(uint64_t)returned : (uint64_t)returned;
+  const sunrealtype count = elect(like, (uint64_t)(returned < 0) << 52 | size, failed, &stands);
+  sunrealtype of_all = stands ? returned : 0;
+  sum(like, 1, &of_all);
+  return (int)(of_all / count);
+}
+
+/* Ranks that win have the same text, up to collisions of 52 bits: the text that all get is the mean. */
+static void take_text(N_Vector like, char *text, size_t size, bool mine, sunrealtype count)
+{
+  sunrealtype letter[MOST];
+  for (size_t from = 0; from < size; from += MOST) {
+    const size_t most = size - from < MOST ? size - from : MOST;
+    for (size_t i = 0; i < most; i++) letter[i] = mine ? (unsigned char)text[from + i] : 0;
+    sum(like, (int)most, letter);
+    for (size_t i = 0; i < most; i++) text[from + i] = (char)(unsigned char)(letter[i] / count);
+  }
+  text[size - 1] = 0;
+}
+
+int stf_agree(steif_context *ctx, N_Vector like, int code)
+{
+  if (alone(like)) return code;
+  sunrealtype failed = code != 0;
+  sum(like, 1, &failed);
+  if (failed == 0) return STEIF_OK;
+  char text[STF_MESSAGE] = "";
+  bool stands = code != 0;
+  if (stands) stf_message_copy(ctx, text);
+  const uint64_t name = stf_checksum(text, sizeof text) >> 12;
+  const sunrealtype count = elect(like, (uint64_t)(code < 0) << 52 | name, failed, &stands);
+  sunrealtype numbers[] = {stands ? code : 0, stands ? steif_status(ctx) : 0};
+  sum(like, 2, numbers);
+  take_text(like, text, sizeof text, stands, count);
+  stf_message_take(ctx, (int)(numbers[1] / count), text);
+  return (int)(numbers[0] / count);
+}
+
+void stf_agree_any(N_Vector like, int count, bool *flag)
+{
+  sunrealtype set[8];
+  if (alone(like)) return;
+  for (int i = 0; i < count; i++) set[i] = flag[i];
+  sum(like, count, set);
+  for (int i = 0; i < count; i++) flag[i] = set[i] > 0;
+}
+
+long long stf_agree_total(N_Vector like, long long part)
+{
+  sunrealtype total = (sunrealtype)part;
+  if (alone(like)) return part;
+  sum(like, 1, &total);
+  return (long long)total;
+}
+
+/* A sum of P numbers is P times the mean, and so is the sum of squares with the square, only where they are
+ * equal: for pieces of 16 bits of a checksum, in integers. */
+bool stf_agree_same(N_Vector like, const void *bytes, size_t count)
+{
+  enum { PIECES = 4 };
+  if (alone(like)) return true;
+  const uint64_t mine = stf_checksum(bytes, count);
+  sunrealtype s[1 + 2 * PIECES] = {1};
+  for (int k = 0; k < PIECES; k++) {
+    const sunrealtype piece = (sunrealtype)(mine >> 16 * k & 0xffff);
+    s[1 + 2 * k] = piece, s[2 + 2 * k] = piece * piece;
+  }
+  sum(like, 1 + 2 * PIECES, s);
+  bool same = true;
+  for (int k = 0; k < PIECES; k++) {
+    const uint64_t ranks = (uint64_t)s[0], first = (uint64_t)s[1 + 2 * k];
+    same = same && ranks * (uint64_t)s[2 + 2 * k] == first * first;
+  }
+  return same;
+}

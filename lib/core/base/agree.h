@@ -1,0 +1,32 @@
+/* agree.h: one decision for all ranks that vectors are spread over.
+ *
+ * Control flow may depend on numbers only that are the same on all ranks. What one of them alone knows (a
+ * callback that failed, a clock, a flag) becomes such a number by a sum over the communicator of a vector, which
+ * every vector of SUNDIALS over MPI offers (N_VDotProdMultiAllReduce), so that nothing here is linked to MPI.
+ * No rank waits for ever: each function here is called by all ranks at the same place, with the same vector, and
+ * makes as many sums on each of them. With vectors that are not spread all of them return what they are given.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STF_AGREE_H
+#define STF_AGREE_H
+
+#include "space.h"
+
+/* `like` may be NULL in all of these: not spread. Can its ranks agree? */
+int stf_agree_check(steif_context *ctx, N_Vector like);
+
+/* 0 if `code` is 0 on all ranks; else the code and the sentence of one that failed, fatal ones first. */
+int stf_agree(steif_context *ctx, N_Vector like, int code);
+
+/* The same for what callbacks return, without sentences: one < 0, else one > 0. */
+int stf_agree_returned(N_Vector like, int returned);
+
+/* Is one of `count` flags set on any rank? They become the same everywhere. */
+void stf_agree_any(N_Vector like, int count, bool *flag);
+
+/* The sum over all ranks, exact below 2^53. */
+long long stf_agree_total(N_Vector like, long long part);
+
+/* Are these bytes the same on all ranks? */
+bool stf_agree_same(N_Vector like, const void *bytes, size_t count);
+
+#endif

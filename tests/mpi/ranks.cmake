@@ -1,0 +1,21 @@
+# ranks.cmake: tests with 1, 2 and 3 ranks, where MPI and its vectors of SUNDIALS are found.
+find_package(MPI COMPONENTS C)
+if(MPI_C_FOUND AND TARGET SUNDIALS::nvecparallel)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/mpi/*.c)
+  add_executable(test_mpi ${sources})
+  target_link_libraries(test_mpi PRIVATE steif MPI::MPI_C SUNDIALS::nvecparallel steif_settings)
+  foreach(ranks 1 2 3)
+    # Ranks that share a core wait for each other by giving it away.
+    foreach(part arrays limits runs)
+      add_test(NAME mpi_${part}_${ranks}
+               COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
+                       --bind-to none $<TARGET_FILE:test_mpi> ${part})
+      set_tests_properties(mpi_${part}_${ranks} PROPERTIES LABELS mpi TIMEOUT 60 RUN_SERIAL ON ENVIRONMENT
+        "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
+    endforeach()
+  endforeach()
+else()
+  add_test(NAME mpi COMMAND ${CMAKE_COMMAND} -E echo
+           "skipped: no MPI, or SUNDIALS without nvecparallel")
+  set_tests_properties(mpi PROPERTIES LABELS mpi SKIP_REGULAR_EXPRESSION "skipped:")
+endif()
