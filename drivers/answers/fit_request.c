@@ -107,7 +107,6 @@ int fitted_ask(struct call *call, struct fitted *a)
   double sd[REALS_MOST];
   a->run = options_of(call);
   a->run.rtol = real_of(call, "--rtol");
-  if (!given(call, "--max-steps")) a->run.max_steps = 100000;
   int code = choose(call, a);
   if (!code) code = bounds(call, a);
   if (code) return code;

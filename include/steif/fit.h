@@ -91,7 +91,7 @@ typedef struct steif_fit {
   sunrealtype *direction; /* row k: the unit vector in theta of singular[k] */
   int undetermined; /* how many directions, the last but those, the data do not determine */
   sunrealtype chi2;
-  long dof; /* measurements less free parameters */
+  long dof; /* measurements less what they determine: the rank of J */
   size_t residuals;
   sunrealtype *residual;         /* r_j, in the order of the data */
   int starts, best;              /* best: which descent, from 0 */

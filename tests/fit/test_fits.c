@@ -159,6 +159,8 @@ static void a_product_alone_is_named(void)
   CHECK(steif_fit_find(ctx, &p, "radau:s=3", &made.data, NULL, &fit) == STEIF_OK);
   if (fit.p) {
     CLOSE(fit.p[0] * fit.p[1], 1.3, 1e-3);
+    CLOSE(fit.p[0] / fit.p[1], 4, 1e-2); /* it stays where it began */
+    CHECK(fit.dof == 6);
     CLOSE(fit.p[2], 3, 1e-3);
     CHECK(fit.undetermined == 1 && fit.singular[2] < 1e-8 * fit.singular[0]);
     CLOSE(fabs(fit.direction[6]), sqrt(0.5), 1e-6);

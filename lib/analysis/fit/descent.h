@@ -31,6 +31,7 @@ typedef struct stf_descent {
   sunrealtype *r, *J; /* ... its residuals, and dr/dx by columns */
   bool known;
   sunrealtype chi2;
+  sunrealtype hold;    /* weight of the residuals that keep x where the data do not */
   sunrealtype *values; /* of all parameters when it began */
   int evaluations;
   long runs, failed, iterations;
@@ -55,6 +56,8 @@ int stf_fit_descend(stf_descent *d, int *exhausted);
 int stf_fit_judge(stf_descent *d, steif_fit *fit);
 
 /* --- fit_sentence.c --- */
+/* Parameter i of those fitted; `room` of STEIF_SPEC_WORD bytes. */
+const char *stf_fit_name(const stf_descent *d, int i, char *room);
 void stf_fit_say(const stf_descent *d, steif_fit *fit);
 
 #endif

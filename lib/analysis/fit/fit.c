@@ -31,19 +31,21 @@ static int check_datum(const stf_descent *d, size_t j)
 
 static int check_parameter(const stf_descent *d, int i)
 {
+  char room[STEIF_SPEC_WORD];
   const int count = d->problem->parameters->count, k = d->parameter[i];
   STEIF_CHECK(k >= 0 && k < count, d->ctx, STEIF_BAD_INPUT,
               "parameter[%d] = %d must lie in 0 .. %d", i, k, count - 1);
+  const char *name = stf_fit_name(d, i, room);
   for (int j = 0; j < i; j++)
-    STEIF_CHECK(d->parameter[j] != k, d->ctx, STEIF_BAD_INPUT, "parameter %d is named twice",
-                k);
+    STEIF_CHECK(d->parameter[j] != k, d->ctx, STEIF_BAD_INPUT, "parameter %s is named twice",
+                name);
   STEIF_CHECK(isfinite(d->p0[i]), d->ctx, STEIF_NOT_FINITE,
-              "the start value %g of parameter %d must be finite", d->p0[i], k + 1);
+              "the start value %g of %s must be finite", d->p0[i], name);
   STEIF_CHECK(d->low[i] < d->high[i], d->ctx, STEIF_BAD_INPUT,
-              "the bounds %g and %g of parameter %d must ascend", d->low[i], d->high[i], k + 1);
+              "the bounds %g and %g of %s must ascend", d->low[i], d->high[i], name);
   STEIF_CHECK(d->p0[i] >= d->low[i] && d->p0[i] <= d->high[i], d->ctx, STEIF_BAD_INPUT,
-              "the start value %g of parameter %d lies outside its bounds %g and %g", d->p0[i],
-              k + 1, d->low[i], d->high[i]);
+              "the start value %g of %s lies outside its bounds %g and %g", d->p0[i], name,
+              d->low[i], d->high[i]);
   return STEIF_OK;
 }
 

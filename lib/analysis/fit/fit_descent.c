@@ -10,17 +10,24 @@
 
 enum { ROUNDS = 20 };
 
+/* P more residuals, 1e-8 |J| x_i, keep x where the data do not: elsewhere they move the minimum by less than 1e-8 of
+ * the largest singular value, in standard deviations. */
+static const sunrealtype anchor = 1e-8;
+
 /* A failed run has residuals a hundred times those of the last good one: lmder takes a tenth of the step. */
 static int residuals(stf_descent *d, const sunrealtype *x, sunrealtype *out)
 {
-  const size_t m = d->data->count;
+  const size_t m = d->data->count, P = (size_t)d->P;
   const sunrealtype before = d->chi2;
   const int code = stf_fit_run(d, x);
   if (code && (d->stopped || !isfinite(before))) return -1;
-  if (code)
-    for (size_t j = 0; j < m; j++) out[j] = 100 * sqrt(before / (sunrealtype)m) + 1e-100;
-  else
-    memcpy(out, d->r, m * sizeof *out);
+  if (!code && d->hold == 0) {
+    for (size_t i = 0; i < m * P; i++) d->hold += d->J[i] * d->J[i];
+    d->hold = anchor * sqrt(d->hold);
+  }
+  for (size_t j = 0; j < m; j++)
+    out[j] = code ? 100 * sqrt(before / (sunrealtype)m) + 1e-100 : d->r[j];
+  for (size_t i = 0; i < P; i++) out[m + i] = d->hold * x[i];
   if (code) d->chi2 = before;
   return 0;
 }
@@ -28,9 +35,13 @@ static int residuals(stf_descent *d, const sunrealtype *x, sunrealtype *out)
 /* lmder asks for J where it has the residuals from, but for runs that were rejected since. */
 static int derivatives(stf_descent *d, const sunrealtype *x, sunrealtype *out)
 {
-  const size_t P = (size_t)d->P;
+  const size_t m = d->data->count, P = (size_t)d->P;
   if ((!d->known || memcmp(x, d->at, P * sizeof *x)) && stf_fit_run(d, x)) return -1;
-  memcpy(out, d->J, P * d->data->count * sizeof *out);
+  memset(out, 0, (m + P) * P * sizeof *out);
+  for (size_t k = 0; k < P; k++) {
+    memcpy(out + k * (m + P), d->J + k * m, m * sizeof *out);
+    out[k * (m + P) + m + k] = d->hold;
+  }
   return 0;
 }
 
@@ -48,7 +59,7 @@ typedef struct work {
 
 static int open(stf_descent *d, work *w)
 {
-  const size_t m = d->data->count, P = (size_t)d->P;
+  const size_t P = (size_t)d->P, m = d->data->count + P;
   w->x = stf_pool_array(d->pool, P, sizeof *w->x);
   w->r = stf_pool_array(d->pool, m, sizeof *w->r);
   w->J = stf_pool_array(d->pool, m * P, sizeof *w->J);
@@ -65,7 +76,7 @@ static int open(stf_descent *d, work *w)
 /* One call of lmder from p0; its return value. */
 static int round_of(stf_descent *d, work *w, sunrealtype radius)
 {
-  const int m = (int)d->data->count, P = d->P;
+  const int P = d->P, m = (int)d->data->count + P;
   const sunrealtype tolerance = d->run.rtol;
   int calls = 0, slopes = 0;
   const int info = lmder(evaluate, d, m, P, w->x, w->r, w->J, m, tolerance, tolerance, 0,
@@ -113,6 +124,7 @@ int stf_fit_descend(stf_descent *d, int *exhausted)
   work w;
   steif_forget(d->ctx);
   d->known = false, d->chi2 = INFINITY, d->iterations = 0, d->stopped = 0;
+  d->hold = 0;
   int code = open(d, &w);
   if (!code) code = rounds(d, &w, exhausted);
   stf_pool_release(d->pool, mark);

@@ -18,7 +18,7 @@ static void add(steif_fit *f, const char *format, ...)
   va_end(list);
 }
 
-static const char *name_of(const stf_descent *d, int i, char *room)
+const char *stf_fit_name(const stf_descent *d, int i, char *room)
 {
   const steif_parameters *q = d->problem->parameters;
   if (q->name) return q->name[d->parameter[i]];
@@ -32,7 +32,7 @@ static void judge(const stf_descent *d, steif_fit *f)
 {
   add(f, "chi2 = %.6g with %ld degrees of freedom", f->chi2, f->dof);
   if (f->dof < 1) {
-    add(f, ": as many parameters as measurements, and no intervals");
+    add(f, ": no more measurements than parameters, and no intervals");
     return;
   }
   const sunrealtype dof = (sunrealtype)f->dof, ratio = f->chi2 / dof, spread = 2 / (9 * dof);
@@ -51,7 +51,10 @@ static void judge(const stf_descent *d, steif_fit *f)
       ": chi2/dof = %.3g is far below 1, so the standard deviations of the data are too large",
       ratio);
   else
-    add(f, ": chi2/dof = %.3g is what the standard deviations let expect", ratio);
+    add(f,
+        ": chi2/dof = %.3g is what the standard deviations let expect (one as large has the "
+        "probability %.2g)",
+        ratio, erfc(z / sqrt(2)) / 2);
 }
 
 static void undetermined(const stf_descent *d, steif_fit *f)
@@ -66,7 +69,7 @@ static void undetermined(const stf_descent *d, steif_fit *f)
     for (int i = 0; i < P; i++) {
       const sunrealtype part = f->direction[k * P + i];
       if (fabs(part) <= 1e-3) continue;
-      add(f, "%s%.3g of %s", before, part, name_of(d, i, room));
+      add(f, "%s%.3g of %s", before, part, stf_fit_name(d, i, room));
       before = ", ";
     }
     add(f, ") in %s: its singular value is %.1e of the largest; fix a parameter of it",
@@ -80,7 +83,7 @@ static void rest(const stf_descent *d, steif_fit *f)
   char room[STEIF_SPEC_WORD];
   int same = 0;
   for (int i = 0; i < f->count; i++)
-    if (f->bound[i]) add(f, ". %s is at its bound %.6g", name_of(d, i, room), f->p[i]);
+    if (f->bound[i]) add(f, ". %s is at its bound %.6g", stf_fit_name(d, i, room), f->p[i]);
   for (int i = 0; i < f->starts; i++) same += f->chi2_of[i] <= f->chi2 * (1 + 1e-3) + 1e-300;
   if (f->starts > 1) add(f, ". %d of %d starts came to this chi2", same, f->starts);
   if (f->exhausted)

@@ -65,7 +65,7 @@ static void decompose(stf_descent *d, steif_fit *f)
   f->undetermined = 0;
   for (int k = 0; k < P - fixed; k++)
     f->undetermined += !(f->singular[k] > undetermined * f->singular[0]);
-  f->dof = (long)d->data->count - (P - fixed);
+  f->dof = (long)d->data->count - (P - fixed - f->undetermined);
 }
 
 static void spread(const stf_descent *d, steif_fit *f)
