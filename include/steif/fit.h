@@ -70,9 +70,9 @@ typedef struct steif_fit_options {
   const sunrealtype *low;     /* count bounds; NULL or -infinity: none */
   const sunrealtype *high;    /* NULL or infinity: none */
   enum steif_fit_scale scale; /* STEIF_FIT_AUTO: log where start and bounds are positive */
-  int
-    starts; /* descents, 0: 1; the second begins at a point of Halton's sequence between the bounds; where
-                      there are none, from start/10 to 10 start (linear: start -+ 10 scale) */
+  /* Descents, 0: 1; the second begins at a point of Halton's sequence between the bounds; where there are none,
+   * from start/10 to 10 start (linear: start -+ 10 scale). */
+  int starts;
   int evaluations; /* most runs of a descent; 0: 200 */
   int reserved_int[5];
   void *reserved[8];
@@ -82,9 +82,9 @@ typedef struct steif_fit_options {
 typedef struct steif_fit {
   int count, log;      /* log: 1, theta = log p */
   sunrealtype *p, *sd; /* sd of p, to first order: p times that of log p */
-  sunrealtype *low,
-    *high; /* 95 % intervals: sd, times sqrt(chi2/dof) where that is above 1 or sd of the data not
-                              known, times the quantile of Student's t; exp of that of log p */
+  /* 95 % intervals: sd, times sqrt(chi2/dof) where that is above 1 or sd of the data not known, times the quantile of
+   * Student's t; exp of that of log p. */
+  sunrealtype *low, *high;
   int *bound; /* -1, 1: at the bound low, high, and taken as known there; 0 */
   sunrealtype *covariance, *correlation;
   sunrealtype *singular; /* of J, descending; the last ones, 0, those of parameters at bounds */

@@ -242,6 +242,26 @@ static void refused(steif_context *ctx, const steif_problem *p, const char *meth
   steif_solver_free(&s);
 }
 
+/* Sparse matrices, in both ways to iterate: against radau:s=3. */
+static void grids(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_options o = steif_defaults();
+  static double S[720], known[720];
+  o.rtol = 1e-8, o.t1 = 2, o.sensitivities = 1;
+  if (there(ctx) && !steif_problem_find(ctx, EXAMPLES "/brusselator.steif:n=120", &p)) {
+    CHECK(p.storage == STEIF_SPARSE && p.n == 240);
+    columns(ctx, &p, "radau:s=3", &o, 3, known, NULL);
+    for (int m = 0; m < 4; m++) {
+      columns(ctx, &p, methods[m], &o, 3, S, NULL);
+      for (int i = 0; i < 720; i++) CLOSE_FLOOR(S[i], known[i], 1e-5, 1);
+    }
+    steif_problem_clear(ctx, &p);
+  }
+  steif_context_free(&ctx);
+}
+
 static void what_is_refused(void)
 {
   static const int twice[] = {1, 1}, far[] = {9};
@@ -254,6 +274,10 @@ static void what_is_refused(void)
     refused(ctx, &p, "cvodes:tests=1", &o, STEIF_UNKNOWN_NAME, "tests");
     refused(ctx, &p, "cvode:test=1", NULL, STEIF_UNKNOWN_NAME, "test");
     refused(ctx, &p, "cvode", &o, STEIF_UNSUPPORTED, "carries no sensitivities");
+    o.force_storage = 1, o.storage = STEIF_KRYLOV;
+    refused(ctx, &p, "cvodes", &o, STEIF_UNSUPPORTED, "Krylov storage");
+    refused(ctx, &p, "idas", &o, STEIF_UNSUPPORTED, "Krylov storage");
+    o.force_storage = 0;
     o.active = twice, o.active_count = 2;
     refused(ctx, &p, "idas", &o, STEIF_BAD_INPUT, "twice");
     o.active = far, o.active_count = 1;
@@ -313,6 +337,7 @@ CU_TestInfo tests_of_columns[] = {
   {"Robertson's reaction", reaction},
   {"their own differences", their_own_differences},
   {"otherwise the same", otherwise_the_same},
+  {"grids", grids},
   {"what is refused", what_is_refused},
   {"failing memory leaks nothing", failing_memory_leaks_nothing},
   CU_TEST_INFO_NULL};

@@ -62,3 +62,33 @@ void prey_open(prey *P, double a, double b, double c, double d)
                                .user = P->p,
                                .parameters = &P->parameters};
 }
+
+static const double prey_sd[] = {0.05, 0.05};
+
+void prey_data(steif_context *ctx, made_data *made)
+{
+  prey P;
+  double t[20];
+  for (int k = 0; k < 20; k++) t[k] = 0.5 * (k + 1);
+  prey_open(&P, 1.5, 1, 3, 1);
+  made_data_open(ctx, &P.problem, 20, t, prey_sd, made);
+}
+
+const char product[] = "param a = 2, b = 0.5, c = 3\n"
+                       "state x = c\n"
+                       "x' = -a*b*x\n"
+                       "time 0 to 2\n";
+
+/* x = 3 exp(-a b t) with errors of at most 1e-3 and no sign. */
+void decay(made_data *made, double rate)
+{
+  for (size_t j = 0; j < 8; j++) {
+    made->t[j] = 0.25 * (double)j, made->component[j] = 0, made->sd[j] = 1e-3;
+    made->value[j] = 3 * exp(-rate * made->t[j]) + (j % 3 == 0 ? 1e-3 : -5e-4);
+  }
+  made->data = (steif_measurements){.count = 8,
+                                    .t = made->t,
+                                    .value = made->value,
+                                    .sd = made->sd,
+                                    .component = made->component};
+}

@@ -24,5 +24,11 @@ typedef struct prey {
   steif_problem problem;
 } prey;
 void prey_open(prey *P, double a, double b, double c, double d);
+/* Of p = (1.5, 1, 3, 1) at 0.5, 1, .., 10 with the standard deviation 0.05. */
+void prey_data(steif_context *ctx, made_data *made);
+
+/* x' = -a b x, x(0) = c; eight measurements of 3 exp(-rate t) with errors of at most 1e-3 and no sign. */
+extern const char product[];
+void decay(made_data *made, double rate);
 
 #endif

@@ -2,8 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_fits[], tests_of_statistics[], tests_of_measurements[];
+extern CU_TestInfo tests_of_fits[], tests_of_statistics[], tests_of_measurements[],
+  tests_of_bad_fits[];
 
 SUITE_MAIN({.pName = "fits", .pTests = tests_of_fits},
            {.pName = "statistics", .pTests = tests_of_statistics},
-           {.pName = "measurements", .pTests = tests_of_measurements})
+           {.pName = "measurements", .pTests = tests_of_measurements},
+           {.pName = "bad fits", .pTests = tests_of_bad_fits})

@@ -14,6 +14,13 @@ enum { ROUNDS = 20 };
  * the largest singular value, in standard deviations. */
 static const sunrealtype anchor = 1e-8;
 
+static sunrealtype weight_of(const stf_descent *d)
+{
+  sunrealtype sum = 0;
+  for (size_t i = 0; i < d->data->count * (size_t)d->P; i++) sum += d->J[i] * d->J[i];
+  return anchor * sqrt(sum);
+}
+
 /* A failed run has residuals a hundred times those of the last good one: lmder takes a tenth of the step. */
 static int residuals(stf_descent *d, const sunrealtype *x, sunrealtype *out)
 {
@@ -21,10 +28,7 @@ static int residuals(stf_descent *d, const sunrealtype *x, sunrealtype *out)
   const sunrealtype before = d->chi2;
   const int code = stf_fit_run(d, x);
   if (code && (d->stopped || !isfinite(before))) return -1;
-  if (!code && d->hold == 0) {
-    for (size_t i = 0; i < m * P; i++) d->hold += d->J[i] * d->J[i];
-    d->hold = anchor * sqrt(d->hold);
-  }
+  if (!code && d->hold == 0) d->hold = weight_of(d);
   for (size_t j = 0; j < m; j++)
     out[j] = code ? 100 * sqrt(before / (sunrealtype)m) + 1e-100 : d->r[j];
   for (size_t i = 0; i < P; i++) out[m + i] = d->hold * x[i];
@@ -74,14 +78,14 @@ static int open(stf_descent *d, work *w)
 }
 
 /* One call of lmder from p0; its return value. */
-static int round_of(stf_descent *d, work *w, sunrealtype radius)
+static int round_of(stf_descent *d, work *w, int evaluations)
 {
   const int P = d->P, m = (int)d->data->count + P;
   const sunrealtype tolerance = d->run.rtol;
   int calls = 0, slopes = 0;
   const int info = lmder(evaluate, d, m, P, w->x, w->r, w->J, m, tolerance, tolerance, 0,
-                         d->evaluations, w->diag, 2, radius, 0, &calls, &slopes, w->pivot,
-                         w->qtf, w->wa, w->wa + P, w->wa + 2 * P, w->wa + 3 * P);
+                         evaluations, w->diag, 2, 1, 0, &calls, &slopes, w->pivot, w->qtf,
+                         w->wa, w->wa + P, w->wa + 2 * P, w->wa + 3 * P);
   d->iterations += slopes;
   return info;
 }
@@ -95,24 +99,33 @@ static void move(stf_descent *d, work *w)
   memset(w->x, 0, (size_t)d->P * sizeof *w->x);
 }
 
-/* lmder again from where it has stopped, as long as a bound is left and chi2 falls. */
+/* Is there more to find: a bound that may be left, or did the anchors weigh too much where J became smaller? */
+static bool unfinished(const stf_descent *d, const work *w)
+{
+  bool more = d->hold > 4 * weight_of(d);
+  for (int i = 0; i < d->P; i++) {
+    int bound;
+    stf_fit_value(d, w->x, i, &bound);
+    more |= bound != 0;
+  }
+  return more;
+}
+
+/* lmder again from where it has stopped, as long as that is unfinished and chi2 falls. */
 static int rounds(stf_descent *d, work *w, int *exhausted)
 {
+  const long end = d->runs + d->evaluations;
   sunrealtype before = INFINITY;
   *exhausted = 0;
   for (int k = 0; k < ROUNDS; k++) {
-    const int info = round_of(d, w, 1);
+    d->hold = 0;
+    const int info = round_of(d, w, (int)(end - d->runs));
     if (info < 0) return d->stopped ? d->stopped : STEIF_RETRY;
     move(d, w);
     STEIF_TRY(stf_fit_run(d, w->x));
-    *exhausted = info == 5;
-    bool bounded = false;
-    for (int i = 0; i < d->P; i++) {
-      int bound;
-      stf_fit_value(d, w->x, i, &bound);
-      bounded |= bound != 0;
-    }
-    if (*exhausted || !bounded || d->chi2 >= before * (1 - d->run.rtol)) return STEIF_OK;
+    *exhausted = info == 5 || d->runs >= end;
+    if (*exhausted || !unfinished(d, w) || d->chi2 >= before * (1 - d->run.rtol))
+      return STEIF_OK;
     before = d->chi2;
   }
   return STEIF_OK;
@@ -124,7 +137,6 @@ int stf_fit_descend(stf_descent *d, int *exhausted)
   work w;
   steif_forget(d->ctx);
   d->known = false, d->chi2 = INFINITY, d->iterations = 0, d->stopped = 0;
-  d->hold = 0;
   int code = open(d, &w);
   if (!code) code = rounds(d, &w, exhausted);
   stf_pool_release(d->pool, mark);

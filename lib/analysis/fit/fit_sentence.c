@@ -31,6 +31,13 @@ const char *stf_fit_name(const stf_descent *d, int i, char *room)
 static void judge(const stf_descent *d, steif_fit *f)
 {
   add(f, "chi2 = %.6g with %ld degrees of freedom", f->chi2, f->dof);
+  if (f->exhausted) {
+    add(f,
+        ", and still falling: %d runs of a descent were not enough; go on from here, or raise "
+        "options.evaluations",
+        d->evaluations);
+    return;
+  }
   if (f->dof < 1) {
     add(f, ": no more measurements than parameters, and no intervals");
     return;
@@ -86,9 +93,6 @@ static void rest(const stf_descent *d, steif_fit *f)
     if (f->bound[i]) add(f, ". %s is at its bound %.6g", stf_fit_name(d, i, room), f->p[i]);
   for (int i = 0; i < f->starts; i++) same += f->chi2_of[i] <= f->chi2 * (1 + 1e-3) + 1e-300;
   if (f->starts > 1) add(f, ". %d of %d starts came to this chi2", same, f->starts);
-  if (f->exhausted)
-    add(f, ". %d runs were not enough: go on from here, or raise options.evaluations",
-        d->evaluations);
   if (f->failed)
     add(f, ". %ld of %ld runs failed and were steps too long, the last: %.200s", f->failed,
         f->runs, f->failure);

@@ -15,7 +15,11 @@ int stf_slope_open(stf_slope_columns *c, stf_baseline *base, bool *exact)
   stf_run *run = base->run;
   const bool ode = run->form == STEIF_ODE;
   c->base = base;
-  *exact = base->J && (ode ? stf_baseline_has_jac(base) : stf_lower_has_jac(base));
+  STEIF_CHECK(base->J, run->ctx, STEIF_UNSUPPORTED,
+              "%s carries sensitivities with matrices, and Krylov storage of problem '%s' has "
+              "none: take dense or sparse storage",
+              base->package, run->problem->name);
+  *exact = (ode ? stf_baseline_has_jac(base) : stf_lower_has_jac(base));
   for (int i = 0; i < 3; i++)
     if (!(c->work[i] = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
   for (int i = 0; i < 2 && *exact; i++) {
