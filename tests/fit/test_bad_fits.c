@@ -121,8 +121,8 @@ static void failing_memory_leaks_nothing(void)
   steif_context *ctx = steif_context_new(&setup);
   CHECK(fit_product(ctx) == STEIF_OK);
   steif_context_free(&ctx);
-  const long served = count.served, stride = served / 150 + 1;
-  for (long k = 1; k <= served; k += k < 60 ? 1 : stride) {
+  const long served = count.served, stride = served / 60 + 1;
+  for (long k = 1; k <= served; k += k < 40 ? 1 : stride) {
     failing f = {.refuse_at = k};
     setup = failing_setup(&f);
     ctx = steif_context_new(&setup);

@@ -14,7 +14,7 @@ static void quantiles_of_student(void)
   } known[] = {{5, 2.571, 5e-4},  {10, 2.228, 5e-4},  {30, 2.042, 5e-4},
                {60, 2.000, 5e-4}, {120, 1.980, 5e-4}, {1000000000, 1.959963985, 1e-8}};
   steif_context *ctx = steif_context_new(NULL);
-  double t, u;
+  double t = 0, u = 0;
   CHECK(!steif_student(ctx, 0.95, 1, &t));
   CLOSE(t, tan(0.475 * 3.14159265358979323846), 1e-9);
   CHECK(!steif_student(ctx, 0.95, 2, &t));

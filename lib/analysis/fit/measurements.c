@@ -201,7 +201,7 @@ static int keep(table *T, const cell *c)
     m->t[m->count] = T->last, m->component[m->count] = T->component[k];
     const int at = T->sd_at[k];
     sunrealtype sd = T->sd[k];
-    if (at >= 0 && !sd) STEIF_TRY(number(T, at, c[at], &sd));
+    if (at >= 0 && sd == 0) STEIF_TRY(number(T, at, c[at], &sd));
     if (T->weighted && !(sd > 0))
       return REFUSE(T, at, STEIF_BAD_INPUT, "the standard deviation %g must be positive", sd);
     if (T->weighted) m->sd[m->count] = sd;
