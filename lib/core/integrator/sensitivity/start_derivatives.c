@@ -62,7 +62,7 @@ static int compare(steif_solver *s, int k, N_Vector S0, N_Vector found)
   for (sunindextype i = 0; i < p->n; i++)
     STEIF_CHECK(
       (p->index && p->index[i] >= p->dae_index) ||
-        fabs(a[i] - b[i]) <= 1e-5 * fabs(b[i]) + 1e-7 * size,
+        fabs(a[i] - b[i]) <= 1e-5 * fabs(b[i]) + 1e-6 * size,
       s->ctx, STEIF_UNSUPPORTED,
       "dy0/dp of parameter %d of problem '%s' is off its hidden constraints: that of %s is "
       "%.6g, and %.6g lies on them: give parameters.start",

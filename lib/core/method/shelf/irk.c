@@ -337,18 +337,16 @@ static const stf_carrier carrier = {.size = sizes,
 static int trace(const stf_step *s, stf_trace *out)
 {
   (void)s;
-  *out = (stf_trace){.kind = STF_TRACE_COLLOCATION};
-  return STEIF_OK;
+  return *out = (stf_trace){.kind = STF_TRACE_COLLOCATION}, STEIF_OK;
 }
 
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
                       const sunrealtype z[2], int *r, sunrealtype *M)
 {
-  (void)spec;
   sunrealtype R[2];
+  (void)spec;
   STEIF_TRY(steif_table_stability(ctx, table, z, R));
-  stf_propagate_scalar(R, r, M);
-  return STEIF_OK;
+  return stf_propagate_scalar(R, r, M), STEIF_OK;
 }
 
 static int describe(steif_context *ctx, const steif_spec *spec, const steif_table *table,
