@@ -18,7 +18,7 @@ static const row rows[] = {
   {"andrews", {"radau:s=5", "radau:s=7"}, 1e-10, false, 9, "multipliers of 1e3 to 1e5"},
   {"beam", {"radau:s=7", "gauss:s=4"}, 1e-10, false, 0, NULL},
   {"bruss2d", {"radau:s=5", "dopri87"}, 1e-11, false, 11, "time: tighter ones take long"},
-  {"caraxis", {"radau:s=5", "radau:s=7"}, 1e-10, false, 9.8, "multipliers, eps / h^2"},
+  {"caraxis", {"radau:s=5", "radau:s=7"}, 1e-10, false, 9.3, "multipliers, eps / h^2"},
   {"chemakzo", {"radau:s=7", "gauss:s=4"}, 1e-13, false, 0, NULL},
   {"e5", {"radau:s=5", "gauss:s=4"}, 1e-10, false, 5, "1e-22 as a difference of 1e-10"},
   {"fekete", {"radau:s=5", "radau:s=7"}, 1e-10, false, 0, NULL},
@@ -36,7 +36,7 @@ static const row rows[] = {
   {"transamp", {"radau:s=7", "gauss:s=4"}, 1e-11, false, 11.3, "M y' cancels, see success"},
   {"vdpol", {"radau:s=4", "gauss:s=4"}, 1e-13, false, 0, NULL},
   {"vdpol:mu=10", {"radau:s=7", "gauss:s=4"}, 1e-11, false, 0, NULL},
-  {"vdpol:mu=30", {"radau:s=7", "gauss:s=4"}, 1e-13, false, 0, NULL},
+  {"vdpol:mu=30", {"radau:s=7", "gauss:s=4"}, 1e-13, false, 11.7, "double precision"},
 };
 
 static void reach(steif_context *ctx, const steif_problem *p, const row *at, const char *method)

@@ -299,8 +299,6 @@ static void keep(stf_step *s, stf_image *m)
   STF_KEEP(m, e->history);
 }
 
-/* ---- derivatives by parameters --------------------------------------------------------------- */
-
 static stf_carrier_size sizes(const stf_step *s)
 {
   const state *e = s->state;
@@ -337,7 +335,8 @@ static const stf_carrier carrier = {.size = sizes,
 static int trace(const stf_step *s, stf_trace *out)
 {
   (void)s;
-  return *out = (stf_trace){.kind = STF_TRACE_COLLOCATION}, STEIF_OK;
+  *out = (stf_trace){.kind = STF_TRACE_COLLOCATION};
+  return STEIF_OK;
 }
 
 static int propagator(steif_context *ctx, const steif_spec *spec, const steif_table *table,
