@@ -93,9 +93,9 @@ static int moved(struct call *call, const struct gradient *a, const steif_option
   const double p_k = a->problem->parameters->value[k] + d;
   int code = find_problem(call, call->word[0], &p);
   if (code) return code;
-  if (!steif_model_parameter(&p, 0, &old))
-    p.parameters->value[k] = p_k;
-  else if (steif_model_set(call->ctx, &p, p.parameters->name[k], p_k))
+  const bool model = steif_model_parameter(&p, 0, &old) != NULL;
+  if (model ? steif_model_set(call->ctx, &p, p.parameters->name[k], p_k)
+            : steif_parameter_set(call->ctx, &p, k, p_k))
     code = fail(call);
   steif_gradient g = {.memory = a->found.memory};
   if (!code && steif_gradient_find(call->ctx, &p, call->word[1], o, &a->functional, &g))

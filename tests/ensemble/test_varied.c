@@ -55,6 +55,14 @@ static void numbers(void)
   CHECK(steif_problem_vary(ctx, &p, 1, name, own, &q) == STEIF_OK && q.reference);
   steif_problem_clear(ctx, &q);
   steif_problem_clear(ctx, &p);
+  /* The start of a pendulum is on its circle, whatever its length is. */
+  CHECK(steif_problem_find(ctx, "pendulum3", &p) == STEIF_OK);
+  CHECK(steif_problem_vary(ctx, &p, 1, (const char *const[]){"L"}, (const double[]){2}, &q) ==
+        STEIF_OK);
+  CLOSE(hypot(p.y0[0], p.y0[1]), 1, 1e-14);
+  CLOSE(hypot(q.y0[0], q.y0[1]), 2, 1e-14);
+  steif_problem_clear(ctx, &q);
+  steif_problem_clear(ctx, &p);
   steif_context_free(&ctx);
 }
 

@@ -23,8 +23,7 @@ static int set(stf_descent *d, int k, sunrealtype value)
   if (q->value[k] == value) return STEIF_OK;
   if (steif_model_parameter(d->problem, 0, &unused))
     return steif_model_set(d->ctx, d->problem, q->name[k], value);
-  q->value[k] = value;
-  return STEIF_OK;
+  return steif_parameter_set(d->ctx, d->problem, k, value);
 }
 
 int stf_fit_restore(stf_descent *d)

@@ -56,16 +56,17 @@ static int find_again(steif_context *ctx, const steif_spec *spec, steif_problem 
 }
 
 /* What was published belongs to the values that the problem comes with. */
-static void set_values(steif_problem *p, int count, const char *const *name,
-                       const sunrealtype *value)
+static int set_values(steif_context *ctx, steif_problem *p, int count, const char *const *name,
+                      const sunrealtype *value)
 {
   for (int i = 0; i < count; i++) {
     const int k = place_of(p, name[i]);
     if (k < 0 || p->parameters->value[k] == value[i]) continue;
-    p->parameters->value[k] = value[i];
+    STEIF_TRY(steif_parameter_set(ctx, p, k, value[i]));
     p->reference = NULL;
     p->exact = NULL;
   }
+  return STEIF_OK;
 }
 
 static int vary_spec(steif_context *ctx, const steif_problem *like, int count,
@@ -84,8 +85,7 @@ static int vary_spec(steif_context *ctx, const steif_problem *like, int count,
     if (steif_parameter_find(ctx, like, name[i]) < 0)
       break; /* these are meant: the nearest of them */
   if (code) return code;
-  set_values(out, count, name, value);
-  return STEIF_OK;
+  return set_values(ctx, out, count, name, value);
 }
 
 int steif_problem_vary(steif_context *ctx, const steif_problem *like, int count,
