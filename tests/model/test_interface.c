@@ -151,10 +151,34 @@ static void precedence(void)
   }
 }
 
-CU_TestInfo tests_of_interface[] = {{"parameters between runs", parameters_between_runs},
-                                    {"facts", facts},
-                                    {"impulses of a linear model", a_linear_model_has_impulses},
-                                    {"derivatives of the forcing", forcing_has_derivatives},
-                                    {"texts", texts_in_other_clothes},
-                                    {"precedence", precedence},
-                                    CU_TEST_INFO_NULL};
+/* Known numbers belong to the parameters in the file; formulas follow others. */
+static void references_belong_to_parameters(void)
+{
+  static const char *const known[] = {"0.7357588823428847", "a*exp(-k)"};
+  char text[200];
+  for (int i = 0; i < 2; i++) {
+    fixture s;
+    snprintf(
+      text, sizeof text,
+      "param k = 1, a = 2\nstate y = a\ny' = -k*y\ntime 0 to 1\nreference at 1, y = %s digits "
+      "12\n",
+      known[i]);
+    CU_ASSERT_FATAL(!parse(&s, text));
+    CU_ASSERT_FATAL(s.p.reference != NULL);
+    CLOSE(s.p.reference->value[0], 2 * exp(-1), 1e-15);
+    CHECK(steif_model_set(s.ctx, &s.p, "k", 3) == STEIF_OK);
+    CHECK((s.p.reference != NULL) == (i == 1));
+    if (s.p.reference) CLOSE(s.p.reference->value[0], 2 * exp(-3), 1e-15);
+    fixture_close(&s);
+  }
+}
+
+CU_TestInfo tests_of_interface[] = {
+  {"references belong to parameters", references_belong_to_parameters},
+  {"parameters between runs", parameters_between_runs},
+  {"facts", facts},
+  {"impulses of a linear model", a_linear_model_has_impulses},
+  {"derivatives of the forcing", forcing_has_derivatives},
+  {"texts", texts_in_other_clothes},
+  {"precedence", precedence},
+  CU_TEST_INFO_NULL};

@@ -74,7 +74,7 @@ static int declare(stf_model *m, int32_t i)
 
 /* A number alone has a register; what follows others is an expression, unless
  * it is given. */
-static bool literal(const stf_model *m, const stf_statement *s)
+bool stf_literal(const stf_model *m, const stf_statement *s)
 {
   for (uint32_t i = s->value.from; i < s->value.to; i++)
     if (STF_AT(m->syntax.codes, stf_code, i)->kind == STF_OP_NAME &&
@@ -203,7 +203,7 @@ static void number_parameters(stf_model *m, bool whole)
     stf_symbol *s = stf_symbol_at(m, (int32_t)i);
     if (s->kind != STF_IS_PARAMETER || s->assigned) continue;
     const stf_statement *said = stf_statement_at(m, s->statement);
-    if (said->whole != whole || !(s->given || literal(m, said))) continue;
+    if (said->whole != whole || !(s->given || stf_literal(m, said))) continue;
     s->which = m->parameters++;
   }
 }

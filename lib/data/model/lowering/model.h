@@ -167,6 +167,8 @@ stf_symbol *stf_symbol_of(const stf_model *m, int32_t word);
 /* declare.c: symbols, values of parameters (those of m->settings and of the spec), sizes, numbers of
  * unknowns. */
 int stf_declare(stf_model *m, const steif_spec *spec);
+/* Is the value of a statement made of numbers alone? */
+bool stf_literal(const stf_model *m, const stf_statement *s);
 /* A value among those that are given, in place of the former one of that name. */
 int stf_setting_add(steif_context *ctx, stf_vector *settings, const char *name, double value);
 int stf_number_unknowns(stf_model *m);

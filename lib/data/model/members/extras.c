@@ -190,12 +190,25 @@ static int listed(stf_model *m, int32_t statement, double *value, sunindextype *
   return m->syntax.sources.errors ? stf_complaints(&m->syntax.sources) : code;
 }
 
+/* Numbers are those of the parameters that the file has; formulas may follow others. */
+static bool of_other_parameters(const stf_model *m, int32_t statement)
+{
+  if (!m->settings.count) return false;
+  for (size_t i = (size_t)statement + 1; i < m->syntax.statements.count; i++) {
+    const stf_statement *s = stf_statement_at(m, (int32_t)i);
+    if (s->parent != statement) break;
+    if (stf_literal(m, s)) return true;
+  }
+  return false;
+}
+
 static int reference(stf_model *m, steif_problem *p)
 {
   for (size_t i = 0; i < m->syntax.statements.count; i++) {
     const stf_statement *s = stf_statement_at(m, (int32_t)i);
     double digits = 0;
     if (s->kind != STF_SAY_REFERENCE) continue;
+    if (of_other_parameters(m, (int32_t)i)) return STEIF_OK;
     steif_reference *r = &m->reference;
     STEIF_TRY(stf_number_of(m, &s->value, &r->t));
     if (s->other.to > s->other.from) STEIF_TRY(stf_number_of(m, &s->other, &digits));
