@@ -100,7 +100,8 @@ static void robertson(void)
     CLOSE(fit.chi2, 37.643177397, 1e-7);
     CHECK(fit.dof == 48 && fit.iterations <= 12);
     for (int i = 0; i < 3; i++) {
-      CLOSE(fit.p[i], p[i], 1e-7);
+      /* Where chi2 may yet fall by its part 1e-12, p is off by sqrt(1e-12 chi2) = 6e-6 standard deviations. */
+      CLOSE(fit.p[i], p[i], 1e-5 * spread[i]);
       CLOSE(sqrt(fit.covariance[4 * i]), spread[i], 1e-6);
     }
     CLOSE(fit.correlation[1], 0.96875385, 1e-6);
