@@ -17,6 +17,9 @@ static const struct option options[] = {
   {"--threads", NATURAL, "T", "members at work at once, at most 64; 0: one for each core", "0"},
   {"--collect", CHOICE, "y|digits|stats",
    "of each member: the solution at the end, its digits, or what it has cost", "y"},
+  {"--points", COUNT, "N", "rows of each member at N equal distances from its start to its end",
+   NULL},
+  {"--at", TIMES, "T,T,...", "the same at these times", NULL},
   {"--strict", FLAG, NULL, "exit code 1 when any member fails, not only when all do", NULL},
   {"--resume", WORD, "FILE",
    "keep the rows of an earlier --csv FILE of this sweep and run the other members", NULL},
@@ -28,9 +31,13 @@ static const struct option options[] = {
   INTERPRETED_OPTIONS,
   OPTIONS_END,
 };
-static const struct rule rules[] = {{"--p", REQUIRED, NULL},      {"--seed", NEEDS, "--random"},
-                                    {"--h", EXCLUDES, "--rtol"},  {"--h", EXCLUDES, "--atol"},
-                                    {"--threads", AT_MOST, "64"}, RULES_END};
+static const struct rule rules[] = {{"--p", REQUIRED, NULL},
+                                    {"--seed", NEEDS, "--random"},
+                                    {"--h", EXCLUDES, "--rtol"},
+                                    {"--h", EXCLUDES, "--atol"},
+                                    {"--threads", AT_MOST, "64"},
+                                    {"--at", EXCLUDES, "--points"},
+                                    RULES_END};
 
 const struct verb verb_sweep = {
   .name = "sweep",

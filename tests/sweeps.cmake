@@ -59,6 +59,32 @@ expect(3 sweep rober auto --p k1=0.01:0.08:20 --t1 10 --resume part.csv ERR "lin
 expect(3 sweep rober auto --p k1=0.01:0.07:20 --t1 10 --collect stats --resume part.csv ERR "other columns")
 expect(3 ${words} --resume none.csv ERR "cannot read")
 
+# Rows on the way: y1(40) = 0.71582706871940 (Hairer-Wanner II, Robertson), y1(100) as above; the end has the bits of
+# a run without them; half members are run again.
+set(words sweep rober auto --p k1=0.02:0.06:3 --t1 100 --rtol 1e-8)
+expect(0 ${words} --at 40,100 --json)
+member("6" rows_written)
+begins("40.0" rows 2 t)
+begins("0.715827" rows 2 y1)
+begins("0.61723" rows 3 y1)
+string(JSON last GET "${out}" rows 3 y1)
+expect(0 ${words} --json)
+member("${last}" rows 1 y1)
+expect(0 ${words} --points 5 --csv points.csv)
+file(SHA256 ${FOLDER}/points.csv whole)
+file(STRINGS ${FOLDER}/points.csv lines)
+list(REMOVE_AT lines 3 15)
+list(JOIN lines "\n" text)
+file(WRITE ${FOLDER}/points.csv "${text}\n")
+expect(0 ${words} --points 5 --resume points.csv)
+file(SHA256 ${FOLDER}/points.csv part)
+if(NOT part STREQUAL whole)
+  message(SEND_ERROR "sweep --points --resume: not the file of one run")
+endif()
+expect(1 ${words} --at 40,101 ERR "time 101 of member 0 is out of order or outside its interval .0, 100.")
+expect(2 ${words} --at 40 --collect stats ERR "leave --collect out")
+expect(2 ${words} --at 40 --points 3 ERR "--points")
+
 # A member that fails is a row; --strict and none alive are failures.
 expect(0 sweep vdpol auto --p mu=-1,10 --t1 1 --json)
 member("bad input" rows 0 status)

@@ -30,13 +30,14 @@ int axes_read(const struct call *call, struct axes *axes);
 void axes_at(const struct axes *axes, long long i, double *value);
 
 enum collect { COLLECT_Y, COLLECT_DIGITS, COLLECT_STATS };
-/* What a member leaves. */
+/* What a member leaves: rows of t and y, the last one where it ended. */
 struct member_record {
   int code;
-  double t, scd, mescd;
+  double scd, mescd;
   steif_stats stats;
   char message[320];
-  double y[]; /* n */
+  size_t rows;
+  double row[]; /* t and n numbers each */
 };
 
 struct old_rows; /* of --resume */
@@ -46,23 +47,28 @@ struct sweep {
   steif_options options;
   struct axes axes;
   enum collect collect;
-  size_t n;  /* columns of y */
+  size_t n;        /* columns of y */
+  size_t points;   /* rows of a member that goes to its end: --points or --at, else 1 */
+  bool on_the_way; /* with --points or --at */
+  double at[REALS_MOST];
   FILE *csv; /* NULL: none */
   char *line;
   size_t room;
-  struct old_rows *old; /* NULL: none */
-  long long rows, ok;
-  int first_code; /* of the first failure */
+  struct old_rows *old;     /* NULL: none */
+  long long rows, done, ok; /* written; members */
+  int first_code;           /* of the first failure */
   long long first_member;
   char first_message[320];
   uint64_t fingerprint; /* FNV-1a of the rows as --csv has them */
 };
 
-/* A row on stdout, in the file and in the fingerprint; nonzero when it cannot be written. */
+/* The rows of a member on stdout, in the file and in the fingerprint; nonzero when they cannot be written. */
 int sweep_head(struct sweep *s);
-int sweep_row(struct sweep *s, long long i, const struct member_record *r);
-/* A row of an earlier run, as its file has it. */
-int sweep_row_kept(struct sweep *s, const char *line);
+int sweep_rows(struct sweep *s, long long i, const struct member_record *r);
+/* The same of an earlier run, as its file has them. */
+int sweep_rows_kept(struct sweep *s, char *const line[], size_t count);
+/* The status and the rest of a line. */
+const char *sweep_status(const struct sweep *s, const char *line);
 int sweep_foot(struct sweep *s, bool stopped);
 /* The header and the member of a line of the file. */
 size_t sweep_header(const struct sweep *s, char *text, size_t room);

@@ -7,8 +7,10 @@
 
 struct old_rows {
   char *text;
-  char **line; /* in the order of the members */
-  long long *number, count, next;
+  char **line;       /* in the order of the members */
+  long long *number; /* of the members that are whole */
+  size_t *first;     /* their lines, and where the last of them end */
+  long long count, next;
 };
 
 static char *read_all(FILE *file)
@@ -36,7 +38,7 @@ static int stranger(const struct sweep *s, const char *path, long line, const ch
 }
 
 /* A line is that of the member whose number it has. */
-static int keep_line(struct sweep *s, const char *path, long at, char *line)
+static int keep_line(struct sweep *s, const char *path, long at, char *line, size_t k)
 {
   struct old_rows *o = s->old;
   char *end;
@@ -46,11 +48,31 @@ static int keep_line(struct sweep *s, const char *path, long at, char *line)
   const size_t length = sweep_begin(s, i, s->line, s->room);
   if (length >= s->room || strncmp(line, s->line, length))
     return stranger(s, path, at, "the member has other parameters here");
-  if (o->count && o->number[o->count - 1] >= i)
+  o->line[k] = line;
+  if (o->count && o->number[o->count - 1] == i) return EXIT_OK;
+  if (o->count && o->number[o->count - 1] > i)
     return stranger(s, path, at, "members are not in ascending order");
   o->number[o->count] = i;
-  o->line[o->count++] = line;
+  o->first[o->count++] = k;
   return EXIT_OK;
+}
+
+/* Members whose lines are all there, or end early by a failure or an event; the others are run again. */
+static void leave_out_halves(struct sweep *s, size_t lines)
+{
+  struct old_rows *o = s->old;
+  size_t whole = 0, used = 0;
+  for (long long k = 0; k < o->count; k++) {
+    const size_t first = o->first[k], end = k + 1 < o->count ? o->first[k + 1] : lines;
+    const bool early = strncmp(sweep_status(s, o->line[end - 1]), "ok,", 3) != 0;
+    if (early ? end - first > s->points + 1 : end - first != s->points) continue;
+    memmove(o->line + used, o->line + first, (end - first) * sizeof *o->line);
+    o->number[whole] = o->number[k];
+    o->first[whole++] = used;
+    used += end - first;
+  }
+  o->count = (long long)whole;
+  o->first[whole] = used;
 }
 
 /* A last line without an end was being written when the sweep died: its member is run again. */
@@ -62,12 +84,13 @@ static int keep_lines(struct sweep *s, const char *path)
   for (char *line = o->text, *end; !code && (end = strchr(line, '\n')); line = end + 1) {
     *end = 0;
     if (++at > 1) {
-      code = keep_line(s, path, at, line);
+      code = keep_line(s, path, at, line, (size_t)at - 2);
     } else {
       sweep_header(s, s->line, s->room);
       if (strcmp(line, s->line)) code = stranger(s, path, at, "other columns than this sweep");
     }
   }
+  if (!code && at > 1) leave_out_halves(s, (size_t)at - 1);
   return code;
 }
 
@@ -92,8 +115,9 @@ int old_open(struct sweep *s, const char *path)
     const size_t count = (size_t)lines_of(o->text) + 1;
     o->line = malloc(count * sizeof *o->line);
     o->number = malloc(count * sizeof *o->number);
+    o->first = malloc((count + 1) * sizeof *o->first);
   }
-  if (!o || !o->text || !o->line || !o->number)
+  if (!o || !o->text || !o->line || !o->number || !o->first)
     return no_memory(s->call, "the rows to be kept", "give the process more");
   return keep_lines(s, path);
 }
@@ -123,8 +147,10 @@ long long old_number(const struct sweep *s, long long k)
 int old_before(struct sweep *s, long long i)
 {
   struct old_rows *o = s->old;
-  for (; o && o->next < o->count && o->number[o->next] < i; o->next++)
-    if (sweep_row_kept(s, o->line[o->next])) return 1;
+  for (; o && o->next < o->count && o->number[o->next] < i; o->next++) {
+    const size_t first = o->first[o->next];
+    if (sweep_rows_kept(s, o->line + first, o->first[o->next + 1] - first)) return 1;
+  }
   return 0;
 }
 
@@ -134,6 +160,7 @@ void old_close(struct sweep *s)
   free(s->old->text);
   free(s->old->line);
   free(s->old->number);
+  free(s->old->first);
   free(s->old);
   s->old = NULL;
 }

@@ -27,13 +27,30 @@ static const char *column(const struct sweep *s, size_t j, char room[COLUMN])
 
 static bool whole(const struct sweep *s) { return s->collect == COLLECT_STATS; }
 
-static double cell(const struct sweep *s, const struct member_record *r, size_t j)
+/* Row number `row` of a member: its code; t, y or whatever is collected. */
+static int code_of(const struct member_record *r, size_t row)
+{
+  return row + 1 < r->rows ? STEIF_OK : r->code;
+}
+
+static const double *numbers_of(const struct sweep *s, const struct member_record *r,
+                                size_t row)
+{
+  return r->row + row * (s->n + 1);
+}
+
+static const char *message_of(const struct member_record *r, size_t row)
+{
+  return row + 1 < r->rows ? "" : r->message;
+}
+
+static double cell(const struct sweep *s, const struct member_record *r, size_t row, size_t j)
 {
   const long count[STATS] = {r->stats.steps, r->stats.rejected, r->stats.nfe,
                              r->stats.nje,   r->stats.nlu,      r->stats.nsolve};
   if (s->collect == COLLECT_STATS) return (double)count[j];
   if (s->collect == COLLECT_DIGITS) return j ? r->mescd : r->scd;
-  return r->y[j];
+  return numbers_of(s, r, row)[1 + j];
 }
 
 /* ---- as comma-separated values --------------------------------------------------------------- */
@@ -96,27 +113,29 @@ size_t sweep_begin(const struct sweep *s, long long i, char *text, size_t room)
 }
 
 static size_t csv_line(const struct sweep *s, long long i, const struct member_record *r,
-                       char *text, size_t room)
+                       size_t row)
 {
-  struct text t = {text, room, sweep_begin(s, i, text, room)};
-  add(&t, "%s", steif_code_name(r->code));
-  add_number(&t, r->t);
-  for (size_t j = 0; j < columns(s); j++) add_number(&t, cell(s, r, j));
-  add_quoted(&t, r->message);
+  struct text t = {s->line, s->room, sweep_begin(s, i, s->line, s->room)};
+  add(&t, "%s", steif_code_name(code_of(r, row)));
+  add_number(&t, *numbers_of(s, r, row));
+  for (size_t j = 0; j < columns(s); j++) add_number(&t, cell(s, r, row, j));
+  add_quoted(&t, message_of(r, row));
   return t.used;
 }
 
 /* ---- rows ------------------------------------------------------------------------------------- */
 
-static void table_row(const struct sweep *s, long long i, const struct member_record *r)
+static void table_row(const struct sweep *s, long long i, const struct member_record *r,
+                      size_t row)
 {
+  const char *message = message_of(r, row);
   double value[AXES];
   axes_at(&s->axes, i, value);
   printf("%8lld", i);
   for (int k = 0; k < s->axes.count; k++) printf(" %13.6g", value[k]);
-  printf(" %-15s %13.6g", steif_code_name(r->code), r->t);
-  for (size_t j = 0; j < columns(s); j++) printf(" %13.6g", cell(s, r, j));
-  printf("%s%s\n", *r->message ? "  " : "", r->message);
+  printf(" %-15s %13.6g", steif_code_name(code_of(r, row)), *numbers_of(s, r, row));
+  for (size_t j = 0; j < columns(s); j++) printf(" %13.6g", cell(s, r, row, j));
+  printf("%s%s\n", *message ? "  " : "", message);
 }
 
 static void table_head(const struct sweep *s)
@@ -129,7 +148,8 @@ static void table_head(const struct sweep *s)
   putchar('\n');
 }
 
-static int json_row(const struct sweep *s, long long i, const struct member_record *r)
+static int json_row(const struct sweep *s, long long i, const struct member_record *r,
+                    size_t row)
 {
   char name[COLUMN];
   double value[AXES];
@@ -138,14 +158,14 @@ static int json_row(const struct sweep *s, long long i, const struct member_reco
   axes_at(&s->axes, i, value);
   steif_report_whole(o, "member", (long)i);
   for (int k = 0; k < s->axes.count; k++) steif_report_real(o, s->axes.name[k], value[k]);
-  steif_report_text(o, "status", steif_code_name(r->code));
-  steif_report_real(o, "t", r->t);
+  steif_report_text(o, "status", steif_code_name(code_of(r, row)));
+  steif_report_real(o, "t", *numbers_of(s, r, row));
   for (size_t j = 0; j < columns(s); j++)
     if (whole(s))
-      steif_report_whole(o, column(s, j, name), (long)cell(s, r, j));
+      steif_report_whole(o, column(s, j, name), (long)cell(s, r, row, j));
     else
-      steif_report_real(o, column(s, j, name), cell(s, r, j));
-  if (*r->message) steif_report_text(o, "message", r->message);
+      steif_report_real(o, column(s, j, name), cell(s, r, row, j));
+  if (*message_of(r, row)) steif_report_text(o, "message", message_of(r, row));
   if (s->rows) putchar(',');
   const int code = steif_report_write(o, STEIF_JSON, stdout);
   steif_report_free(&o);
@@ -159,30 +179,44 @@ static int count(struct sweep *s, const char *line)
   s->rows++;
   if (s->csv && (fprintf(s->csv, "%s\n", line) < 0 || (s->rows % 64 == 0 && fflush(s->csv))))
     return 1;
-  if (s->rows % 256 == 0) progress(s->call, "%lld of %lld members", s->rows, s->axes.members);
   return ferror(stdout);
 }
 
-int sweep_row(struct sweep *s, long long i, const struct member_record *r)
+static void count_member(struct sweep *s, bool ok)
 {
-  const bool ok = r->code >= 0;
-  if (!ok && !s->first_code) {
+  s->ok += ok;
+  if (++s->done % 256 == 0) progress(s->call, "%lld of %lld members", s->done, s->axes.members);
+}
+
+int sweep_rows(struct sweep *s, long long i, const struct member_record *r)
+{
+  if (r->code < 0 && !s->first_code) {
     s->first_code = r->code, s->first_member = i;
     snprintf(s->first_message, sizeof s->first_message, "%s", r->message);
   }
-  s->ok += ok;
-  if (s->call->json && json_row(s, i, r)) return 1;
-  if (!s->call->json && !s->call->csv) table_row(s, i, r);
-  if (csv_line(s, i, r, s->line, s->room) >= s->room) return 1;
-  return count(s, s->line);
+  for (size_t row = 0; row < r->rows; row++) {
+    if (s->call->json && json_row(s, i, r, row)) return 1;
+    if (!s->call->json && !s->call->csv) table_row(s, i, r, row);
+    if (csv_line(s, i, r, row) >= s->room || count(s, s->line)) return 1;
+  }
+  count_member(s, r->code >= 0);
+  return 0;
 }
 
-int sweep_row_kept(struct sweep *s, const char *line)
+const char *sweep_status(const struct sweep *s, const char *line)
 {
   const char *at = line;
   for (int k = 0; k <= s->axes.count && at; k++) at = strchr(at + (k > 0), ',');
-  s->ok += at && (!strncmp(at + 1, "ok,", 3) || !strncmp(at + 1, "event,", 6));
-  return count(s, line);
+  return at ? at + 1 : "";
+}
+
+int sweep_rows_kept(struct sweep *s, char *const line[], size_t lines)
+{
+  for (size_t k = 0; k < lines; k++)
+    if (count(s, line[k])) return 1;
+  const char *last = sweep_status(s, line[lines - 1]);
+  count_member(s, !strncmp(last, "ok,", 3) || !strncmp(last, "event,", 6));
+  return 0;
 }
 
 /* ---- head and foot ----------------------------------------------------------------------------- */
@@ -209,7 +243,7 @@ static void facts(steif_report *r, const struct call *call, const void *of)
   steif_report_whole(r, "members", (long)s->axes.members);
   steif_report_whole(r, "rows_written", (long)s->rows);
   steif_report_whole(r, "ok", (long)s->ok);
-  steif_report_whole(r, "failed", (long)(s->rows - s->ok));
+  steif_report_whole(r, "failed", (long)(s->done - s->ok));
   steif_report_text(r, "fingerprint", print);
 }
 
@@ -239,7 +273,7 @@ int sweep_foot(struct sweep *s, bool stopped)
   }
   fflush(stdout);
   if (stopped)
-    say(s->call, "interrupted; %lld of %lld members are finished%s [STEIF_STOPPED]", s->rows,
+    say(s->call, "interrupted; %lld of %lld members are finished%s [STEIF_STOPPED]", s->done,
         s->axes.members, s->call->csv ? ", and --resume goes on with the others" : "");
   return code;
 }

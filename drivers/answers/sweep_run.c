@@ -41,30 +41,52 @@ static void take_message(struct member_record *r, const char *text)
     if (*at == '\n' || *at == '\r') *at = ' ';
 }
 
+/* The solution shown, or none, as the next row. */
+static void take_row(const struct sweep *s, struct member_record *r, steif_solver *solver)
+{
+  double *row = r->row + r->rows++ * (s->n + 1);
+  row[0] = solver ? steif_time(solver) : NAN;
+  for (size_t j = 0; j < s->n && !solver; j++) row[1 + j] = NAN;
+  if (solver && s->n)
+    memcpy(row + 1, N_VGetArrayPointer(steif_solution(solver)), s->n * sizeof *row);
+}
+
+static bool fits(const struct sweep *s, const steif_problem *p)
+{
+  return s->collect != COLLECT_Y || p->n == (sunindextype)s->n;
+}
+
+static int at(steif_context *ctx, long long k, int j, const steif_problem *p,
+              steif_solver *solver, void *record, void *user)
+{
+  (void)ctx, (void)k, (void)j;
+  if (fits(user, p)) take_row(user, record, solver);
+  return 0;
+}
+
 static int done(steif_context *ctx, long long k, const steif_problem *p, steif_solver *solver,
                 int code, void *record, void *user)
 {
   const struct sweep *s = user;
   struct member_record *r = record;
   (void)k;
-  *r = (struct member_record){.code = code, .t = NAN, .scd = NAN, .mescd = NAN};
-  for (size_t j = 0; j < s->n; j++) r->y[j] = NAN;
+  r->code = code;
+  r->scd = r->mescd = NAN;
   if (code < 0) take_message(r, steif_message(ctx));
-  if (!solver) return STEIF_OK;
-  r->t = steif_time(solver);
-  r->stats = *steif_statistics(solver);
-  N_Vector y = steif_solution(solver);
-  if (s->collect == COLLECT_Y && p->n == (sunindextype)s->n)
-    memcpy(r->y, N_VGetArrayPointer(y), s->n * sizeof *r->y);
-  else if (s->collect == COLLECT_Y) {
+  if (solver) r->stats = *steif_statistics(solver);
+  if (!fits(s, p)) {
     r->code = STEIF_UNSUPPORTED;
     snprintf(r->message, sizeof r->message,
              "%ld unknowns where the columns are for %zu; "
              "--collect digits or stats takes members of any size [STEIF_UNSUPPORTED]",
              (long)p->n, s->n);
+    take_row(s, r, NULL);
+  } else if (code || !s->on_the_way) {
+    take_row(s, r, solver);
   }
-  if (s->collect == COLLECT_DIGITS && code >= 0)
-    steif_problem_digits(ctx, p, r->t, y, tolerance_ratio(p, &s->options), &r->scd, &r->mescd);
+  if (solver && s->collect == COLLECT_DIGITS && code >= 0)
+    steif_problem_digits(ctx, p, steif_time(solver), steif_solution(solver),
+                         tolerance_ratio(p, &s->options), &r->scd, &r->mescd);
   return STEIF_OK;
 }
 
@@ -72,7 +94,7 @@ static int row(long long k, const void *record, void *user)
 {
   struct sweep *s = user;
   const long long i = old_number(s, k);
-  return old_before(s, i) || sweep_row(s, i, record);
+  return old_before(s, i) || sweep_rows(s, i, record);
 }
 
 /* ---- the whole --------------------------------------------------------------------------------- */
@@ -103,9 +125,9 @@ static int conclude(struct sweep *s, int code)
   if (code && !stopped) return fail(s->call);
   int shown = old_before(s, s->axes.members) ? EXIT_FAILED : sweep_foot(s, stopped);
   if (stopped) return interruption_exit();
-  const long long failed = s->rows - s->ok;
+  const long long failed = s->done - s->ok;
   if (!shown && failed && (given(s->call, "--strict") || !s->ok)) {
-    say(s->call, "%lld of %lld members failed%s%s", failed, s->rows,
+    say(s->call, "%lld of %lld members failed%s%s", failed, s->done,
         s->first_code ? "; the first of them: " : "", s->first_message);
     return EXIT_FAILED;
   }
@@ -114,12 +136,16 @@ static int conclude(struct sweep *s, int code)
 
 static int run_members(struct sweep *s)
 {
+  const size_t rows = s->points + s->on_the_way; /* one more where a run ends early */
   const steif_ensemble_options e = {.open = open_problem,
                                     .method = s->call->word[1],
                                     .options = &s->options,
                                     .threads = (int)whole_of(s->call, "--threads"),
-                                    .record =
-                                      sizeof(struct member_record) + s->n * sizeof(double),
+                                    .record = sizeof(struct member_record) +
+                                              rows * (s->n + 1) * sizeof(double),
+                                    .points = s->on_the_way ? (int)s->points : 0,
+                                    .times = given(s->call, "--at") ? s->at : NULL,
+                                    .at = at,
                                     .row = row,
                                     .user = s,
                                     .stop = interruption_poll()};
@@ -147,9 +173,22 @@ static int write_file(struct sweep *s, const char *path)
   return code;
 }
 
+/* Where each member is shown. */
+static int read_points(struct sweep *s)
+{
+  const size_t times = reals_of(s->call, "--at", s->at);
+  s->points = times ? times : (size_t)whole_of(s->call, "--points");
+  s->on_the_way = s->points > 0;
+  if (!s->on_the_way) s->points = 1;
+  return s->on_the_way && s->collect != COLLECT_Y
+           ? bad_usage(s->call, "--points and --at show the solution: leave --collect out")
+           : EXIT_OK;
+}
+
 static int begin(struct sweep *s)
 {
-  int code = axes_read(s->call, &s->axes);
+  int code = read_points(s);
+  if (!code) code = axes_read(s->call, &s->axes);
   if (!code) code = check_names(s);
   if (code) return code;
   s->room = (size_t)1000 + (s->n + AXES) * (COLUMN + 2);

@@ -44,6 +44,11 @@ typedef int (*steif_member)(steif_context *ctx, long long i, steif_problem *prob
  * returned, with the sentence in ctx; s is NULL where there is no solver. A code other than 0 ends the ensemble. */
 typedef int (*steif_member_done)(steif_context *ctx, long long i, const steif_problem *problem,
                                  steif_solver *s, int code, void *record, void *user);
+/* At point j of options.points of member i, on the way: the solver shows the solution there. The record is
+ * zeroed before the first of them. A code other than 0 ends the ensemble. */
+typedef int (*steif_member_at)(steif_context *ctx, long long i, int j,
+                               const steif_problem *problem, steif_solver *s, void *record,
+                               void *user);
 /* Records in ascending order, one at a time, in any of the threads. Nonzero ends the ensemble. */
 typedef int (*steif_member_row)(long long i, const void *record, void *user);
 
@@ -69,12 +74,15 @@ typedef struct steif_ensemble_options {
   long long (*take)(long long chunk, void *queue);
   void *queue;
   int workers; /* with take: how many there are in all, for the size of chunks; 0: threads */
-  int reserved_int;
-  void *reserved[8]; /* 0 */
+  int points;  /* `at` is called so many times in a run; the steps stay what they are */
+  const sunrealtype
+    *times;           /* points of them, ascending; NULL: equal distances from start to end */
+  steif_member_at at; /* with points */
+  void *reserved[6];  /* 0 */
 } steif_ensemble_options;
 
 /* STEIF_OK: every member was run, whatever came of it. STEIF_STOPPED: stop was set. STEIF_BAD_INPUT: no members,
- * no callback; codes of opening the problem; the code of `done`, STEIF_CALLBACK for `row`. Threads that
+ * no callback, points without `at`; a time outside a member's interval is that member's failure; codes of opening the problem; the code of `done` or `at`, STEIF_CALLBACK for `row`. Threads that
  * cannot be had leave their share to the others. */
 STEIF_EXPORT int steif_ensemble(steif_context *ctx, long long count, steif_member member,
                                 steif_member_done done, const steif_ensemble_options *options);

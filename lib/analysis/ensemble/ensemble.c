@@ -22,7 +22,41 @@ static void clear_own(steif_context *ctx, const steif_problem *like, steif_probl
   if (p->build && p->name != like->name) steif_problem_clear(ctx, p);
 }
 
-static int integrate(worker *w, long long i, steif_problem *p, steif_solver **s)
+static void end_by(stf_queue *q, int code, const char *callback, long long i)
+{
+  char text[96];
+  snprintf(text, sizeof text, "'%s' returned %d for member %lld", callback, code, i);
+  stf_queue_end(q, code, text);
+}
+
+static int no_time(worker *w, sunrealtype t, long long i, sunrealtype t0, sunrealtype t1)
+{
+  return STEIF_FAIL(w->ctx, STEIF_BAD_INPUT,
+                    "time %g of member %lld is out of order or outside its interval [%g, %g]",
+                    t, i, t0, t1);
+}
+
+/* To the end, by way of the points. */
+static int go(worker *w, long long i, const steif_problem *p, steif_solver *s, sunrealtype t1,
+              void *record)
+{
+  const steif_ensemble_options *e = w->queue->e;
+  sunrealtype before = p->t0;
+  for (int j = 0; j < e->points; j++) {
+    const sunrealtype part = e->points > 1 ? (sunrealtype)j / (e->points - 1) : 1;
+    const sunrealtype t = e->times ? e->times[j] : part < 1 ? p->t0 + part * (t1 - p->t0) : t1;
+    if (!(t >= before && t <= t1)) return no_time(w, t, i, p->t0, t1);
+    before = t;
+    const int code = t > p->t0 ? steif_solve_to(s, t) : STEIF_OK;
+    if (code) return code;
+    const int told = e->at(w->ctx, i, j, p, s, record, e->user);
+    if (told) end_by(w->queue, told, "at", i);
+    if (told) return STEIF_STOPPED;
+  }
+  return steif_solve_to(s, t1);
+}
+
+static int integrate(worker *w, long long i, steif_problem *p, steif_solver **s, void *record)
 {
   const stf_queue *q = w->queue;
   steif_options options = q->e->options ? *q->e->options : steif_defaults();
@@ -35,7 +69,7 @@ static int integrate(worker *w, long long i, steif_problem *p, steif_solver **s)
   }
   *s = steif_solver_new(w->ctx, p, q->e->method ? q->e->method : "auto", &options);
   if (!*s) return steif_status(w->ctx);
-  return steif_solve_to(*s, options.t1 > 0 ? options.t1 : p->t1);
+  return go(w, i, p, *s, options.t1 > 0 ? options.t1 : p->t1, record);
 }
 
 static void run_member(worker *w, long long i, long long place)
@@ -45,14 +79,11 @@ static void run_member(worker *w, long long i, long long place)
   if (!record) return;
   steif_problem p = w->like;
   steif_solver *s = NULL;
-  const int code = integrate(w, i, &p, &s);
-  const bool given_up = code == STEIF_STOPPED && q->e->stop && *q->e->stop;
+  const int code = integrate(w, i, &p, &s, record);
+  const bool given_up =
+    code == STEIF_STOPPED && (stf_queue_ended(q) || (q->e->stop && *q->e->stop));
   const int told = given_up ? STEIF_OK : q->done(w->ctx, i, &p, s, code, record, q->e->user);
-  if (told) {
-    char text[96];
-    snprintf(text, sizeof text, "'done' returned %d for member %lld", told, i);
-    stf_queue_end(q, told, text);
-  }
+  if (told) end_by(q, told, "done", i);
   steif_solver_free(&s);
   clear_own(w->ctx, &w->like, &p);
   stf_queue_ready(q, place, !given_up && !told);
@@ -112,6 +143,8 @@ int steif_ensemble(steif_context *ctx, long long count, steif_member member,
               "an ensemble needs callbacks for its members and what they give, and options");
   STEIF_CHECK(count > 0, ctx, STEIF_BAD_INPUT, "an ensemble has %lld members; 1 is the least",
               count);
+  STEIF_CHECK(e->points == 0 || (e->points > 0 && e->at), ctx, STEIF_BAD_INPUT,
+              "%d points of an ensemble without the callback 'at'", e->points);
   STEIF_CHECK(e->threads >= 0 && e->threads <= WORKERS, ctx, STEIF_BAD_INPUT,
               "%d workers; choose 1 to %d, or 0 for all cores", e->threads, WORKERS);
   int threads = e->threads ? e->threads : stf_threads(ctx);
