@@ -35,9 +35,11 @@ static int forcing_plain(sunrealtype t, int derivative, N_Vector g, void *user)
 static int forcing(sunrealtype t, int derivative, N_Vector g, void *user)
 {
   const planted_system *s = user;
+  long double f[SYSTEM_MOST];
+  for (int m = 0; m < s->n; m++) f[m] = canonical(s, m, derivative, t);
   for (int i = 0; i < s->n; i++) {
     long double sum = 0;
-    for (int m = 0; m < s->n; m++) sum += s->S[i][m] * canonical(s, m, derivative, t);
+    for (int m = 0; m < s->n; m++) sum += s->S[i][m] * f[m];
     N_VGetArrayPointer(g)[i] = (sunrealtype)sum;
   }
   return 0;

@@ -43,41 +43,65 @@ long double stf_real_value(const stf_real *x)
   return x->sign * ldexpl(v, BITS * x->exponent);
 }
 
-/* w = |a| + sign |b| B^-shift to limbs + 1 digits after one for the carry, b the smaller; the sign of it. */
-static int combine(int limbs, const stf_real *a, const stf_real *b, int shift, int sign,
-                   uint32_t *w)
+/* w = |a| + |b| B^-shift to limbs + 1 digits after one for the carry. */
+static void sum_of(int limbs, const stf_real *a, const stf_real *b, int shift, uint32_t *w)
+{
+  uint64_t carry = 0;
+  for (int i = limbs; i >= shift; i--) {
+    carry +=
+      (uint64_t)(i < limbs ? a->limb[i] : 0) + (i - shift < limbs ? b->limb[i - shift] : 0);
+    w[i + 1] = (uint32_t)carry;
+    carry >>= BITS;
+  }
+  for (int i = shift - 1; i >= 0; i--) {
+    carry += a->limb[i];
+    w[i + 1] = (uint32_t)carry;
+    carry >>= BITS;
+  }
+  w[0] = (uint32_t)carry;
+}
+
+/* w = |a| - |b| B^-shift likewise, where shift > 0 or |a| >= |b|: then it is not negative. */
+static void difference_of(int limbs, const stf_real *a, const stf_real *b, int shift,
+                          uint32_t *w)
 {
   int64_t carry = 0;
-  for (int i = limbs; i >= 0; i--) {
-    const int64_t top = i < limbs ? a->limb[i] : 0,
-                  low = i >= shift && i - shift < limbs ? b->limb[i - shift] : 0,
-                  sum = top + sign * low + carry;
-    w[i + 1] = (uint32_t)(sum & 0xffffffff);
-    carry = sum >> BITS;
+  for (int i = limbs; i >= shift; i--) {
+    carry +=
+      (int64_t)(i < limbs ? a->limb[i] : 0) - (i - shift < limbs ? b->limb[i - shift] : 0);
+    w[i + 1] = (uint32_t)carry;
+    carry >>= BITS;
   }
-  w[0] = (uint32_t)(carry > 0 ? carry : 0);
-  if (carry >= 0) return 1;
-  uint64_t borrow = 1; /* the complement of a negative difference */
-  for (int i = limbs + 1; i > 0; i--) {
-    borrow += (uint32_t)~w[i];
-    w[i] = (uint32_t)borrow;
-    borrow >>= BITS;
+  for (int i = shift - 1; i >= 0; i--) {
+    carry += a->limb[i];
+    w[i + 1] = (uint32_t)carry;
+    carry >>= BITS;
   }
-  return -1;
+  w[0] = 0;
+}
+
+/* |a| < |b|, of the same exponent. */
+static bool smaller(int limbs, const stf_real *a, const stf_real *b)
+{
+  int i = 0;
+  while (i < limbs - 1 && a->limb[i] == b->limb[i]) i++;
+  return a->limb[i] < b->limb[i];
 }
 
 void stf_real_add(int limbs, const stf_real *a, const stf_real *b, stf_real *sum)
 {
   uint32_t w[WORK];
-  const bool swap = !a->sign || (b->sign && b->exponent > a->exponent);
+  const bool swap =
+    !a->sign || (b->sign && (b->exponent > a->exponent ||
+                             (b->exponent == a->exponent && smaller(limbs, a, b))));
   const stf_real *large = swap ? b : a, *small = swap ? a : b;
   const int shift = large->exponent - small->exponent;
   if (!small->sign || shift > limbs) {
     if (sum != large) *sum = *large;
     return;
   }
-  const int sign = combine(limbs, large, small, shift, large->sign * small->sign, w);
-  normalise(limbs, sign * large->sign, large->exponent + 1, limbs + 2, w, sum);
+  (large->sign == small->sign ? sum_of : difference_of)(limbs, large, small, shift, w);
+  normalise(limbs, large->sign, large->exponent + 1, limbs + 2, w, sum);
 }
 
 void stf_real_subtract(int limbs, const stf_real *a, const stf_real *b, stf_real *out)
@@ -87,6 +111,13 @@ void stf_real_subtract(int limbs, const stf_real *a, const stf_real *b, stf_real
   stf_real_add(limbs, a, &minus, out);
 }
 
+/* Limbs up to the last that is not 0. */
+static int length(int limbs, const stf_real *x)
+{
+  while (limbs > 0 && !x->limb[limbs - 1]) limbs--;
+  return limbs;
+}
+
 void stf_real_multiply(int limbs, const stf_real *a, const stf_real *b, stf_real *out)
 {
   uint32_t w[WORK] = {0};
@@ -94,13 +125,15 @@ void stf_real_multiply(int limbs, const stf_real *a, const stf_real *b, stf_real
     *out = (stf_real){0};
     return;
   }
-  for (int i = limbs - 1; i >= 0; i--) {
+  const int last = length(limbs, b) - 1;
+  for (int i = length(limbs, a) - 1; i >= 0; i--) {
+    const uint64_t factor = a->limb[i];
+    const int most = i ? limbs - i : limbs - 1; /* what is beyond is chopped */
     uint64_t carry = 0;
-    if (!a->limb[i]) continue;
-    for (int j = i ? limbs - i : limbs - 1; j >= 0; j--) {
-      const uint64_t t = (uint64_t)a->limb[i] * b->limb[j] + w[i + j + 1] + carry;
-      w[i + j + 1] = (uint32_t)t;
-      carry = t >> BITS;
+    for (int j = last < most ? last : most; j >= 0; j--) {
+      carry += factor * b->limb[j] + w[i + j + 1];
+      w[i + j + 1] = (uint32_t)carry;
+      carry >>= BITS;
     }
     w[i] = (uint32_t)carry;
   }
@@ -116,16 +149,25 @@ void stf_real_gather(int limbs, int sign, const stf_real *a, const stf_real *b, 
   stf_real_add(limbs, sum, &product, sum);
 }
 
+/* The limbs beyond set to 0. */
+static void chop(int limbs, int from, stf_real *x)
+{
+  for (int i = from; i < limbs; i++) x->limb[i] = 0;
+}
+
+/* Newton's iteration x += x (1 - b x) for 1/b doubles the right bits, so that early steps need few of them. */
 void stf_real_divide(int limbs, const stf_real *a, const stf_real *b, stf_real *out)
 {
   stf_real scaled = *b, inverse, rest;
-  const stf_real one = stf_real_of(1);
   scaled.exponent = 0;
   inverse = stf_real_of(1 / stf_real_value(&scaled));
   for (int bits = 60; bits < 2 * BITS * limbs; bits *= 2) {
-    rest = one;
-    stf_real_gather(limbs, -1, &scaled, &inverse, &rest);
-    stf_real_gather(limbs, 1, &rest, &inverse, &inverse);
+    const int enough = 2 * bits / BITS + 2, few = enough < limbs ? enough : limbs;
+    rest = stf_real_of(1);
+    stf_real_gather(few, -1, &scaled, &inverse, &rest);
+    chop(limbs, few, &rest);
+    stf_real_gather(few, 1, &rest, &inverse, &inverse);
+    chop(limbs, few, &inverse);
   }
   inverse.exponent -= b->exponent;
   stf_real_multiply(limbs, a, &inverse, out);
