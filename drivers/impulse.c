@@ -22,7 +22,7 @@ static int run(struct call *call)
   if (impulse_is_nonlinear(call, &nonlinear)) return impulse_nonlinear(call, &nonlinear);
   if (given(call, "--restitution") || given(call, "--stages"))
     return bad_usage(call,
-                     "--restitution and --stages are for nonlinear problems; leave them out");
+                     "--restitution and --stages are for nonlinear problems: leave them out");
   if (given(call, "--rtol") && !given(call, "--method") && !given(call, "--vs"))
     return bad_usage(call, "--rtol is the tolerance of a run; add --method and --t1, or --vs");
   return strcmp(call->word[0], "all") ? on_system(call) : impulse_collection(call);
@@ -30,19 +30,19 @@ static int run(struct call *call)
 
 static const struct option options[] = {
   START_OPTIONS,
-  {"--method", WORD, "METHOD", "integrate from x(0+), with a jump at every declared break of f",
+  {"--method", WORD, "METHOD", "integrate from x(0+); a jump at every declared break of f",
    NULL},
   {"--t1", REAL, "T", "end of the run", NULL},
-  {"--layers", FLAG, NULL,
-   "from x(0-) itself, constant steps in layers: be, bdf:p=, radau:s=", NULL},
+  {"--layers", FLAG, NULL, "from x(0-) itself, steps in layers: be, bdf:p=, radau:s=", NULL},
   {"--h", POSITIVE, "H", "constant step size of --method (default: adaptive)", NULL},
   {"--h0", POSITIVE, "H", "first step of an adaptive step size (default: automatic)", NULL},
   {"--rtol", POSITIVE, "R", "relative tolerance of --method or --vs (default: 1e-6)", NULL},
   {"--atol", POSITIVE, "A", "absolute tolerance (default: rtol times max |x|, up to 1)", NULL},
   {"--restitution", REAL, "E", "restitution in an impact of a nonlinear problem", "0"},
-  {"--stages", FLAG, NULL,
-   "nonlinear problem whose jump is not unique: positions first, then velocities", NULL},
+  {"--stages", FLAG, NULL, "where a nonlinear jump is not unique: positions, then velocities",
+   NULL},
   {"--projectors", FLAG, NULL, "show the spectral projectors, too (n > 400: of x(0-))", NULL},
+  SLOPES_OPTION,
   {"--vs", CHOICE, "ida|cvode|arkode",
    "run it, too, from x(0-) to --t1 (all: each); ida in every setting, best first", NULL},
   ANALYSIS_OPTIONS,
@@ -56,6 +56,7 @@ static const struct rule rules[] = {START_RULES,
                                     {"--h", EXCLUDES, "--h0"},
                                     {"--h", EXCLUDES, "--layers"},
                                     {"--projectors", EXCLUDES, "--method"},
+                                    {"--slopes", EXCLUDES, "--method"},
                                     {"--method", NEEDS, "--t1"},
                                     {"--t1", NEEDS, "--method|--vs"},
                                     {"--h", NEEDS, "--method"},

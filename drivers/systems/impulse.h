@@ -30,6 +30,15 @@ const char *const *impulse_columns(const struct descriptor *l);
  * x(0-) where they are too large to be shown. */
 int report_projectors(struct call *call, const struct descriptor *l, const steif_structure *s,
                       steif_report *r);
+#define SLOPES_OPTION                                                                          \
+  {                                                                                            \
+    "--slopes", WORD, "W,W,...",                                                               \
+      "derivatives of x(0+) and the impulses by parameters, E:i:j, F:i:j, x0:i, f:i, f:i:q",   \
+      NULL                                                                                     \
+  }
+/* Under "d_WORD.": derivatives by every word of --slopes; some may be undecided, which is said. */
+int report_slopes(struct call *call, const struct descriptor *l, const steif_structure *s,
+                  steif_report *r, bool *undecided);
 /* Under "vs.": how far `method` comes from the same x(0-), with the best of its settings; all of them in the
  * sheet "settings". */
 void report_beside(const struct call *call, const struct descriptor *l, const char *method,

@@ -58,16 +58,19 @@ static int tell(struct call *call, const struct descriptor *l, const steif_struc
 {
   steif_report *r = steif_report_new(call->ctx);
   char beside[TWO_STARTS_TEXT];
+  bool undecided = false;
   int code = r ? EXIT_OK : fail(call);
   if (!code) report_impulse(r, l, i);
   if (!code) two_starts_of_system(call, l, i->x_plus, beside);
   if (!code && beside[0]) steif_report_text(r, "nearest", beside);
   if (!code && given(call, "--projectors")) code = report_projectors(call, l, s, r);
+  if (!code && given(call, "--slopes")) code = report_slopes(call, l, s, r, &undecided);
   if (!code && given(call, "--vs")) report_beside(call, l, word_of(call, "--vs"), r);
   if (!code) code = show(call, r);
   steif_report_free(&r);
   if (!code) code = save_rows_of(call, l, i);
-  return code ? code : impulse_verdict(call, i);
+  if (!code) code = impulse_verdict(call, i);
+  return code ? code : undecided ? EXIT_UNCERTIFIED : EXIT_OK;
 }
 
 static int start(struct call *call, const struct descriptor *l, const steif_structure *s)

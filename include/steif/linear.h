@@ -4,7 +4,7 @@
 #define STEIF_LINEAR_H
 
 #include <steif/impulse.h>
-#include <steif/impulse_slopes.h>
+#include <steif/slopes.h>
 #include <steif/eigenvalues.h>
 #include <steif/jump.h>
 #include <steif/runs.h>

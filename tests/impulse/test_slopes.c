@@ -1,58 +1,7 @@
 /* test_slopes.c: derivatives of x(0+) and of impulses: closed forms, sums over the Laurent coefficients in
  * rational numbers (figures by fractions), differences of the jump itself, and directions without a derivative.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "base/failing.h"
-#include "suite.h"
-#include <math.h>
-#include <nvector/nvector_serial.h>
-#include <steif/data.h>
-#include <steif/impulse_slopes.h>
-#include <string.h>
-#include <sunmatrix/sunmatrix_dense.h>
-#include <sunmatrix/sunmatrix_sparse.h>
-
-typedef struct bench {
-  steif_context *ctx;
-  steif_problem problem;
-  steif_linear system;
-  sunindextype n;
-  SUNMatrix dE, dF; /* dense, 0 */
-  steif_impulse_direction along;
-  steif_impulse_slope slope;
-} bench;
-
-static void set_up(bench *b, const char *name)
-{
-  *b = (bench){.ctx = steif_context_new(NULL)};
-  CHECK(steif_problem_find(b->ctx, name, &b->problem) == STEIF_OK);
-  CHECK(steif_linear_of(b->ctx, &b->problem, &b->system) == STEIF_OK);
-  b->n = b->problem.n;
-  b->dE = SUNDenseMatrix(b->n, b->n, steif_sundials(b->ctx));
-  b->dF = SUNDenseMatrix(b->n, b->n, steif_sundials(b->ctx));
-}
-
-static void clear(bench *b)
-{
-  steif_impulse_slope_clear(b->ctx, &b->slope);
-  SUNMatZero(b->dE), SUNMatZero(b->dF);
-  b->along = (steif_impulse_direction){0};
-}
-
-static void tear_down(bench *b)
-{
-  clear(b);
-  SUNMatDestroy(b->dE), SUNMatDestroy(b->dF);
-  SUNMatDestroy(b->system.E), SUNMatDestroy(b->system.F);
-  steif_problem_clear(b->ctx, &b->problem);
-  steif_context_free(&b->ctx);
-}
-
-static int find(bench *b)
-{
-  b->along.E = b->dE, b->along.F = b->dF;
-  return steif_impulse_slope_find(b->ctx, &b->system, b->problem.y0, b->problem.t0, NULL, NULL,
-                                  &b->along, &b->slope);
-}
+#include "slope_case.h"
 
 /* Certified, there, and these numbers: n of x(0+), then those of the impulses. To `loss` of the largest, or
  * of `least`. */
@@ -251,20 +200,24 @@ static void second_order(void)
   SM_ELEMENT_D(M[0], 0, 1) = 1;
   SM_ELEMENT_D(M[1], 0, 0) = SM_ELEMENT_D(M[1], 1, 1) = 1;
   SM_ELEMENT_D(M[2], 0, 0) = 1, SM_ELEMENT_D(M[2], 1, 1) = -1;
-  for (int which = 0; which < 3; which++) { /* 2: a curve that keeps index and count */
+  for (int which = 0; which < 4;
+       which++) { /* 2: a curve that keeps index and count; 3: told straight */
     const double p = 0.01;
     SM_ELEMENT_D(M[3], 0, 1) = 1;
     SM_ELEMENT_D(M[3], 0, 0) = p, SM_ELEMENT_D(M[3], 1, 1) = -p;
     SM_ELEMENT_D(M[3], 1, 0) = which == 2 ? -p * p : 0;
     SUNMatCopy(M[1], M[4]);
-    const steif_impulse_direction d = {
-      .E = M[2], .E_near = which ? M[3] : NULL, .F_near = which ? M[4] : NULL};
+    const steif_impulse_direction d = {.E = M[2],
+                                       .straight = which == 3,
+                                       .E_near = which % 3 ? M[3] : NULL,
+                                       .F_near = which % 3 ? M[4] : NULL};
     steif_impulse_slope s;
     CHECK(steif_impulse_slope_find(ctx, &l, x0, 0, NULL, NULL, &d, &s) == STEIF_OK);
-    CHECK(s.certified && s.exists == (which == 2 ? 1 : which - 1));
-    CHECK(which != 1 || (isnan(s.x_plus[0]) && strstr(s.message, "2 nearby")));
+    static const int exists[] = {-1, 0, 1, 0};
+    CHECK(s.certified && s.exists == exists[which]);
+    CHECK(which % 2 == 0 || (isnan(s.x_plus[0]) && strstr(s.message, "2 nearby")));
     /* With E = e12 + p (e11 - e22) - p^2 e21, E^2 = 0: x(0+) = 0, c_0 = E x(0-), dc_0 = (1, -2). */
-    if (which != 1) {
+    if (which % 2 == 0) {
       CLOSE(s.c[0], 1, 1e-13);
       CLOSE(s.c[1], -2, 1e-13);
       CLOSE_FLOOR(s.x_plus[0], 0, 1e-13, 1);
@@ -314,107 +267,6 @@ static void by_differences(void)
   tear_down(&b);
 }
 
-/* ---- parameters --------------------------------------------------------------------------------------- */
-
-static const char circuit[] =
-  "model \"switch\"\nform descriptor\n"
-  "param C1 = 2e-6, C2 = 3e-6, L = 1e-3, R = 10, R2 = 200, U = 6, v0 = 5, Rs = 0\n"
-  "state v1 = v0, v2 = 1, iL = 0, e = 0, i = 0\n"
-  "C1*v1' - iL + i = 0\nC2*v2' + v2/R2 - i = 0\nL*iL' + v1 - e = 0\ne + R*iL = U\n"
-  "v1 - v2 = Rs*i\ntime 0 to 1e-3\n";
-
-static void of_a_model(void)
-{
-  static const struct {
-    const char *name;
-    double v, i, c0;
-  } known[] = {{"C1", 480000, 2520, 1.44},
-               {"C2", -320000, -1680, 0.64},
-               {"L", 0, 0, 0},
-               {"R", 0, 0, 0},
-               {"R2", 0, -2.6e-5, 0},
-               {"U", 0, 0, 0},
-               {"v0", 0.4, 0.0008, 1.2e-6}};
-  bench b = {.ctx = steif_context_new(NULL)};
-  CHECK(steif_model_parse(b.ctx, circuit, "switch", NULL, &b.problem) == STEIF_OK);
-  CHECK(steif_linear_of(b.ctx, &b.problem, &b.system) == STEIF_OK);
-  for (int k = 0; k < 8; k++) {
-    const int number = steif_parameter_find(b.ctx, &b.problem, k < 7 ? known[k].name : "Rs");
-    CHECK(steif_impulse_direction_of(b.ctx, &b.problem, number, &b.along) == STEIF_OK);
-    CHECK(!steif_impulse_slope_find(b.ctx, &b.system, b.problem.y0, 0, NULL, NULL, &b.along,
-                                    &b.slope));
-    CHECK(b.slope.certified && b.slope.exists == (k < 7));
-    if (k < 7) {
-      const double most = fmax(fabs(known[k].v), 1);
-      CLOSE_FLOOR(b.slope.x_plus[0], known[k].v, 1e-9, most);
-      CLOSE_FLOOR(b.slope.x_plus[4], known[k].i, 1e-9, 1e-3);
-      CLOSE_FLOOR(b.slope.c[4], known[k].c0, 1e-9, 1e-6);
-      CLOSE_FLOOR(b.slope.x_plus[3], k == 5, 1e-9, 1);
-    }
-    steif_impulse_slope_clear(b.ctx, &b.slope);
-    steif_impulse_direction_clear(b.ctx, &b.along);
-  }
-  CHECK(b.problem.parameters->value[0] == 2e-6);
-  SUNMatDestroy(b.system.E), SUNMatDestroy(b.system.F);
-  steif_problem_clear(b.ctx, &b.problem);
-  steif_context_free(&b.ctx);
-}
-
-/* ---- bad input ----------------------------------------------------------------------------------------- */
-
-static void wrong_directions(void)
-{
-  static const sunrealtype nan[] = {0, NAN, 0, 0, 0};
-  bench b;
-  set_up(&b, "switchrlc");
-  SM_ELEMENT_D(b.dE, 1, 2) = NAN;
-  CHECK(find(&b) == STEIF_NOT_FINITE && !b.slope.x_plus);
-  CHECK(strstr(steif_message(b.ctx), "dE/dp has nan in row 2, column 3"));
-  SM_ELEMENT_D(b.dE, 1, 2) = 0;
-  b.along.x0 = nan;
-  CHECK(find(&b) == STEIF_NOT_FINITE && strstr(steif_message(b.ctx), "dx(0-)/dp"));
-  b.along.x0 = NULL, b.along.E_near = b.system.E;
-  CHECK(find(&b) == STEIF_BAD_INPUT && strstr(steif_message(b.ctx), "belong together"));
-  SUNMatrix small = SUNDenseMatrix(3, 3, steif_sundials(b.ctx));
-  const steif_impulse_direction d = {.F = small};
-  CHECK(steif_impulse_slope_find(b.ctx, &b.system, b.problem.y0, 0, NULL, NULL, &d, &b.slope) ==
-        STEIF_BAD_INPUT);
-  CHECK(strstr(steif_message(b.ctx), "dF/dp has 3 columns"));
-  SUNMatDestroy(small);
-  steif_impulse_direction of;
-  CHECK(steif_impulse_direction_of(b.ctx, &b.problem, 0, &of) == STEIF_BAD_INPUT);
-  tear_down(&b);
-}
-
-static void short_memory(void)
-{
-  long need = 1;
-  for (long at = 0; at <= need; at += 1 + at / 24) {
-    failing f = {.refuse_at = at};
-    const steif_setup setup = failing_setup(&f);
-    steif_context *ctx = steif_context_new(&setup);
-    if (!ctx) continue;
-    steif_problem p = {0};
-    steif_linear l = {0};
-    steif_impulse_direction d = {0};
-    steif_impulse_slope s = {0};
-    int code = steif_model_parse(ctx, circuit, "switch", NULL, &p);
-    if (!code) code = steif_linear_of(ctx, &p, &l);
-    if (!code) code = steif_impulse_direction_of(ctx, &p, 0, &d);
-    if (!code) code = steif_impulse_slope_find(ctx, &l, p.y0, 0, NULL, NULL, &d, &s);
-    CHECK(code == (at ? STEIF_NO_MEMORY : STEIF_OK) || (code == STEIF_OK && s.exists == 1));
-    CHECK(!code || !s.x_plus);
-    steif_impulse_slope_clear(ctx, &s);
-    steif_impulse_direction_clear(ctx, &d);
-    if (l.E) SUNMatDestroy(l.E);
-    if (l.F) SUNMatDestroy(l.F);
-    steif_problem_clear(ctx, &p);
-    steif_context_free(&ctx);
-    CHECK(f.alive == 0);
-    if (!at) need = f.served;
-  }
-}
-
 CU_TestInfo tests_of_slopes[] = {
   {"a circuit by its elements", closed_switch},
   {"by x(0-) and f", of_start_and_forcing},
@@ -425,7 +277,4 @@ CU_TestInfo tests_of_slopes[] = {
   {"no derivative in series with a switch", in_series_with_the_switch},
   {"structure lost in second order", second_order},
   {"differences of the jump, sparse", by_differences},
-  {"parameters of a model", of_a_model},
-  {"wrong directions", wrong_directions},
-  {"short of memory", short_memory},
   CU_TEST_INFO_NULL};

@@ -4,7 +4,7 @@
 #define STF_DOUBLED_H
 
 #include "linear_system.h"
-#include <steif/impulse_slopes.h>
+#include <steif/slopes.h>
 
 /* [E 0; u E_p E], [F 0; u F_p F], (x0, u x0_p) and (f, u f_p), with the step u of p. */
 typedef struct stf_doubled {

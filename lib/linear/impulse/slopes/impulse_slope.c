@@ -222,6 +222,7 @@ static void decide(search *w, const steif_structure *twice)
   steif_impulse_slope *s = w->slope;
   const bool certified = s->certified && twice->certified && twice->index >= 0;
   const bool as_far = twice->index == s->index && twice->finite == 2 * s->finite;
+  const bool known = w->direction->E_near || w->direction->straight;
   const bool stays = s->index_near == s->index && s->finite_near == s->finite;
   s->certified = certified;
   if (!certified || s->index < 0)
@@ -231,7 +232,7 @@ static void decide(search *w, const steif_structure *twice)
   else if (stays)
     s->exists = 1;
   else
-    s->exists = s->index_near >= 0 && w->direction->E_near ? 0 : -1;
+    s->exists = s->index_near >= 0 && known ? 0 : -1;
   if (s->exists == 0) keep_nothing(s);
   sentence(w, twice);
 }

@@ -1,4 +1,4 @@
-/* steif/impulse_slopes.h: derivatives of x(0+) and of the impulses of E x' + F x = f.
+/* steif/slopes.h: derivatives of x(0+) and of the impulses of E x' + F x = f.
  *
  * Let E, F, x(0-) and f depend on a number p. With R(s) = (s E + F)^{-1} and X = R b, where b = E x(0-) + the
  * transform of f, x(0+) and c_i are coefficients of X at s = infinity (impulse.h). Their derivatives are
@@ -21,8 +21,8 @@
  *   steif_impulse_slope_clear(ctx, &slope);
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef STEIF_IMPULSE_SLOPES_H
-#define STEIF_IMPULSE_SLOPES_H
+#ifndef STEIF_SLOPES_H
+#define STEIF_SLOPES_H
 
 #include <steif/impulse.h>
 #include <steif/parameters.h>
@@ -38,8 +38,11 @@ typedef struct steif_impulse_direction {
   steif_forcing f;       /* df/dp with derivatives in t as those of f; NULL: 0 */
   void *user;            /* of f */
   SUNMatrix E_near,
-    F_near; /* the pencil at a p nearby, both or none; NULL: E + d dE/dp and F + d dF/dp with a
-                               small d, which leave the structure in second order where p moves it along a curve */
+    F_near;     /* the pencil at a p nearby, both or none. NULL: E + d dE/dp and F + d dF/dp
+                               with a small d, which leaves the structure in second order where p moves it
+                               along a curve: that is undecided then, unless */
+  int straight; /* 1: E and F are linear in p, so that this is the pencil nearby */
+  int reserved_int;
   void *reserved[6]; /* 0 */
 } steif_impulse_direction;
 
