@@ -153,8 +153,9 @@ static void methods_that_miss_multipliers_refuse(void)
  * before a million steps. `least` runs of each are a success. */
 static void low_orders_are_right_or_say_so(void)
 {
-  static const row some[] = {{"chemakzo", 0}, {"dahlquist", 0}, {"hires", 0}, {"kepler", 0},
-                             {"pollu", 0},    {"prothero", 0},  {"swing", 0}, {"stiffpair", 0}};
+  static const row some[] = {{"chemakzo", 0}, {"dahlquist", 0}, {"hires", 0},
+                             {"kepler", 0},   {"pollu", 0},     {"prothero", 0},
+                             {"swing", 0},    {"stiffpair", 0}, {"forced", 0}};
   static const struct {
     const char *method;
     double rtol[3];
@@ -162,6 +163,8 @@ static void low_orders_are_right_or_say_so(void)
   } runs[] = {{"be", {1e-3, 1e-5, 1e-8}, 8},
               {"radau:s=1", {1e-3, 1e-5, 1e-8}, 8},
               {"bdf:p=2", {1e-3, 1e-6, 1e-9}, 13},
+              {"glm:nord22", {1e-4, 1e-6, 1e-9}, 18},
+              {"glm:irks,p=2", {1e-4, 1e-6, 1e-8}, 18},
               {"bdf", {1e-6, 1e-9, 1e-11}, 19}};
   for (size_t m = 0; m < sizeof runs / sizeof *runs; m++) {
     int succeeded = 0;

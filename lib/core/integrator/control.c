@@ -246,7 +246,7 @@ static int attempt(steif_solver *s, sunrealtype h, int tries, sunrealtype *e)
 
 /* Estimate of the error of a run that is a success, in tolerances; and of errors that will not come back to
  * that, which end it early. */
-static const sunrealtype most_errors = 4, hopeless = 40;
+static const sunrealtype most_errors = 7, hopeless = 40;
 
 /* Errors that add up, each as small as rounding or a million steps let it be, are no success; what has
  * grown since is not in the sum, and may shrink again. */

@@ -28,6 +28,7 @@ typedef struct state {
   stf_carried carried;
   sunrealtype wanted, explicit_share; /* what the error may be where nothing is forgotten */
   sunrealtype scale;                  /* h that belongs to at */
+  long seen, since;                   /* Jacobians counted, and the step since which */
   sunrealtype *first;                 /* k x (p + 1): X_0 from the values of the start */
   sunrealtype z[POWERS * DATA], finish[DATA], error[DATA]; /* rows of weights */
   bool known[POWERS], estimates, dense, begun; /* begun: the trial is a first step */
@@ -82,13 +83,12 @@ static int check(stf_step *s, const steif_glm *g)
   return STEIF_OK;
 }
 
-/* Explicit methods refuse what is below rounding. Implicit ones carry their errors along, but not those of
- * algebraic components, which are no sum: histories rescaled to far shorter steps do not serve them, and
- * the steps of tight tolerances would end there. */
+/* Explicit methods refuse what is below rounding. Implicit ones carry their errors along, and are believed
+ * where order 2, or rounding, leaves no room for what problems make of them. */
 static int open_share(stf_step *s)
 {
   state *e = s->state;
-  const sunrealtype part = 0.5, algebraic = 2e-3;
+  const sunrealtype part = 0.5;
   if (!s->adaptive) return STEIF_OK;
   if (!(e->chain.gamma > 0)) {
     STEIF_TRY(stf_share_open(s, e->g->name, e->p, e->p));
@@ -97,10 +97,8 @@ static int open_share(stf_step *s)
   }
   s->control.order = e->p;
   e->wanted = part * stf_share(s, e->p, e->p, 0);
-  if (s->problem->dae_index == 0)
-    return stf_carried_open(s, rounding, 0.05, false, &e->carried);
-  e->wanted = fmax(e->wanted, algebraic);
-  return STEIF_OK;
+  const bool rough = e->p <= 2 || 2 * e->wanted < rounding / s->options->rtol;
+  return stf_carried_open(s, rounding, 0.05, rough, &e->carried);
 }
 
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
@@ -247,9 +245,20 @@ static int set_tolerance(stf_step *s)
   return STEIF_OK;
 }
 
+/* Errors are carried on by the factors of the steps: those of a Jacobian that Newton's iteration alone would
+ * keep for ever are not theirs. */
+static void renew(stf_step *s)
+{
+  enum { AGE = 50, YOUNG = 10 };
+  state *e = s->state;
+  if (s->system.nje != e->seen) e->seen = s->system.nje, e->since = s->count;
+  if (s->count - e->since >= (e->carried.exact ? YOUNG : AGE)) s->newton.jacobian_wanted = true;
+}
+
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
+  if (e->wanted > 0) renew(s);
   e->begun = s->count == 0 || s->restart;
   if (s->adaptive) STEIF_TRY(set_tolerance(s));
   STEIF_TRY(history(s, h));
@@ -310,6 +319,8 @@ static void keep(stf_step *s, stf_image *m)
   stf_keep_vectors(m, e->r, e->chain.X);
   stf_keep_vector(m, e->before);
   STF_KEEP(m, e->scale);
+  STF_KEEP(m, e->seen);
+  STF_KEEP(m, e->since);
   stf_carried_keep(&e->carried, m);
 }
 

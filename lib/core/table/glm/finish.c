@@ -67,24 +67,49 @@ static void weighting(const steif_glm *g, int rows, sunrealtype *L)
     }
 }
 
-/* The smallest |L^T d| with d M = target: what is damped most where the problem is stiff, then
- * what is smallest. */
-static int least_weights(steif_context *ctx, const steif_glm *g, int rows, int n, int count,
-                         const sunrealtype *M, const sunrealtype *target, sunrealtype *d,
-                         sunrealtype *off)
+/* M^T L^{-T}, count x rows. */
+static void scaled(int rows, int n, int count, const sunrealtype *M, const sunrealtype *L,
+                   sunrealtype *Mt)
 {
-  sunrealtype L[STF_LEAST * STF_LEAST], Mt[(STEIF_PAST + 2) * STF_LEAST];
-  weighting(g, rows, L);
   for (int j = 0; j < count; j++)
-    for (int i = 0; i < rows; i++) { /* row j of M^T L^{-T} */
+    for (int i = 0; i < rows; i++) {
       sunrealtype sum = M[i * n + j];
       for (int m = 0; m < i; m++) sum -= L[i * rows + m] * Mt[j * rows + m];
       Mt[j * rows + i] = sum / L[i * rows + i];
     }
-  STEIF_TRY(stf_least_squares(ctx, count, rows, 1, Mt, target, d, off));
-  for (int i = rows - 1; i >= 0; i--) {
-    for (int m = i + 1; m < rows; m++) d[i] -= L[m * rows + i] * d[m];
-    d[i] /= L[i * rows + i];
+}
+
+/* target - d M */
+static void missing(int rows, int n, int count, const sunrealtype *M, const sunrealtype *target,
+                    const sunrealtype *d, sunrealtype *out)
+{
+  for (int j = 0; j < count; j++) {
+    long double sum = target[j];
+    for (int i = 0; i < rows; i++) sum -= (long double)d[i] * M[i * n + j];
+    out[j] = (sunrealtype)sum;
+  }
+}
+
+/* The smallest |L^T d| with d M = target: what is damped most where the problem is stiff, then
+ * what is smallest. Solved again for what is missing: an estimate by weights whose sum is not 0 to
+ * rounding has a part of y itself, which no step is short enough for. */
+static int least_weights(steif_context *ctx, const steif_glm *g, int rows, int n, int count,
+                         const sunrealtype *M, const sunrealtype *target, sunrealtype *d,
+                         sunrealtype *off)
+{
+  enum { TIMES = 3 };
+  sunrealtype L[STF_LEAST * STF_LEAST], Mt[(STEIF_PAST + 2) * STF_LEAST], x[STF_LEAST],
+    rest[STEIF_PAST + 2], left;
+  weighting(g, rows, L);
+  scaled(rows, n, count, M, L, Mt);
+  for (int time = 0; time < TIMES; time++) {
+    missing(rows, n, count, M, target, d, rest);
+    STEIF_TRY(stf_least_squares(ctx, count, rows, 1, Mt, rest, x, time ? &left : off));
+    for (int i = rows - 1; i >= 0; i--) {
+      for (int m = i + 1; m < rows; m++) x[i] -= L[m * rows + i] * x[m];
+      x[i] /= L[i * rows + i];
+    }
+    for (int i = 0; i < rows; i++) d[i] += x[i];
   }
   return STEIF_OK;
 }
@@ -106,7 +131,7 @@ int stf_glm_combination(steif_context *ctx, const steif_glm *g, const sunrealtyp
     *found = off <= STF_GLM_TOLERANCE;
   }
   for (int i = 0; i < 2 * k + r; i++)
-    if (fabs(d[i]) < 1e-13) d[i] = 0;
+    if (fabs(d[i]) < 1e-15) d[i] = 0;
   return STEIF_OK;
 }
 
