@@ -379,33 +379,7 @@ static void unstable_and_inconsistent_ones_are_refused(void)
   steif_context_free(&ctx);
 }
 
-/* Weights of h^p y^(p) and of the error, taken to what constants leave, X = W (1, 0, ..), F = 0. */
-static void estimates_do_not_see_constants(void)
-{
-  steif_context *ctx = steif_context_new(NULL);
-  for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-    steif_table *t = make(ctx, all[i]);
-    const steif_glm *g = t->general;
-    for (int beyond = 0; beyond < 2; beyond++) {
-      sunrealtype target[STEIF_PAST + 2] = {0}, d[STF_LEAST], sum = 0, size = 0;
-      bool found;
-      target[g->order + beyond] = beyond ? g->error : 1;
-      CHECK(!stf_glm_combination(ctx, g, target, beyond, d, &found));
-      for (int l = 0; l < g->k; l++) {
-        const sunrealtype both = d[l] + d[g->k + g->r + l], W = g->W[l * (g->order + 1)];
-        sum += both * W;
-        size = fmax(size, fmax(fabs(d[l]), fabs(d[g->k + g->r + l])));
-      }
-      if (found && !(fabs(sum) <= 64 * 2.2e-16 * size)) printf("\n  %s: %.3g", all[i], sum);
-      CHECK(!found || fabs(sum) <= 64 * 2.2e-16 * size);
-    }
-    steif_table_free(ctx, &t);
-  }
-  steif_context_free(&ctx);
-}
-
 CU_TestInfo tests_of_general[] = {
-  {"estimates do not see constants", estimates_do_not_see_constants},
   {"every table is listed here", every_table_is_listed},
   {"orders follow from the matrices", orders_follow_from_the_matrices},
   {"local errors relative to the start have the order", local_errors_have_the_order},

@@ -197,6 +197,34 @@ static void without_a_second_run_nothing_is_decided(void)
   steif_context_free(&ctx);
 }
 
+/* Levels far below the value, errors of so many levels: of two, they are zero for all that is known; of
+ * seven they are none, though too small for an order. */
+static void small_is_not_zero(void)
+{
+  for (int times = 1; times <= 7; times += 2) {
+    steif_weak_row row[3];
+    for (int i = 0; i < 3; i++)
+      row[i] = (steif_weak_row){.h = 0.1 / (1 << i),
+                                .value = 1,
+                                .error = times * 1e-14,
+                                .rounding = 1e-14,
+                                .order = NAN};
+    const stf_judged j = {.row = row,
+                          .rows = 3,
+                          .size = 1,
+                          .longest = 1,
+                          .fastest = "f",
+                          .blind = -1,
+                          .inside = NAN,
+                          .fitting = NAN};
+    steif_weak_result r = {.converges = -7};
+    stf_weak_judge(&j, &r);
+    CHECK(r.converges == (times < 4 ? 1 : -1));
+    CHECK(strstr(r.verdict, times < 4 ? "exact to rounding" : "undecided: rounding") ==
+          r.verdict);
+  }
+}
+
 CU_TestInfo tests_of_rounding[] = {
   {"without a second run nothing is decided", without_a_second_run_nothing_is_decided},
   {"rounding levels are the differences to closed values", levels_are_those_of_closed_values},
@@ -204,4 +232,5 @@ CU_TestInfo tests_of_rounding[] = {
   {"no verdict is wrong", no_verdict_is_wrong},
   {"nothing has no order", nothing_has_no_order},
   {"impulses may be too small to be seen", impulses_may_be_too_small_to_be_seen},
+  {"what is above rounding is not zero", small_is_not_zero},
   CU_TEST_INFO_NULL};
