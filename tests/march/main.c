@@ -7,7 +7,8 @@ extern CU_TestInfo tests_of_steps[], tests_of_run[], tests_of_options[], tests_o
   tests_of_weights[], tests_of_events[], tests_of_reactions[], tests_of_limits[],
   tests_of_auto[], tests_of_rivals[], tests_of_constraints[], tests_of_record[],
   tests_of_success[], tests_of_references[], tests_of_krylov[], tests_of_bad_input[],
-  tests_of_clock[], tests_of_corners[], tests_of_varying_mass[], tests_of_algebraic_noise[];
+  tests_of_clock[], tests_of_corners[], tests_of_varying_mass[], tests_of_algebraic_noise[],
+  tests_of_history[];
 
 SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "corners", .pTests = tests_of_corners},
@@ -30,6 +31,7 @@ SUITE_MAIN({.pName = "steps", .pTests = tests_of_steps},
            {.pName = "clock", .pTests = tests_of_clock},
            {.pName = "varying mass", .pTests = tests_of_varying_mass},
            {.pName = "algebraic noise", .pTests = tests_of_algebraic_noise},
+           {.pName = "history", .pTests = tests_of_history},
            {.pName = "krylov", .pTests = tests_of_krylov},
            {.pName = "success", .pTests = tests_of_success},
            {.pName = "references", .pTests = tests_of_references})

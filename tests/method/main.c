@@ -6,9 +6,9 @@ extern CU_TestInfo tests_of_sympl[], tests_of_separable[], tests_of_stiffpair[],
   tests_of_nonlinear[], tests_of_start[], tests_of_expo[], tests_of_interleaved[],
   tests_of_rodas[];
 
-extern CU_TestInfo tests_of_glm[];
+extern CU_TestInfo tests_of_glm[], tests_of_gain[];
 
-SUITE_MAIN({.pName = "glm", .pTests = tests_of_glm},
+SUITE_MAIN({.pName = "glm", .pTests = tests_of_glm}, {.pName = "gain", .pTests = tests_of_gain},
            {.pName = "sympl", .pTests = tests_of_sympl},
            {.pName = "separable", .pTests = tests_of_separable},
            {.pName = "stiff pair", .pTests = tests_of_stiffpair},

@@ -63,7 +63,8 @@ def build(folder, tests, jobs):
 def judge(folder, jobs, tests):
     if build(folder, tests, jobs).returncode:
         return "killed by the compiler"
-    tested = run(["ctest", "-R", f"^({tests})$", "-j", str(jobs), "--timeout", "300"], os.path.join(folder, "build"))
+    command = ["ctest", "-R", f"^({tests})$", "-j", str(jobs), "--timeout", "300", "--stop-on-failure"]
+    tested = run(command, os.path.join(folder, "build"))
     failed = [line.split(" - ")[1].split()[0] for line in tested.stdout.splitlines() if " - " in line]
     return f"killed by {', '.join(failed)}" if tested.returncode else "SURVIVED"
 
