@@ -62,6 +62,14 @@ typedef int (*steif_precsetup)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector 
                                sunrealtype c, void *user);
 typedef int (*steif_precsolve)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b,
                                N_Vector z, sunrealtype c, sunrealtype delta, void *user);
+/* The same for the complex systems of collocation methods: z[0] + i z[1] = P^{-1} (b[0] + i b[1]) with P near
+ * dF/dy + (c_re + i c_im) dF/dy' = c E - A. c is that of the system at hand and changes with the step size;
+ * the last precsetup was for a real c within a factor of 2 of |c| with the sign of c_re. P may be that real one
+ * (then one message or one pass over its factors serves both halves), or complex, made here at the first
+ * call after a setup. Linear over the complex numbers: P^{-1} (i b) = i P^{-1} b. */
+typedef int (*steif_precsolve_pair)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r,
+                                    N_Vector *b, N_Vector *z, sunrealtype c_re,
+                                    sunrealtype c_im, sunrealtype delta, void *user);
 /* y(t) (or y and yp at the start; yp may be NULL). */
 typedef int (*steif_state)(sunrealtype t, N_Vector y, N_Vector yp, void *user);
 /* Several numbers that depend on (t, y): invariants, or event functions; a CVRootFn fits. */
@@ -191,9 +199,10 @@ struct steif_problem {
    * that build does not touch keep the values of the shelf entry. */
   int (*build)(steif_context *ctx, const steif_spec *spec, steif_problem *self);
   void (*destroy)(steif_context *ctx, steif_problem *self);
-  const steif_parameters *parameters; /* numbers that it depends on; NULL: none */
-  const steif_quadrature *quadrature; /* integrals beside the solution; NULL: none */
-  void *reserved[15]; /* 0; members to come take their place, and later ones stand after them */
+  const steif_parameters *parameters;  /* numbers that it depends on; NULL: none */
+  const steif_quadrature *quadrature;  /* integrals beside the solution; NULL: none */
+  steif_precsolve_pair precsolve_pair; /* Krylov; NULL: precsolve for each half */
+  void *reserved[14]; /* 0; members to come take their place, and later ones stand after them */
 };
 
 /* The form, or 0 with the message set: complete, consistent, finite start values. */

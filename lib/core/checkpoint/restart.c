@@ -21,7 +21,8 @@ static bool alike(const steif_problem *p, const steif_problem *q)
   return !p->f == !q->f && !p->F == !q->F && !p->g == !q->g && !p->jac == !q->jac &&
          !p->idajac == !q->idajac && !p->E == !q->E && !p->A == !q->A && !p->Ev == !q->Ev &&
          !p->Av == !q->Av && !p->precsolve == !q->precsolve && !p->precsetup == !q->precsetup &&
-         !p->L == !q->L && !p->Lv == !q->Lv && !p->kick == !q->kick && !p->drift == !q->drift;
+         !p->precsolve_pair == !q->precsolve_pair && !p->L == !q->L && !p->Lv == !q->Lv &&
+         !p->kick == !q->kick && !p->drift == !q->drift;
 }
 
 static int check_problem(steif_solver *s, const steif_problem *p)

@@ -110,6 +110,12 @@ static int paired_precondition(void *data, N_Vector r, N_Vector z, sunrealtype t
   steif_pencil *p = data;
   int code = 0;
   (void)side;
+  if (p->precondition_pair) {
+    N_Vector from[2] = {N_VGetSubvector_ManyVector(r, 0), N_VGetSubvector_ManyVector(r, 1)},
+             to[2] = {N_VGetSubvector_ManyVector(z, 0), N_VGetSubvector_ManyVector(z, 1)};
+    return answered(p->state, "the preconditioner of pairs",
+                    p->precondition_pair(((krylov *)p->state)->s, from, to, p->op.user));
+  }
   for (int i = 0; i < 2 && !code; i++)
     code = p->op.precondition(near(p), N_VGetSubvector_ManyVector(r, i),
                               N_VGetSubvector_ManyVector(z, i), tolerance, p->op.user);

@@ -55,6 +55,8 @@ struct steif_pencil {
   sunindextype n;
   SUNMatrix E, A; /* E NULL: identity; both NULL for operators */
   steif_operator op;
+  /* Operators: z[0] + i z[1] near (s E - A)^{-1} (r[0] + i r[1]), with op.user; NULL: op.precondition. */
+  int (*precondition_pair)(steif_shift s, N_Vector *r, N_Vector *z, void *user);
   N_Vector like;    /* operators only */
   N_Vector weights; /* operators: of solutions, NULL: none; see stf_pencil_aim */
   double aim;

@@ -1,6 +1,7 @@
 /* operator.c: the pencil of a problem known by products, and its preconditioner: callbacks, or the
  * incomplete factors of the matrices of a sparse problem.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "pencil.h"
 #include "problem.h"
 #include <math.h>
 
@@ -62,6 +63,13 @@ static int precondition(sunrealtype shift, N_Vector r, N_Vector z, sunrealtype t
   return p->precsolve(s->at_t, s->at_y, s->at_yp, s->at_f, r, z, shift, 0, p->user);
 }
 
+static int precondition_pair(steif_shift c, N_Vector *r, N_Vector *z, void *user)
+{
+  stf_system *s = user;
+  const steif_problem *p = s->problem;
+  return p->precsolve_pair(s->at_t, s->at_y, s->at_yp, s->at_f, r, z, c.re, c.im, 0, p->user);
+}
+
 static int claim(stf_pool *pool, stf_system *s, const steif_operator *op)
 {
   s->pencil = steif_pencil_new_operator(s->ctx, op, s->space.like);
@@ -83,12 +91,14 @@ int stf_operator_open(stf_pool *pool, stf_system *s)
       !(s->at_yp = stf_pool_vector(pool, s->space.like)) ||
       !(s->at_f = stf_pool_vector(pool, s->space.like)))
     return STEIF_NO_MEMORY;
-  return claim(pool, s,
-               &(steif_operator){.E = has_E ? product_E : NULL,
-                                 .A = product_A,
-                                 .prepare = p->precsolve ? prepare : NULL,
-                                 .precondition = p->precsolve ? precondition : NULL,
-                                 .user = s});
+  STEIF_TRY(claim(pool, s,
+                  &(steif_operator){.E = has_E ? product_E : NULL,
+                                    .A = product_A,
+                                    .prepare = p->precsolve ? prepare : NULL,
+                                    .precondition = p->precsolve ? precondition : NULL,
+                                    .user = s}));
+  if (p->precsolve && p->precsolve_pair) s->pencil->precondition_pair = precondition_pair;
+  return STEIF_OK;
 }
 
 /* -- products and preconditioner by matrices ----------------------------------------------------- */

@@ -104,6 +104,13 @@ static int precsolve(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vecto
   AGREED(p->precsolve(t, y, yp, r, b, z, c, delta, p->user));
 }
 
+static int precsolve_pair(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector *b,
+                          N_Vector *z, sunrealtype c_re, sunrealtype c_im, sunrealtype delta,
+                          void *user)
+{
+  AGREED(p->precsolve_pair(t, y, yp, r, b, z, c_re, c_im, delta, p->user));
+}
+
 static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   AGREED(p->start(t, y, yp, p->user));
@@ -165,7 +172,8 @@ static void wrap(stf_agreed *a)
   to->user = a, to->save = NULL, to->restore = NULL;
   WRAP(f), WRAP(kick), WRAP(drift), WRAP(F), WRAP(g), WRAP(jac), WRAP(idajac);
   WRAP(E), WRAP(A), WRAP(L), WRAP(Ev), WRAP(Av), WRAP(Lv), WRAP(precsetup), WRAP(precsolve);
-  WRAP(start), WRAP(exact), WRAP(handle_event), WRAP(begin), WRAP(event), WRAP(invariant);
+  WRAP(precsolve_pair), WRAP(start), WRAP(exact), WRAP(handle_event), WRAP(begin), WRAP(event),
+    WRAP(invariant);
 }
 
 /* -- the same input ---------------------------------------------------------------------------- */
@@ -219,11 +227,13 @@ static int same_callbacks(const stf_agreed *a, const steif_options *o)
 {
   const steif_problem *p = a->p;
   const bool there[] = {
-    p->f,     p->F,       p->g,          p->jac,          p->idajac,    p->E,         p->A,
-    p->Ev,    p->Av,      p->L,          p->Lv,           p->precsetup, p->precsolve, p->start,
-    p->exact, p->event,   p->begin,      p->handle_event, p->kick,      p->drift,     p->y0,
-    p->yp0,   p->index,   p->constraint, p->pattern,      p->invariant, o->mesh,      o->atols,
-    o->ewt,   o->observe, o->on_event};
+    p->f,       p->F,         p->g,         p->jac,          p->idajac,
+    p->E,       p->A,         p->Ev,        p->Av,           p->L,
+    p->Lv,      p->precsetup, p->precsolve, p->start,        p->precsolve_pair,
+    p->exact,   p->event,     p->begin,     p->handle_event, p->kick,
+    p->drift,   p->y0,        p->yp0,       p->index,        p->constraint,
+    p->pattern, p->invariant, o->mesh,      o->atols,        o->ewt,
+    o->observe, o->on_event};
   STEIF_CHECK(stf_agree_same(a->like, there, sizeof there), a->ctx, STEIF_BAD_INPUT,
               "ranks disagree in which callbacks and arrays problem and options have");
   const void *list[] = {o->mesh, p->breaks};

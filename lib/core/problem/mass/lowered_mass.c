@@ -83,6 +83,14 @@ static int precsolve(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vecto
   return l->from.precsolve(t, y, yp, r, b, z, c, delta, l->from.user);
 }
 
+static int precsolve_pair(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector *b,
+                          N_Vector *z, sunrealtype c_re, sunrealtype c_im, sunrealtype delta,
+                          void *user)
+{
+  const lowered *l = user;
+  return l->from.precsolve_pair(t, y, yp, r, b, z, c_re, c_im, delta, l->from.user);
+}
+
 static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   const lowered *l = user;
@@ -146,6 +154,7 @@ static steif_problem states(const lowered *l)
   q.Av = !of_state && p->Av ? Av : NULL;
   q.precsetup = p->precsetup ? precsetup : NULL;
   q.precsolve = p->precsolve ? precsolve : NULL;
+  q.precsolve_pair = p->precsolve_pair ? precsolve_pair : NULL;
   q.start = p->start ? start : NULL;
   q.exact = p->exact ? exact : NULL;
   q.invariant = p->invariant ? invariant : NULL;
