@@ -155,9 +155,9 @@ static void hunger(void)
       code = life(kind, &work);
       CHECK(fails.alive == 0);
       CHECK(code == (fails.served >= k ? STEIF_NO_MEMORY : STEIF_OK));
-      if (k > 500) break;
+      if (k > 2000) break;
     }
-    CHECK(k > 5 && k < 500);
+    CHECK(k > 5 && k < 2000);
   }
 }
 

@@ -213,6 +213,20 @@ sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w)
   return sqrt(sum / (sunrealtype)space->n);
 }
 
+/* One sum over the ranks for all, where vectors know their own part of it. */
+sunrealtype stf_norms(const stf_space *space, int count, N_Vector const *x, N_Vector w)
+{
+  const N_Vector_Ops ops = w->ops;
+  const bool once = stf_spread(w) && ops->nvwsqrsumlocal && ops->nvdotprodmultiallreduce;
+  sunrealtype sum = 0;
+  for (int j = 0; j < count; j++) {
+    const sunrealtype part = once ? N_VWSqrSumLocal(x[j], w) : stf_norm(space, x[j], w);
+    sum += once ? part / (sunrealtype)space->n : part * part;
+  }
+  if (once) ops->nvdotprodmultiallreduce(1, w, &sum);
+  return sqrt(sum / count);
+}
+
 sunrealtype stf_max(const stf_space *space, N_Vector x)
 {
   if (!space->serial) return N_VMaxNorm(x);

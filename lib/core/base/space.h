@@ -53,6 +53,8 @@ void stf_mix(const stf_space *space, int rows, int columns, const sunrealtype *M
 void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtype *M,
                  N_Vector const *x, N_Vector *z);
 sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w);
+/* The root mean square of the norms of several vectors. */
+sunrealtype stf_norms(const stf_space *space, int count, N_Vector const *x, N_Vector w);
 sunrealtype stf_max(const stf_space *space, N_Vector x);
 /* w_i = 1 / (rtol |y_i| + atol_i); atols NULL: atol for all. */
 void stf_weights(const stf_space *space, sunrealtype rtol, sunrealtype atol, N_Vector atols,

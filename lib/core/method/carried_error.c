@@ -56,8 +56,10 @@ static int apply(stf_step *s, stf_carried *c, sunrealtype sigma, sunrealtype tau
 {
   const stf_space *space = &s->system.space;
   const sunrealtype before = stf_norm(space, c->e, s->weights), bend = tau - 2, many = 20;
+  const sunrealtype slow = 0.05; /* what is slow must not seem to be forgotten */
   if (!(before > 0)) return STEIF_OK;
   const sunrealtype unit = before / (many * s->newton.tolerance);
+  stf_pencil_force(s->system.pencil, slow, true);
   stf_scale(space, sigma / unit, c->e, c->e);
   STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', c->e, c->work));
   STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &c->work, NULL));

@@ -59,7 +59,8 @@ static int implicit_stage(stf_step *s, stf_chain *e, int i, sunrealtype h)
                         .c = e->c + i,
                         .base = s->absolute ? NULL : &e->base,
                         .offset = s->absolute ? &e->offset : NULL,
-                        .Z = &e->Z};
+                        .Z = &e->Z,
+                        .predicted = !s->absolute};
   if (s->absolute) {
     stf_scale(space, -1 / gh, e->base, e->offset);
     STEIF_TRY(stf_solve_stages(s, &g));
@@ -68,7 +69,8 @@ static int implicit_stage(stf_step *s, stf_chain *e, int i, sunrealtype h)
     return STEIF_OK;
   }
   N_Vector slope = i ? e->K[i - 1] : e->guess;
-  if (!s->system.linear) slope ? stf_scale(space, gh, slope, e->Z) : stf_zero(space, e->Z);
+  if (!s->system.linear || s->system.krylov)
+    slope ? stf_scale(space, gh, slope, e->Z) : stf_zero(space, e->Z);
   STEIF_TRY(stf_solve_stages(s, &g));
   stf_sum(space, 1, e->base, 1, e->Z, e->X[i]);
   stf_scale(space, 1 / gh, e->Z, e->K[i]);

@@ -1,13 +1,10 @@
 /* newton.c: simplified Newton over independent shifts.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "blended.h"
+#include "inexact.h"
 #include "pencil.h"
 #include <math.h>
 #include <stdio.h>
-
-/* The part of Newton's tolerance that is left to a linear solve (P. N. Brown & A. C. Hindmarsh, Appl.
- * Math. Comput. 31, 1989; CVODE, IDA). */
-static const sunrealtype LINEAR = 0.05;
 
 int stf_transform_single(stf_pool *pool, sunrealtype b, stf_transform *transform)
 {
@@ -86,7 +83,7 @@ int stf_newton_prepare(stf_newton *newton, sunrealtype t, sunrealtype h, N_Vecto
     for (int i = 0; i < transform->s * transform->s; i++)
       newton->B_over_h[i] = transform->B[i] / h;
   newton->h = h;
-  stf_pencil_aim(newton->system->pencil, newton->weights, LINEAR * newton->tolerance);
+  stf_inexact_whole(newton);
   if (!jacobian && same) return newton->relax = 1, follow(newton, shift);
   if (!jacobian && newton->factored && serves(newton, shift)) return follow(newton, shift);
   if (!jacobian) jacobian = newton->renew_with_factors && !newton->jacobian_new;
@@ -193,20 +190,17 @@ int stf_newton_correct(stf_newton *newton)
 
 /* dZ of one sweep and its weighted norm over all stages. The residual enters with its own sign:
  * Z - dZ is the next iterate. */
-static int sweep(stf_newton *newton, const stf_stages *g, sunrealtype *norm)
+static int sweep(stf_newton *newton, const stf_stages *g, int m, sunrealtype *norm)
 {
   const int s = newton->transform.s;
   const stf_space *space = &newton->system->space;
   newton->sweeps++;
+  stf_inexact_sweep(newton, m);
   STEIF_TRY(residuals(newton, g));
   STEIF_TRY(stf_newton_correct(newton));
-  sunrealtype sum = 0;
-  for (int j = 0; j < s; j++) {
-    const sunrealtype part = stf_norm(space, newton->dZ[j], newton->weights);
-    sum += part * part;
-    stf_axpy(space, -newton->relax, newton->dZ[j], g->Z[j]);
-  }
-  *norm = sqrt(sum / s);
+  stf_inexact_sweep(newton, 0);
+  *norm = stf_norms(space, s, newton->dZ, newton->weights);
+  for (int j = 0; j < s; j++) stf_axpy(space, -newton->relax, newton->dZ[j], g->Z[j]);
   return STEIF_OK;
 }
 
@@ -279,27 +273,41 @@ static int solve_linear(stf_newton *newton, const stf_stages *g)
   const int s = newton->transform.s;
   const stf_space *space = &newton->system->space;
   newton->sweeps++, newton->count = 1;
+  stf_inexact_sweep(newton, 1);
   STEIF_TRY(first_residuals(newton, g));
   if (s > 1) stf_mix(space, s, s, newton->transform.Tinv, newton->residual, newton->omega);
   STEIF_TRY(solve_shifts(newton));
+  stf_inexact_sweep(newton, 0);
   if (s > 1)
     stf_mix(space, s, s, newton->minus_T, newton->omega, g->Z);
   else
     stf_scale(space, -1, newton->omega[0], g->Z[0]);
-  for (int j = 0; j < s; j++)
-    if (!stf_finite(space, g->Z[j])) return refuse(newton, g, 1, NAN, 0);
+  sunrealtype norm = 0;
+  for (int j = 0; space->serial && j < s; j++)
+    if (!stf_finite(space, g->Z[j])) norm = NAN;
+  if (!space->serial) norm = stf_norms(space, s, g->Z, newton->weights);
+  if (!isfinite(norm)) return refuse(newton, g, 1, NAN, 0);
+  return refines(newton) ? sweep(newton, g, 2, &norm) : STEIF_OK;
+}
+
+/* The same from a start, which leaves less to GMRES. */
+static int solve_predicted(stf_newton *newton, const stf_stages *g)
+{
   sunrealtype norm;
-  return refines(newton) ? sweep(newton, g, &norm) : STEIF_OK;
+  newton->count = 1;
+  STEIF_TRY(sweep(newton, g, 1, &norm));
+  return norm <= 1e300 ? STEIF_OK : refuse(newton, g, 1, norm, 0);
 }
 
 int stf_newton_solve(stf_newton *newton, const stf_stages *g)
 {
-  if (newton->system->linear) return solve_linear(newton, g);
+  const bool starts = g->predicted && newton->system->krylov;
+  if (newton->system->linear) return (starts ? solve_predicted : solve_linear)(newton, g);
   sunrealtype norm, last = 0, theta = 0;
   newton->theta = 0;
   newton->eta = fmax(newton->eta_least, sqrt(newton->eta * sqrt(newton->eta))); /* eta^(3/4) */
   for (int m = 1;; m++) {
-    STEIF_TRY(sweep(newton, g, &norm));
+    STEIF_TRY(sweep(newton, g, m, &norm));
     newton->count = m;
     if (!(norm <= 1e300)) return refuse(newton, g, m, norm, theta);
     if (m > 1) {
@@ -328,7 +336,7 @@ int stf_newton_full(stf_newton *newton, const stf_stages *g)
     if (g->base) stf_axpy(space, 1, g->base[end], newton->Y);
     STEIF_TRY(stf_newton_prepare(newton, g->t + g->c[end] * g->h, g->h, newton->Y,
                                  newton->Zp[end], true));
-    STEIF_TRY(sweep(newton, g, &norm));
+    STEIF_TRY(sweep(newton, g, m + 1, &norm));
     newton->jacobian_wanted = true; /* the Jacobian is that of another point */
     newton->count = m;
     if (!(norm <= 1e300)) break;
@@ -342,7 +350,7 @@ int stf_newton_polish(stf_newton *newton, const stf_stages *g)
 {
   sunrealtype norm = 0, last = INFINITY;
   for (int m = 0; m < newton->iterations; m++) {
-    STEIF_TRY(sweep(newton, g, &norm));
+    STEIF_TRY(sweep(newton, g, m + 1, &norm));
     if (!(norm < last / 2) || norm == 0) break;
     last = norm;
   }

@@ -52,8 +52,8 @@ typedef struct stf_stages {
   const sunrealtype *c; /* s */
   N_Vector *base;       /* s vectors (the same one repeated is fine); NULL: zero */
   N_Vector *offset;     /* s vectors; NULL: zero */
-  N_Vector *Z;          /* in: start of the iteration (linear systems need none, and start
-                                from 0); out: solution */
+  N_Vector *Z;          /* in: start of the iteration; out: solution */
+  bool predicted; /* Z is a start of linear systems too, for GMRES; else these start from 0 */
 } stf_stages;
 
 int stf_newton_open(stf_pool *pool, stf_system *system, const stf_transform *transform,

@@ -48,6 +48,11 @@ typedef struct stf_backend {
 extern const stf_backend stf_backend_dense, stf_backend_band, stf_backend_sparse,
   stf_backend_krylov, stf_backend_incomplete;
 
+/* What operators have cost: vectors preconditioned, products with A, sums over ranks. */
+typedef struct stf_krylov_counts {
+  long complex_solves, complex_iterations, applications, products, sums;
+} stf_krylov_counts;
+
 struct steif_pencil {
   steif_context *ctx;
   const stf_backend *backend;
@@ -57,9 +62,13 @@ struct steif_pencil {
   steif_operator op;
   /* Operators: z[0] + i z[1] near (s E - A)^{-1} (r[0] + i r[1]), with op.user; NULL: op.precondition. */
   int (*precondition_pair)(steif_shift s, N_Vector *r, N_Vector *z, void *user);
+  /* What op.prepare did last, at the point it did it: then it serves other products too while GMRES converges. */
+  int (*prepare_again)(sunrealtype re, void *user);
   N_Vector like;    /* operators only */
   N_Vector weights; /* operators: of solutions, NULL: none; see stf_pencil_aim */
-  double aim;
+  double aim, relative;
+  bool ahead, forced; /* see stf_pencil_force */
+  stf_krylov_counts counts;
   double *work; /* STF_COLUMNS * n, for solve; NULL where not needed */
   steif_pencil_stats stats;
   bool stale; /* E and A have not been looked at since they changed */
@@ -82,7 +91,15 @@ static inline bool stf_is_complex(steif_shift s) { return s.im != 0; }
  * is small beside b. Those that do not get there return STEIF_RETRY. Other pencils take no notice. */
 static inline void stf_pencil_aim(steif_pencil *p, N_Vector weights, double aim)
 {
-  p->weights = weights, p->aim = aim;
+  p->weights = weights, p->aim = aim, p->relative = 0;
+  p->ahead = p->forced = false;
+}
+
+/* Until the next aim: a solve ends as well where P^{-1} r is `relative` times what it was at first, and what is
+ * known of the residual there is put to use; `ahead`: that will take an iteration at least. */
+static inline void stf_pencil_force(steif_pencil *p, double relative, bool ahead)
+{
+  p->relative = relative, p->ahead = ahead, p->forced = true;
 }
 
 /* saved/pencil_image.c: factors and counts; the matrices are the owner's and have been read before. */

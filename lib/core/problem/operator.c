@@ -46,12 +46,22 @@ static int product_A(N_Vector x, N_Vector out, void *user)
   return s->problem->Av(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
 }
 
-static int prepare(sunrealtype shift, void *user)
+static int prepare_again(sunrealtype shift, void *user)
 {
   stf_system *s = user;
   const steif_problem *p = s->problem;
   if (!p->precsetup) return 0;
-  return p->precsetup(s->at_t, s->at_y, s->at_yp, s->at_f, shift, p->user);
+  return p->precsetup(s->made_t, s->made_y, s->made_yp, s->made_f, shift, p->user);
+}
+
+static int prepare(sunrealtype shift, void *user)
+{
+  stf_system *s = user;
+  s->made_t = s->at_t;
+  stf_copy(&s->space, s->at_y, s->made_y);
+  stf_copy(&s->space, s->at_yp, s->made_yp);
+  stf_copy(&s->space, s->at_f, s->made_f);
+  return prepare_again(shift, user);
 }
 
 static int precondition(sunrealtype shift, N_Vector r, N_Vector z, sunrealtype tolerance,
@@ -60,14 +70,23 @@ static int precondition(sunrealtype shift, N_Vector r, N_Vector z, sunrealtype t
   stf_system *s = user;
   const steif_problem *p = s->problem;
   (void)tolerance;
-  return p->precsolve(s->at_t, s->at_y, s->at_yp, s->at_f, r, z, shift, 0, p->user);
+  return p->precsolve(s->made_t, s->made_y, s->made_yp, s->made_f, r, z, shift, 0, p->user);
 }
 
 static int precondition_pair(steif_shift c, N_Vector *r, N_Vector *z, void *user)
 {
   stf_system *s = user;
   const steif_problem *p = s->problem;
-  return p->precsolve_pair(s->at_t, s->at_y, s->at_yp, s->at_f, r, z, c.re, c.im, 0, p->user);
+  return p->precsolve_pair(s->made_t, s->made_y, s->made_yp, s->made_f, r, z, c.re, c.im, 0,
+                           p->user);
+}
+
+static int open_made(stf_pool *pool, stf_system *s)
+{
+  N_Vector *const made[] = {&s->made_y, &s->made_yp, &s->made_f};
+  for (int i = 0; i < 3; i++)
+    if (!(*made[i] = stf_pool_vector(pool, s->space.like))) return STEIF_NO_MEMORY;
+  return STEIF_OK;
 }
 
 static int claim(stf_pool *pool, stf_system *s, const steif_operator *op)
@@ -97,8 +116,10 @@ int stf_operator_open(stf_pool *pool, stf_system *s)
                                     .prepare = p->precsolve ? prepare : NULL,
                                     .precondition = p->precsolve ? precondition : NULL,
                                     .user = s}));
-  if (p->precsolve && p->precsolve_pair) s->pencil->precondition_pair = precondition_pair;
-  return STEIF_OK;
+  if (!p->precsolve) return STEIF_OK;
+  if (p->precsetup) s->pencil->prepare_again = prepare_again;
+  if (p->precsolve_pair) s->pencil->precondition_pair = precondition_pair;
+  return open_made(pool, s);
 }
 
 /* -- products and preconditioner by matrices ----------------------------------------------------- */

@@ -33,8 +33,11 @@ typedef struct stf_system {
   const sunrealtype *floors; /* ... or that of each component; NULL: scale for all */
   stf_groups *groups;        /* columns that may be moved together */
   N_Vector work[6];
-  N_Vector at_y, at_yp, at_f; /* point of the last linearisation (operators only) */
+  N_Vector at_y, at_yp, at_f; /* point of the last linearisation (operators only) ... */
   sunrealtype at_t;
+  N_Vector made_y, made_yp,
+    made_f; /* ... and of the last setup of the caller's preconditioner */
+  sunrealtype made_t;
   bool filled;
   bool central; /* differences on both sides, for matrices that are more than preconditioners */
   bool doubted; /* Newton's iteration has failed: the next Jacobian is probed */

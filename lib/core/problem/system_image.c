@@ -45,6 +45,11 @@ static void keep_point(stf_system *s, stf_image *m)
   stf_keep_vector(m, s->at_y);
   stf_keep_vector(m, s->at_yp);
   stf_keep_vector(m, s->at_f);
+  if (!s->made_y) return;
+  STF_KEEP(m, s->made_t);
+  stf_keep_vector(m, s->made_y);
+  stf_keep_vector(m, s->made_yp);
+  stf_keep_vector(m, s->made_f);
 }
 
 void stf_system_keep(stf_system *s, stf_image *m)

@@ -115,7 +115,7 @@ static void predict(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
-  if (s->system.linear) return;
+  if (s->system.linear && (!s->system.krylov || s->absolute)) return;
   if (!e->history || s->restart) {
     for (int j = 0; j < e->s; j++) stf_zero(space, e->trial[j]);
     return;
@@ -211,7 +211,8 @@ static int solve(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
-  stf_stages g = {.t = s->t, .h = h, .c = e->table->c, .Z = e->trial};
+  stf_stages g = {
+    .t = s->t, .h = h, .c = e->table->c, .Z = e->trial, .predicted = !s->absolute};
   if (!s->absolute) {
     for (int j = 0; j < e->s; j++) e->base[j] = s->y;
     g.base = e->base;

@@ -35,5 +35,9 @@ void stf_pencil_keep(steif_pencil *p, stf_image *m)
     p->fresh[k] = fresh;
     if (!m->code) p->backend->keep(p, k, m);
   }
+  STF_KEEP(m, p->relative);
+  STF_KEEP(m, p->ahead);
+  STF_KEEP(m, p->forced);
+  STF_KEEP(m, p->counts);
   STF_KEEP(m, p->stats);
 }
