@@ -11,9 +11,9 @@
  *
  * Dense matrices use an in-line LU up to n = 16 and LAPACK above, band matrices LAPACK, sparse ones
  * KLU (64-bit indices, AMD ordering), and for real shifts of 200 unknowns and more a multifrontal LU
- * in dense blocks, with KLU instead where pivots are bad. Operators use a SUNLinearSolver; a
- * complex shift on an operator works on [Re; Im] as a ManyVector (its spectrum is mirrored:
- * precondition with a real shift).
+ * in dense blocks, with KLU instead where pivots are bad. Operators are solved by GMRES, complex
+ * shifts on pairs (re, im) with the inner product of complex vectors, both parts preconditioned with a
+ * real shift.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_PENCIL_H

@@ -10,6 +10,7 @@
 #include <steif/index.h>
 #include <steif/consistent.h>
 #include <steif/initial.h>
+#include <steif/krylov.h>
 #include <steif/layout.h>
 #include <steif/method.h>
 #include <steif/parameters.h>

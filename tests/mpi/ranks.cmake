@@ -6,7 +6,7 @@ if(MPI_C_FOUND AND TARGET SUNDIALS::nvecparallel)
   target_link_libraries(test_mpi PRIVATE steif MPI::MPI_C SUNDIALS::nvecparallel steif_settings)
   foreach(ranks 1 2 3)
     # Ranks that share a core wait for each other by giving it away.
-    foreach(part arrays limits runs)
+    foreach(part arrays limits runs reductions)
       add_test(NAME mpi_${part}_${ranks}
                COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
                        --bind-to none $<TARGET_FILE:test_mpi> ${part})

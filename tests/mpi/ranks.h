@@ -43,5 +43,6 @@ int same_answer(const rod *r, steif_context *ctx, int code);
 void test_limits(MPI_Comm comm);
 void test_arrays(MPI_Comm comm);
 void test_runs(MPI_Comm comm);
+void test_reductions(MPI_Comm comm);
 
 #endif

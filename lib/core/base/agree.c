@@ -3,6 +3,7 @@
 #include "agree.h"
 #include "image.h"
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MOST = 256 };
@@ -44,18 +45,63 @@ static sunrealtype elect(N_Vector like, uint64_t key, sunrealtype count, bool *s
   return count;
 }
 
+/* The number of this rank as the usual launchers of MPI tell it, for sentences; -1: not told. */
+static int own_rank(void)
+{
+  static const char *const told[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK",
+                                     "SLURM_PROCID"};
+  for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
+    const char *text = getenv(told[i]);
+    if (text && *text >= '0' && *text <= '9') return atoi(text);
+  }
+  return -1;
+}
+
+/* Some rank has failed: which, and with what. */
+static int returned_by(N_Vector like, int returned, sunrealtype failed, long *id, int *rank)
+{
+  bool stands = returned != 0;
+  const uint64_t size = returned < 0 ? -(uint64_t)returned : (uint64_t)returned;
+  sunrealtype count = elect(like, (uint64_t)(returned < 0) << 52 | size, failed, &stands);
+  const uint64_t last = (uint64_t)1 << 31;
+  const int own = own_rank();
+  count = elect(like, last - (uint64_t)(own + 1), count, &stands); /* the lowest */
+  sunrealtype of_all[] = {stands ? returned : 0, stands ? (sunrealtype)*id : 0,
+                          stands ? own : 0};
+  sum(like, 3, of_all);
+  *id = (long)(of_all[1] / count), *rank = (int)(of_all[2] / count);
+  return (int)(of_all[0] / count);
+}
+
 int stf_agree_returned(N_Vector like, int returned)
 {
+  long id = 0;
+  int rank;
   if (alone(like)) return returned;
   sunrealtype failed = returned != 0;
   sum(like, 1, &failed);
-  if (failed == 0) return 0;
-  bool stands = returned != 0;
-  const uint64_t size = returned < 0 ? -(uint64_t)returned : (uint64_t)returned;
-  const sunrealtype count = elect(like, (uint64_t)(returned < 0) << 52 | size, failed, &stands);
-  sunrealtype of_all = stands ? returned : 0;
-  sum(like, 1, &of_all);
-  return (int)(of_all / count);
+  return failed == 0 ? 0 : returned_by(like, returned, failed, &id, &rank);
+}
+
+int stf_deferred_settle(N_Vector like, stf_deferred *d, const char **name)
+{
+  sunrealtype failed = d->returned != 0;
+  sum(like, 1, &failed);
+  const int returned =
+    failed == 0 ? 0 : returned_by(like, d->returned, failed, &d->id, &d->rank);
+  *name = d->name(d->id);
+  d->returned = 0;
+  return returned;
+}
+
+int stf_deferred_add(N_Vector like, stf_deferred *d, int returned, long id)
+{
+  const char *name;
+  const bool worse = returned && (!d->returned || (returned < 0 && d->returned > 0));
+  if (worse) d->returned = returned, d->id = id;
+  if (d->on) return 0;
+  ++*d->sums;
+  return stf_deferred_settle(like, d, &name);
 }
 
 /* Ranks that win have the same text, up to collisions of 52 bits: the text that all get is the mean. */
@@ -73,9 +119,17 @@ static void take_text(N_Vector like, char *text, size_t size, bool mine, sunreal
 
 int stf_agree(steif_context *ctx, N_Vector like, int code)
 {
+  return stf_agree_flags(ctx, like, code, 0, NULL);
+}
+
+int stf_agree_flags(steif_context *ctx, N_Vector like, int code, int count_flags, bool *flag)
+{
   if (alone(like)) return code;
-  sunrealtype failed = code != 0;
-  sum(like, 1, &failed);
+  sunrealtype set[8] = {code != 0};
+  for (int i = 0; i < count_flags; i++) set[1 + i] = flag[i];
+  sum(like, 1 + count_flags, set);
+  for (int i = 0; i < count_flags; i++) flag[i] = set[1 + i] > 0;
+  const sunrealtype failed = set[0];
   if (failed == 0) return STEIF_OK;
   char text[STF_MESSAGE] = "";
   bool stands = code != 0;

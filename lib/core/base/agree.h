@@ -17,8 +17,27 @@ int stf_agree_check(steif_context *ctx, N_Vector like);
 /* 0 if `code` is 0 on all ranks; else the code and the sentence of one that failed, fatal ones first. */
 int stf_agree(steif_context *ctx, N_Vector like, int code);
 
+/* The same, and flags as by stf_agree_any, at most 7, in one sum. */
+int stf_agree_flags(steif_context *ctx, N_Vector like, int code, int count, bool *flag);
+
 /* The same for what callbacks return, without sentences: one < 0, else one > 0. */
 int stf_agree_returned(N_Vector like, int returned);
+
+/* What callbacks returned on this rank that the others have not heard of: carried along by the next sum that is made
+ * anyway (gmres.h). Until then the rank that failed goes on with numbers that do not matter. */
+typedef struct stf_deferred {
+  bool on;
+  int returned; /* the worst, 0: all well; < 0 before > 0 */
+  long id;      /* of the callback */
+  const char *(*name)(long id);
+  int rank;   /* the lowest that failed last, where ranks know their numbers; else -1 */
+  long *sums; /* counts what was made to agree */
+} stf_deferred;
+
+/* Of one callback: at once, or later where it is on. Returns what is agreed, or 0. */
+int stf_deferred_add(N_Vector like, stf_deferred *d, int returned, long id);
+/* Once a sum has shown that some rank failed: what was returned there, by which callback. */
+int stf_deferred_settle(N_Vector like, stf_deferred *d, const char **name);
 
 /* Is one of `count` flags set on any rank? They become the same everywhere. */
 void stf_agree_any(N_Vector like, int count, bool *flag);

@@ -9,6 +9,7 @@ void stf_space_open(stf_space *space, N_Vector like)
   space->like = like;
   space->n = N_VGetLength(like);
   space->serial = N_VGetVectorID(like) == SUNDIALS_NVEC_SERIAL;
+  space->sums = NULL;
 }
 
 sunrealtype *stf_own_rows(N_Vector v, sunindextype *rows)
@@ -201,7 +202,7 @@ void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtyp
     for (int j = 0; j < columns; j++) N_VLinearSum(M[i * columns + j], x[j], 1, z[i], z[i]);
 }
 
-sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w)
+static sunrealtype norm(const stf_space *space, N_Vector x, N_Vector w)
 {
   if (!space->serial) return N_VWrmsNorm(x, w);
   const sunrealtype *a = STF_ARRAY(x), *b = STF_ARRAY(w);
@@ -213,22 +214,41 @@ sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w)
   return sqrt(sum / (sunrealtype)space->n);
 }
 
+sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w)
+{
+  stf_count_sum(space);
+  return norm(space, x, w);
+}
+
 /* One sum over the ranks for all, where vectors know their own part of it. */
-sunrealtype stf_norms(const stf_space *space, int count, N_Vector const *x, N_Vector w)
+void stf_norm_each(const stf_space *space, int count, N_Vector const *x, N_Vector w,
+                   sunrealtype *norms)
 {
   const N_Vector_Ops ops = w->ops;
   const bool once = stf_spread(w) && ops->nvwsqrsumlocal && ops->nvdotprodmultiallreduce;
-  sunrealtype sum = 0;
-  for (int j = 0; j < count; j++) {
-    const sunrealtype part = once ? N_VWSqrSumLocal(x[j], w) : stf_norm(space, x[j], w);
-    sum += once ? part / (sunrealtype)space->n : part * part;
+  stf_count_sum(space);
+  for (int j = 0; j < count; j++)
+    norms[j] = once ? N_VWSqrSumLocal(x[j], w) : norm(space, x[j], w);
+  if (!once) return;
+  ops->nvdotprodmultiallreduce(count, w, norms);
+  for (int j = 0; j < count; j++) norms[j] = sqrt(norms[j] / (sunrealtype)space->n);
+}
+
+sunrealtype stf_norms(const stf_space *space, int count, N_Vector const *x, N_Vector w)
+{
+  enum { AT_ONCE = 32 };
+  sunrealtype each[AT_ONCE], sum = 0;
+  for (int from = 0; from < count; from += AT_ONCE) {
+    const int some = count - from < AT_ONCE ? count - from : AT_ONCE;
+    stf_norm_each(space, some, x + from, w, each);
+    for (int j = 0; j < some; j++) sum += each[j] * each[j];
   }
-  if (once) ops->nvdotprodmultiallreduce(1, w, &sum);
   return sqrt(sum / count);
 }
 
 sunrealtype stf_max(const stf_space *space, N_Vector x)
 {
+  stf_count_sum(space);
   if (!space->serial) return N_VMaxNorm(x);
   const sunrealtype *a = STF_ARRAY(x);
   sunrealtype most = 0;
@@ -260,6 +280,7 @@ void stf_weights(const stf_space *space, sunrealtype rtol, sunrealtype atol, N_V
 
 bool stf_finite(const stf_space *space, N_Vector x)
 {
+  stf_count_sum(space);
   if (!space->serial) {
     const sunrealtype square = N_VDotProd(x, x);
     return isfinite(square) || (!isnan(square) && isfinite(N_VMaxNorm(x)));

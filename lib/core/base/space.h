@@ -12,6 +12,7 @@ typedef struct stf_space {
   sunindextype n;
   bool serial;
   N_Vector like;
+  long *sums; /* counts norms and the like: sums over all ranks; NULL: nobody does */
 } stf_space;
 
 void stf_space_open(stf_space *space, N_Vector like);
@@ -21,6 +22,11 @@ void stf_space_open(stf_space *space, N_Vector like);
 static inline bool stf_spread(N_Vector v)
 {
   return v->ops->nvgetcommunicator && N_VGetCommunicator(v) != STF_NO_COMM;
+}
+
+static inline void stf_count_sum(const stf_space *space)
+{
+  if (space->sums) ++*space->sums;
 }
 
 /* The host array of all components, or NULL: there is none, or the vector is spread. Without a call for a serial
@@ -55,6 +61,9 @@ void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtyp
 sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w);
 /* The root mean square of the norms of several vectors. */
 sunrealtype stf_norms(const stf_space *space, int count, N_Vector const *x, N_Vector w);
+/* Of each of several vectors. */
+void stf_norm_each(const stf_space *space, int count, N_Vector const *x, N_Vector w,
+                   sunrealtype *norms);
 sunrealtype stf_max(const stf_space *space, N_Vector x);
 /* w_i = 1 / (rtol |y_i| + atol_i); atols NULL: atol for all. */
 void stf_weights(const stf_space *space, sunrealtype rtol, sunrealtype atol, N_Vector atols,

@@ -9,7 +9,7 @@
 #include "method.h"
 #include "repair.h"
 #include "consistent_start.h"
-#include <steif/solver.h>
+#include <steif/krylov.h>
 
 typedef struct stf_switching stf_switching;
 typedef struct stf_rounding stf_rounding;
@@ -84,6 +84,9 @@ struct steif_solver {
   stf_quadratures *quadratures; /* NULL: none */
   stf_start_nodes nodes;        /* of what is recomputed */
   sunrealtype drift, corrected; /* of the solution shown, recomputed; NaN: it was not */
+  stf_deferred deferred;        /* and what its callbacks returned */
+  bool limit[2], limits_known;  /* stop, late: as ranks agreed at the end of the last step */
+  long agreements;              /* sums made to agree */
   struct stf_agreed *agreed;    /* of vectors spread over ranks; NULL: they are not */
   int failure;
   char why[400];               /* the sentence of the failure */
@@ -91,6 +94,7 @@ struct steif_solver {
   sunrealtype cpu_s, cpu_from; /* of calls before, and when the present one began ... */
   bool running;                /* ... if there is one */
   steif_stats stats;
+  steif_krylov_stats krylov;
   char method[240]; /* spec in use; for auto with the reason */
 };
 
@@ -119,6 +123,8 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
 /* agreed.c: problem and options checked, the same on all ranks; where vectors are spread over several ranks,
  * they become copies whose callbacks return the same code on all of them. */
 int stf_agreed_open(steif_solver *s, int *form);
+/* The code of all ranks at the end of a call or step, with the rank that failed. */
+int stf_agreed_end(steif_solver *s, int code);
 
 /* One accepted step of a method of ours, not beyond t_stop where step sizes are adaptive: breaks.c, which
  * looks at limits and breaks, and control.c, which decides on step sizes. */

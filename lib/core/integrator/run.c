@@ -77,13 +77,27 @@ static int integrated(steif_solver *s)
   return code ? failed(s, code) : STEIF_OK;
 }
 
-/* Do other limits than steps allow one more? */
+static sunrealtype passed(const steif_solver *s, sunrealtype begun)
+{
+  return s->options.max_seconds > 0 ? now(CLOCK_MONOTONIC) - begun : 0;
+}
+
+static void look(const steif_solver *s, sunrealtype begun, bool *limit)
+{
+  const steif_options *o = &s->options;
+  limit[0] = o->stop && *o->stop;
+  limit[1] = o->max_seconds > 0 && !(passed(s, begun) < o->max_seconds);
+}
+
+/* Do other limits than steps allow one more? Ranks know from the end of the last step. */
 static int within_limits(steif_solver *s, sunrealtype begun)
 {
   const steif_options *o = &s->options;
-  const sunrealtype seconds = o->max_seconds > 0 ? now(CLOCK_MONOTONIC) - begun : 0;
-  bool limit[] = {o->stop && *o->stop, o->max_seconds > 0 && !(seconds < o->max_seconds)};
-  if (s->agreed) stf_agree_any(o->like, 2, limit);
+  const sunrealtype seconds = passed(s, begun);
+  bool *limit = s->limit;
+  if (!s->limits_known) look(s, begun, limit);
+  if (s->agreed && !s->limits_known) stf_agree_any(o->like, 2, limit), s->agreements++;
+  s->limits_known = false;
   STEIF_CHECK(!limit[0], s->ctx, STEIF_STOPPED,
               "the run was stopped from outside at t = %.12g after %ld steps", s->end,
               steif_statistics(s)->steps);
@@ -112,7 +126,10 @@ static int step_once(steif_solver *s, sunrealtype begun)
   if (asked && !explained)
     STEIF_FAIL(s->ctx, STEIF_CALLBACK, "the observer stopped the run at t = %.12g", s->end);
   const int code = asked ? steif_status(s->ctx) : STEIF_OK;
-  return s->agreed ? stf_agree(s->ctx, s->options.like, code) : code;
+  if (!s->agreed) return code;
+  look(s, begun, s->limit);
+  s->limits_known = true, s->agreements++;
+  return stf_agree_flags(s->ctx, s->options.like, code, 2, s->limit);
 }
 
 /* Steps of an engine that nobody looks at, in one call: what lies between them costs nothing then. Where
@@ -161,6 +178,7 @@ int stf_step_untimed(steif_solver *s)
   if (s->finished) return ended(s);
   STEIF_CHECK(s->end < s->t1, s->ctx, STEIF_BAD_INPUT,
               "the run is at its end t1 = %.12g: no step is left", s->t1);
+  s->limits_known = false;
   STEIF_TRY(step_once(s, begin(s)));
   s->shown = stf_last(s), s->t_shown = s->end;
   steif_forget(s->ctx);
@@ -190,7 +208,7 @@ int steif_solve_step(steif_solver *s)
   if (s) start_clock(s);
   const int code = stf_step_untimed(s);
   if (s) stop_clock(s);
-  return s && s->agreed ? stf_agree(s->ctx, s->options.like, code) : code;
+  return stf_agreed_end(s, code);
 }
 
 /* Show the solution at t inside the last step. */
@@ -212,6 +230,7 @@ static int solve_to(steif_solver *s, sunrealtype t)
               t, s->problem->t0, s->t1);
   if (t > s->t1) t = s->t1;
   const sunrealtype begun = begin(s);
+  s->limits_known = false;
   start_clock(s);
   int code = STEIF_OK;
   const bool alone = s->engine && s->engine->advance && !s->watched;
@@ -232,7 +251,7 @@ static int solve_to(steif_solver *s, sunrealtype t)
 int steif_solve_to(steif_solver *s, sunrealtype t)
 {
   const int code = solve_to(s, t);
-  return s && s->agreed ? stf_agree(s->ctx, s->options.like, code) : code;
+  return stf_agreed_end(s, code);
 }
 
 int stf_dense(steif_solver *s, sunrealtype t, N_Vector y)

@@ -203,6 +203,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   STEIF_TRY(stf_system_start(s->ctx, p, form, space, y, yp, &step->yp_known));
   STEIF_TRY(claim_step(s));
   STEIF_TRY(open_system(s, form, y, yp));
+  if (s->agreed) stf_operator_defer(&step->system, &s->deferred);
   s->family = step->method, s->family_state = step->state;
   s->own[0] = step->y, s->own[1] = step->next;
   s->opened = stf_pool_here(s->pool);

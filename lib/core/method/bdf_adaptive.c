@@ -210,7 +210,8 @@ static sunrealtype error_now(const stf_step *s)
 {
   const state *e = s->state;
   const stf_carry *T = tested(s);
-  sunrealtype most = stf_norm(&s->system.space, s->error, s->weights);
+  sunrealtype most = s->error_norm;
+  if (!(most >= 0)) most = stf_norm(&s->system.space, s->error, s->weights);
   for (int i = 0; T && i < T->count; i++)
     most = fmax(most, stf_norm(&s->system.space, T->error[i], T->weights[i]));
   return most / e->allowed[e->k];

@@ -41,6 +41,7 @@ int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool ex
 static sunrealtype largest(stf_step *s, const stf_carried *c, N_Vector x)
 {
   if (!s->system.space.serial) {
+    stf_count_sum(&s->system.space);
     N_VProd(x, s->weights, c->work);
     return N_VMaxNorm(c->work);
   }

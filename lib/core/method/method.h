@@ -155,9 +155,10 @@ struct stf_step {
   bool yp_known, adaptive, absolute; /* absolute: stages solved for Y, not for Y - y_n */
   bool rejected;                     /* this attempt repeats one that was refused ... */
   int tries;                         /* ... this many times */
-  bool restart;         /* the next step follows a discontinuity: no history before t */
-  bool end_slope_known; /* stf_hermite has the slope at the end of the last step */
-  sunrealtype h_try;    /* of the trial */
+  bool restart;           /* the next step follows a discontinuity: no history before t */
+  bool end_slope_known;   /* stf_hermite has the slope at the end of the last step */
+  sunrealtype h_try;      /* of the trial */
+  sunrealtype error_norm; /* of error; < 0: it may have changed */
   N_Vector next, error, weights;
   stf_control control;     /* what the attempt says of `error` */
   long factors, solves;    /* made by a family without the pencil */

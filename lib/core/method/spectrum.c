@@ -39,12 +39,22 @@ static int iterate(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealty
   return STEIF_OK;
 }
 
+/* The same; callbacks that fail on some ranks make the others wait for the end only. */
+static int iterate_together(stf_step *s, N_Vector v, N_Vector w, N_Vector work,
+                            sunrealtype *size, sunrealtype *cosine)
+{
+  stf_operator_hold(&s->system);
+  const int code = iterate(s, v, w, work, size, cosine);
+  const int others = stf_operator_release(&s->system);
+  return code ? code : others;
+}
+
 int stf_oscillation(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *omega)
 {
   sunrealtype size, cosine;
   *omega = 0;
   if (s->system.form != STEIF_ODE) return STEIF_OK;
-  STEIF_TRY(iterate(s, v, w, work, &size, &cosine));
+  STEIF_TRY(iterate_together(s, v, w, work, &size, &cosine));
   if (cosine <= -0.5) *omega = sqrt(size);
   return STEIF_OK;
 }
@@ -52,7 +62,7 @@ int stf_oscillation(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealt
 int stf_spectral_radius(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *radius)
 {
   sunrealtype size, cosine;
-  STEIF_TRY(iterate(s, v, w, work, &size, &cosine));
+  STEIF_TRY(iterate_together(s, v, w, work, &size, &cosine));
   *radius = sqrt(size);
   return STEIF_OK;
 }

@@ -24,6 +24,13 @@ void stf_inexact_whole(stf_newton *newton)
   stf_pencil_aim(newton->system->pencil, newton->weights, WHOLE * newton->tolerance);
 }
 
+/* Only where GMRES makes no call after its last sum. */
+void stf_inexact_defer(stf_newton *newton, bool on)
+{
+  const steif_pencil *p = newton->system->pencil;
+  if (p->deferred) p->deferred->on = on && p->weights && (p->op.precondition || !p->op.E);
+}
+
 void stf_inexact_sweep(stf_newton *newton, int m)
 {
   steif_pencil *pencil = newton->system->pencil;

@@ -16,6 +16,9 @@
 /* Before solves that are no corrections of anything: to all digits that Newton's tolerance asks for. */
 void stf_inexact_whole(stf_newton *newton);
 
+/* Callbacks from here to the next solve may fail on some ranks only: that solve tells all. It has to follow. */
+void stf_inexact_defer(stf_newton *newton, bool on);
+
 /* Before the solves of sweep m = 1, 2, ...; m = 0: of those that follow the iteration, error estimates. */
 void stf_inexact_sweep(stf_newton *newton, int m);
 

@@ -196,9 +196,12 @@ static int sweep(stf_newton *newton, const stf_stages *g, int m, sunrealtype *no
   const stf_space *space = &newton->system->space;
   newton->sweeps++;
   stf_inexact_sweep(newton, m);
-  STEIF_TRY(residuals(newton, g));
-  STEIF_TRY(stf_newton_correct(newton));
+  stf_inexact_defer(newton, true);
+  int code = residuals(newton, g);
+  if (!code) code = stf_newton_correct(newton);
+  stf_inexact_defer(newton, false);
   stf_inexact_sweep(newton, 0);
+  if (code) return code;
   *norm = stf_norms(space, s, newton->dZ, newton->weights);
   for (int j = 0; j < s; j++) stf_axpy(space, -newton->relax, newton->dZ[j], g->Z[j]);
   return STEIF_OK;
@@ -274,10 +277,14 @@ static int solve_linear(stf_newton *newton, const stf_stages *g)
   const stf_space *space = &newton->system->space;
   newton->sweeps++, newton->count = 1;
   stf_inexact_sweep(newton, 1);
-  STEIF_TRY(first_residuals(newton, g));
-  if (s > 1) stf_mix(space, s, s, newton->transform.Tinv, newton->residual, newton->omega);
-  STEIF_TRY(solve_shifts(newton));
+  stf_inexact_defer(newton, true);
+  int code = first_residuals(newton, g);
+  if (!code && s > 1)
+    stf_mix(space, s, s, newton->transform.Tinv, newton->residual, newton->omega);
+  if (!code) code = solve_shifts(newton);
+  stf_inexact_defer(newton, false);
   stf_inexact_sweep(newton, 0);
+  if (code) return code;
   if (s > 1)
     stf_mix(space, s, s, newton->minus_T, newton->omega, g->Z);
   else

@@ -259,7 +259,12 @@ static int run(steif_pencil *p, stf_pair x, stf_pair b)
   k->answer = 0;
   const stf_map map = map_of(p, b.im != NULL);
   int answer;
+  const bool deferring = p->deferred && p->deferred->on;
+  if (p->deferred) p->deferred->on = map.left;
+  g->deferred = p->deferred && map.left ? p->deferred : NULL, g->culprit = NULL;
   const int code = stf_gmres_solve(g, &map, b, x, &answer);
+  if (p->deferred) p->deferred->on = deferring;
+  if (g->culprit) k->answer = answer, k->culprit = g->culprit;
   const long iterations = g->iterations - before;
   p->stats.iterations += iterations, p->counts.sums += g->sums_made - sums;
   if (b.im) p->counts.complex_solves++, p->counts.complex_iterations += iterations;

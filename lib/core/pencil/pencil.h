@@ -3,6 +3,7 @@
 #ifndef STF_PENCIL_H
 #define STF_PENCIL_H
 
+#include "agree.h"
 #include "image.h"
 #include "space.h"
 #include <nvector/nvector_serial.h>
@@ -69,7 +70,8 @@ struct steif_pencil {
   double aim, relative;
   bool ahead, forced; /* see stf_pencil_force */
   stf_krylov_counts counts;
-  double *work; /* STF_COLUMNS * n, for solve; NULL where not needed */
+  stf_deferred *deferred; /* of operators on vectors that are spread over ranks */
+  double *work;           /* STF_COLUMNS * n, for solve; NULL where not needed */
   steif_pencil_stats stats;
   bool stale; /* E and A have not been looked at since they changed */
   /* Sparse: pivots in use serve new values whatever the growth: residuals are looked at instead. */

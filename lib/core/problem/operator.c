@@ -8,7 +8,7 @@
 int stf_operator_remember(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
 {
   const steif_problem *p = s->problem;
-  s->at_t = t;
+  s->at_t = t, s->size = -1;
   stf_copy(&s->space, y, s->at_y);
   stf_copy(&s->space, yp, s->at_yp);
   return p->Av && !p->precsolve ? STEIF_OK : stf_system_residual(s, t, y, yp, s->at_f);
@@ -22,17 +22,24 @@ static int product_E(N_Vector x, N_Vector out, void *user)
   return s->problem->Ev(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
 }
 
+static sunrealtype length(const stf_system *s, N_Vector x)
+{
+  stf_count_sum(&s->space);
+  return sqrt(N_VDotProd(x, x));
+}
+
 /* A x = -F_y x by one difference along x, of any length where F is linear; the residual at the point is
  * at_f. */
 static int difference_A(stf_system *s, N_Vector x, N_Vector out)
 {
-  const sunrealtype size = sqrt(N_VDotProd(x, x));
+  const sunrealtype size = length(s, x);
   if (!(size > 0)) {
     stf_zero(&s->space, out);
     return 0;
   }
-  const sunrealtype length = s->linear ? 1 : sqrt(STF_EPS);
-  const sunrealtype step = length * (s->scale + sqrt(N_VDotProd(s->at_y, s->at_y))) / size;
+  if (s->size < 0) s->size = length(s, s->at_y);
+  const sunrealtype part = s->linear ? 1 : sqrt(STF_EPS);
+  const sunrealtype step = part * (s->scale + s->size) / size;
   stf_sum(&s->space, 1, s->at_y, step, x, s->work[4]);
   const int code = stf_system_residual(s, s->at_t, s->work[4], s->at_yp, s->work[5]);
   stf_sum(&s->space, 1 / step, s->at_f, -1 / step, s->work[5], out);
@@ -120,6 +127,35 @@ int stf_operator_open(stf_pool *pool, stf_system *s)
   if (p->precsetup) s->pencil->prepare_again = prepare_again;
   if (p->precsolve_pair) s->pencil->precondition_pair = precondition_pair;
   return open_made(pool, s);
+}
+
+void stf_operator_defer(stf_system *s, stf_deferred *deferred)
+{
+  if (s->krylov && s->pencil) s->pencil->deferred = deferred;
+}
+
+static stf_deferred *deferred_of(const stf_system *s)
+{
+  return s->pencil && s->krylov ? s->pencil->deferred : NULL;
+}
+
+void stf_operator_hold(stf_system *s)
+{
+  stf_deferred *d = deferred_of(s);
+  if (d) d->on = true;
+}
+
+int stf_operator_release(stf_system *s)
+{
+  stf_deferred *d = deferred_of(s);
+  const char *name;
+  if (!d) return STEIF_OK;
+  d->on = false, s->sums++;
+  const int returned = stf_deferred_settle(s->space.like, d, &name);
+  if (!returned) return STEIF_OK;
+  return (returned > 0 ? stf_recover : stf_fail)(
+    s->ctx, STEIF_CALLBACK, "%s of problem '%s' returned %d on one of the ranks", name,
+    s->problem->name, returned);
 }
 
 /* -- products and preconditioner by matrices ----------------------------------------------------- */

@@ -10,6 +10,7 @@
 #ifndef STF_PROBLEM_H
 #define STF_PROBLEM_H
 
+#include "agree.h"
 #include "image.h"
 #include "lu.h"
 #include "space.h"
@@ -42,7 +43,9 @@ typedef struct stf_system {
   bool central; /* differences on both sides, for matrices that are more than preconditioners */
   bool doubted; /* Newton's iteration has failed: the next Jacobian is probed */
   sunrealtype weight; /* of g in the residual of the descriptor form, 1 */
+  sunrealtype size;   /* of at_y, for differences along vectors; < 0: not known */
   long nfe, nje;
+  long sums; /* see stf_space */
 } stf_system;
 
 /* The floor of component j. */
@@ -117,6 +120,11 @@ int stf_operator_open_near(stf_pool *pool, stf_system *system);
 /* Does Krylov storage keep the sparse matrices of this problem? */
 bool stf_operator_has_near(const stf_system *system);
 void stf_system_destroy_pencil(void *pencil);
+/* Callbacks fail on some ranks only: solves tell the others (agree.h). */
+void stf_operator_defer(stf_system *system, stf_deferred *deferred);
+/* The same for several products: what fails between the two on any rank is the answer of the second. */
+void stf_operator_hold(stf_system *system);
+int stf_operator_release(stf_system *system);
 
 /* Differences: dF/dy or dF/dy' of `which` ('A': f or -F by y; 'E': F by y') into M. */
 int stf_groups_open(stf_pool *pool, stf_system *system);

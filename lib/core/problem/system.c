@@ -280,6 +280,7 @@ int stf_system_open(stf_pool *pool, steif_context *ctx, const steif_problem *pro
   s->linear = problem->linear || form == STEIF_DESCRIPTOR;
   s->scale = scale, s->floors = floors, s->weight = 1;
   stf_space_open(&s->space, y);
+  s->space.sums = &s->sums;
   s->krylov = storage == STEIF_KRYLOV;
   const bool near = stf_operator_has_near(s);
   if (near) s->storage = STEIF_SPARSE;

@@ -45,6 +45,7 @@ static void keep_point(stf_system *s, stf_image *m)
   stf_keep_vector(m, s->at_y);
   stf_keep_vector(m, s->at_yp);
   stf_keep_vector(m, s->at_f);
+  STF_KEEP(m, s->size);
   if (!s->made_y) return;
   STF_KEEP(m, s->made_t);
   stf_keep_vector(m, s->made_y);
@@ -62,4 +63,5 @@ void stf_system_keep(stf_system *s, stf_image *m)
   STF_KEEP(m, s->weight);
   STF_KEEP(m, s->nfe);
   STF_KEEP(m, s->nje);
+  STF_KEEP(m, s->sums);
 }

@@ -56,8 +56,8 @@ typedef int (*steif_forcing)(sunrealtype t, int derivative, N_Vector g, void *us
 typedef int (*steif_product)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out,
                              void *user);
 /* A preconditioner for it: z = out of P^{-1} b with P near dF/dy + c dF/dy' = c E - A, at the (t, y, yp)
- * and c of the last setup, which does the expensive part and may be NULL. IDALsPrecSetupFn and
- * IDALsPrecSolveFn fit; delta is 0. */
+ * and c of the last setup, which does the expensive part and may be NULL; it is not repeated while P serves other
+ * points and steps (krylov.h). IDALsPrecSetupFn and IDALsPrecSolveFn fit; delta is 0. */
 typedef int (*steif_precsetup)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r,
                                sunrealtype c, void *user);
 typedef int (*steif_precsolve)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b,
@@ -95,7 +95,7 @@ enum steif_event_action {
 enum steif_form { STEIF_ODE = 1, STEIF_MASS = 2, STEIF_IMPLICIT = 4, STEIF_DESCRIPTOR = 8 };
 
 /* Storage of E and A. Sparse matrices are compressed by columns. Krylov: none; systems are solved by
- * GMRES, to a twentieth of Newton's tolerance where y' = f or a preconditioner is given. Forced on a
+ * GMRES (krylov.h), in units of the error test where y' = f or a preconditioner is given. Forced on a
  * sparse problem without precsolve it keeps E and A, for products and for their ILU(0). */
 enum steif_storage { STEIF_DENSE, STEIF_BAND, STEIF_SPARSE, STEIF_KRYLOV };
 

@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "integrator.h"
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct stf_agreed {
@@ -16,117 +17,119 @@ typedef struct stf_agreed {
   int (*ewt)(N_Vector y, N_Vector ewt, void *user);
   N_Vector like;
   steif_context *ctx;
+  stf_deferred *deferred;
 } stf_agreed;
 
 /* -- callbacks ----------------------------------------------------------------------------- */
 
-#define AGREED(call)                                                                           \
+#define AGREED(member, ...)                                                                    \
   const stf_agreed *a = user;                                                                  \
   const steif_problem *p = a->p;                                                               \
-  return stf_agree_returned(a->like, call)
+  return stf_deferred_add(a->like, a->deferred, p->member(__VA_ARGS__),                        \
+                          (long)offsetof(steif_problem, member))
 
 static int f(sunrealtype t, N_Vector y, N_Vector out, void *user)
 {
-  AGREED(p->f(t, y, out, p->user));
+  AGREED(f, t, y, out, p->user);
 }
 
 static int kick(sunrealtype t, N_Vector y, N_Vector out, void *user)
 {
-  AGREED(p->kick(t, y, out, p->user));
+  AGREED(kick, t, y, out, p->user);
 }
 
 static int drift(sunrealtype t, N_Vector y, N_Vector out, void *user)
 {
-  AGREED(p->drift(t, y, out, p->user));
+  AGREED(drift, t, y, out, p->user);
 }
 
 static int F(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
 {
-  AGREED(p->F(t, y, yp, r, p->user));
+  AGREED(F, t, y, yp, r, p->user);
 }
 
 static int g(sunrealtype t, int derivative, N_Vector out, void *user)
 {
-  AGREED(p->g(t, derivative, out, p->user));
+  AGREED(g, t, derivative, out, p->user);
 }
 
 static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector v,
                N_Vector w, N_Vector x)
 {
-  AGREED(p->jac(t, y, fy, J, p->user, v, w, x));
+  AGREED(jac, t, y, fy, J, p->user, v, w, x);
 }
 
 static int idajac(sunrealtype t, sunrealtype c, N_Vector y, N_Vector yp, N_Vector r,
                   SUNMatrix J, void *user, N_Vector v, N_Vector w, N_Vector x)
 {
-  AGREED(p->idajac(t, c, y, yp, r, J, p->user, v, w, x));
+  AGREED(idajac, t, c, y, yp, r, J, p->user, v, w, x);
 }
 
 static int E(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
 {
-  AGREED(p->E(t, y, yp, M, p->user));
+  AGREED(E, t, y, yp, M, p->user);
 }
 
 static int A(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
 {
-  AGREED(p->A(t, y, yp, M, p->user));
+  AGREED(A, t, y, yp, M, p->user);
 }
 
 static int L(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
 {
-  AGREED(p->L(t, y, yp, M, p->user));
+  AGREED(L, t, y, yp, M, p->user);
 }
 
 static int Ev(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
 {
-  AGREED(p->Ev(t, y, yp, x, out, p->user));
+  AGREED(Ev, t, y, yp, x, out, p->user);
 }
 
 static int Av(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
 {
-  AGREED(p->Av(t, y, yp, x, out, p->user));
+  AGREED(Av, t, y, yp, x, out, p->user);
 }
 
 static int Lv(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
 {
-  AGREED(p->Lv(t, y, yp, x, out, p->user));
+  AGREED(Lv, t, y, yp, x, out, p->user);
 }
 
 static int precsetup(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, sunrealtype c,
                      void *user)
 {
-  AGREED(p->precsetup(t, y, yp, r, c, p->user));
+  AGREED(precsetup, t, y, yp, r, c, p->user);
 }
 
 static int precsolve(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b, N_Vector z,
                      sunrealtype c, sunrealtype delta, void *user)
 {
-  AGREED(p->precsolve(t, y, yp, r, b, z, c, delta, p->user));
+  AGREED(precsolve, t, y, yp, r, b, z, c, delta, p->user);
 }
 
 static int precsolve_pair(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector *b,
                           N_Vector *z, sunrealtype c_re, sunrealtype c_im, sunrealtype delta,
                           void *user)
 {
-  AGREED(p->precsolve_pair(t, y, yp, r, b, z, c_re, c_im, delta, p->user));
+  AGREED(precsolve_pair, t, y, yp, r, b, z, c_re, c_im, delta, p->user);
 }
 
 static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
-  AGREED(p->start(t, y, yp, p->user));
+  AGREED(start, t, y, yp, p->user);
 }
 
 static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
-  AGREED(p->exact(t, y, yp, p->user));
+  AGREED(exact, t, y, yp, p->user);
 }
 
 static int handle_event(sunrealtype t, N_Vector y, const int *fired, void *user)
 {
-  AGREED(p->handle_event(t, y, fired, p->user));
+  AGREED(handle_event, t, y, fired, p->user);
 }
 
-static int begin(sunrealtype t, void *user) { AGREED(p->begin(t, p->user)); }
+static int begin(sunrealtype t, void *user) { AGREED(begin, t, p->user); }
 
 /* Values that decide must be the same; the first failure of a run leaves the sentence. */
 static int values(const stf_agreed *a, int returned, const char *what, int count,
@@ -160,6 +163,26 @@ static int ewt(N_Vector y, N_Vector w, void *user)
 {
   const stf_agreed *a = user;
   return stf_agree_returned(a->like, a->ewt(y, w, a->p->user));
+}
+
+#define NAMED(member)                                                                          \
+  {                                                                                            \
+    offsetof(steif_problem, member), #member                                                   \
+  }
+
+static const char *name_of(long id)
+{
+  static const struct {
+    size_t offset;
+    const char *name;
+  } names[] = {NAMED(f),     NAMED(kick),      NAMED(drift),        NAMED(F),
+               NAMED(g),     NAMED(jac),       NAMED(idajac),       NAMED(E),
+               NAMED(A),     NAMED(L),         NAMED(Ev),           NAMED(Av),
+               NAMED(Lv),    NAMED(precsetup), NAMED(precsolve),    NAMED(precsolve_pair),
+               NAMED(start), NAMED(exact),     NAMED(handle_event), NAMED(begin)};
+  for (size_t i = 0; i < STF_COUNT(names); i++)
+    if ((long)names[i].offset == id) return names[i].name;
+  return "a callback";
 }
 
 #define WRAP(callback) to->callback = p->callback ? callback : NULL
@@ -292,7 +315,9 @@ static int check(steif_solver *s, sunindextype rows, int *form)
 static int open(steif_solver *s, stf_agreed *a)
 {
   if (!a) return STEIF_NO_MEMORY;
-  *a = (stf_agreed){.p = s->problem, .like = s->options.like, .ctx = s->ctx};
+  s->deferred = (stf_deferred){.name = name_of, .rank = -1, .sums = &s->agreements};
+  *a = (stf_agreed){
+    .p = s->problem, .like = s->options.like, .ctx = s->ctx, .deferred = &s->deferred};
   return STEIF_OK;
 }
 
@@ -313,4 +338,19 @@ int stf_agreed_open(steif_solver *s, int *form)
   if (s->options.ewt) s->options.ewt = ewt;
   s->problem = &s->agreed->problem;
   return STEIF_OK;
+}
+
+int stf_agreed_end(steif_solver *s, int code)
+{
+  char text[STF_MESSAGE];
+  if (!s || !s->agreed) return code;
+  const int agreed = stf_agree(s->ctx, s->options.like, code);
+  s->agreements++;
+  if (agreed != STEIF_CALLBACK || s->deferred.rank < 0) return agreed;
+  stf_message_copy(s->ctx, text);
+  const size_t used = strlen(text);
+  snprintf(text + used, sizeof text - used, " (on rank %d first)", s->deferred.rank);
+  stf_message_take(s->ctx, steif_status(s->ctx), text);
+  s->deferred.rank = -1;
+  return agreed;
 }

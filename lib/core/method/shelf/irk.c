@@ -27,8 +27,7 @@ typedef struct state {
   long fails;          /* of Newton up to the accepted step */
   N_Vector *Z, *trial; /* of the last step and of the attempt, relative to y_n */
   N_Vector *base, *offset, *X;
-  N_Vector before; /* y_n of the last step */
-  N_Vector work, imaginary;
+  N_Vector before, work, imaginary; /* before: y_n of the last step */
   N_Vector lost, next_lost; /* what rounding took from y and from the trial; NULL: not kept */
   stf_parts parts;          /* of B and of w(1), where that is kept */
   bool history;
@@ -164,16 +163,14 @@ static int estimate_end(stf_step *s, sunrealtype h)
 }
 
 /* Of the components of index 1: others begin at the error of the last step. */
-static sunrealtype size(stf_step *s, const sunrealtype *weight)
+static void difference(stf_step *s, const sunrealtype *weight, N_Vector d)
 {
-  state *e = s->state;
+  const state *e = s->state;
   const int *index = s->problem->index;
-  stf_combine(&s->system.space, e->s, weight, e->trial, e->work);
+  stf_combine(&s->system.space, e->s, weight, e->trial, d);
   sunindextype rows = 0;
-  sunrealtype *work = index ? stf_own_rows(e->work, &rows) : NULL;
-  for (sunindextype i = 0; work && i < rows; i++)
-    if (index[i] > 1) work[i] = 0;
-  return stf_norm(&s->system.space, e->work, s->weights);
+  sunrealtype *v = index ? stf_own_rows(d, &rows) : NULL;
+  for (sunindextype i = 0; v && i < rows; i++) v[i] = index[i] > 1 ? 0 : v[i];
 }
 
 /* Oscillations that a step does not resolve take from the higher order. */
@@ -185,8 +182,11 @@ static int set_tolerance(stf_step *s, sunrealtype h)
     stf_sum(&s->system.space, 1, s->next, -1, s->y, e->work);
     STEIF_TRY(stf_oscillation(s, e->work, e->X[0], e->imaginary, &e->omega));
   }
-  stf_estimate_set(s, &e->higher_order, size(s, e->higher_order.top),
-                   size(s, e->higher_order.below));
+  N_Vector d[] = {e->work, e->imaginary};
+  sunrealtype size[2];
+  difference(s, e->higher_order.top, d[0]), difference(s, e->higher_order.below, d[1]);
+  stf_norm_each(&s->system.space, 2, d, s->weights, size);
+  stf_estimate_set(s, &e->higher_order, size[0], size[1]);
   if (e->omega * h > 1) stf_estimate_none(s, &e->higher_order);
   return STEIF_OK;
 }

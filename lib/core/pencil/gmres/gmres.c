@@ -59,14 +59,16 @@ static void local(const stf_gmres *g, int count, N_Vector x, N_Vector *v, double
     for (int i = 0; i < count; i++) sums[i] = N_VDotProd(x, v[i]);
 }
 
-/* Numbers of all ranks from those of this one. */
-static void sum(stf_gmres *g, int count)
+/* Numbers of all ranks from those of this one. False: a callback has failed somewhere. */
+static bool sum(stf_gmres *g, int count)
 {
   N_Vector like = g->space.like;
-  const bool one = parted(g);
+  const bool one = parted(g), flag = one && g->deferred;
   g->sums_made += one ? 1 : count;
+  if (flag) g->sums[count] = g->deferred->returned != 0;
   if (one && like->ops->nvdotprodmultiallreduce)
-    like->ops->nvdotprodmultiallreduce(count, like, g->sums);
+    like->ops->nvdotprodmultiallreduce(count + flag, like, g->sums);
+  return !flag || g->sums[count] == 0;
 }
 
 static stf_pair weighed(stf_gmres *g, const stf_map *map, stf_pair x)
@@ -120,6 +122,14 @@ typedef struct solve {
 
 static bool stops(solve *s, int answer) { return (*s->answer = answer) != 0; }
 
+/* The sum of what `products` left; false: stopped. */
+static bool gather(solve *s, int count)
+{
+  stf_gmres *g = s->g;
+  if (sum(g, count)) return true;
+  return !stops(s, stf_deferred_settle(g->space.like, g->deferred, &g->culprit));
+}
+
 /* out = P^{-1} M x or M P^{-1} x; false: stopped. */
 static bool apply(solve *s, stf_pair x, stf_pair out)
 {
@@ -166,7 +176,7 @@ static bool iterate(solve *s, int j)
   const stf_pair v = at(g, j + 1, s->pair);
   if (!apply(s, at(g, j, s->pair), v)) return false;
   g->iterations++;
-  sum(g, products(g, j + 1, v, weighed(g, s->map, v), 0));
+  if (!gather(s, products(g, j + 1, v, weighed(g, s->map, v), 0))) return false;
   const double before = values(g, j + 1, s->pair, 0, g->H.column);
   g->last = stf_hessenberg_add(&g->H, j, remainder_of(s, j, v, before));
   return true;
@@ -180,7 +190,7 @@ static bool iterate_ahead(solve *s, double *norm)
   if (!apply(s, r, v)) return false;
   g->iterations++;
   const int mid = products(g, 0, r, weighed(g, s->map, r), 0);
-  sum(g, products(g, 1, v, weighed(g, s->map, v), mid));
+  if (!gather(s, products(g, 1, v, weighed(g, s->map, v), mid))) return false;
   const double own = values(g, 0, s->pair, 0, NULL);
   double before = values(g, 1, s->pair, mid, g->H.column);
   *norm = sqrt(own);
@@ -252,7 +262,7 @@ static int space(solve *s, bool first)
     if (!iterate_ahead(s, &norm)) return STF_GMRES_STOPPED;
   } else {
     const stf_pair v = at(g, 0, s->pair);
-    sum(g, products(g, 0, v, weighed(g, s->map, v), 0));
+    if (!gather(s, products(g, 0, v, weighed(g, s->map, v), 0))) return STF_GMRES_STOPPED;
     norm = sqrt(values(g, 0, s->pair, 0, NULL));
   }
   if (!isfinite(norm)) return STF_GMRES_NAN;
@@ -300,7 +310,7 @@ int stf_gmres_open(stf_pool *pool, N_Vector like, int dimension, int restarts, s
   stf_space_open(&g->space, like);
   g->terms = stf_pool_array(pool, 2 * most + 1, sizeof(N_Vector));
   g->factors = stf_pool_array(pool, 2 * most + 1, sizeof *g->factors);
-  g->sums = stf_pool_array(pool, 4 * most + 8, sizeof *g->sums);
+  g->sums = stf_pool_array(pool, 4 * most + 9, sizeof *g->sums);
   const bool good = g->terms && g->factors && g->sums && parts(pool, g, 0);
   return good ? stf_hessenberg_open(pool, dimension, &g->H) : STEIF_NO_MEMORY;
 }

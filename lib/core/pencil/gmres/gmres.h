@@ -18,6 +18,7 @@
 #ifndef STF_GMRES_H
 #define STF_GMRES_H
 
+#include "agree.h"
 #include "hessenberg.h"
 #include "space.h"
 
@@ -46,6 +47,8 @@ typedef struct stf_gmres {
   double *factors, *sums;
   stf_hessenberg H;
   int dimension, restarts;
+  stf_deferred *deferred;     /* failures that the sums carry along; NULL: none are deferred */
+  const char *culprit;        /* the callback that failed so */
   double first, last;         /* norms of the residual of the last solve */
   long iterations, sums_made; /* since it was opened */
 } stf_gmres;
