@@ -30,8 +30,7 @@ static int run(struct call *call)
 
 static const struct option options[] = {
   START_OPTIONS,
-  {"--method", WORD, "METHOD", "integrate from x(0+); a jump at every declared break of f",
-   NULL},
+  {"--method", WORD, "METHOD", "integrate from x(0+); jumps at the declared breaks of f", NULL},
   {"--t1", REAL, "T", "end of the run", NULL},
   {"--layers", FLAG, NULL, "from x(0-) itself, steps in layers: be, bdf:p=, radau:s=", NULL},
   {"--h", POSITIVE, "H", "constant step size of --method (default: adaptive)", NULL},
@@ -39,7 +38,7 @@ static const struct option options[] = {
   {"--rtol", POSITIVE, "R", "relative tolerance of --method or --vs (default: 1e-6)", NULL},
   {"--atol", POSITIVE, "A", "absolute tolerance (default: rtol times max |x|, up to 1)", NULL},
   {"--restitution", REAL, "E", "restitution in an impact of a nonlinear problem", "0"},
-  {"--stages", FLAG, NULL, "where a nonlinear jump is not unique: positions, then velocities",
+  {"--stages", FLAG, NULL, "nonlinear jump that is not unique: positions, then velocities",
    NULL},
   {"--projectors", FLAG, NULL, "show the spectral projectors, too (n > 400: of x(0-))", NULL},
   SLOPES_OPTION,
