@@ -45,9 +45,10 @@ static const struct option options[] = {
    "success, certificates, verdicts: a part of the campaign, in a minute", NULL},
   {"--seeds", COUNT, "N",
    "success: random problems of each kind (default: 12; --quick: 2); certificates: pencils of "
-   "each "
-   "sparse kind, dense ones 200 times as many (default: 500; --quick: 10)",
+   "each sparse kind, dense ones 200 times as many (default: 500; --quick: 10); verdicts: "
+   "systems (default: 10000; --quick: 300)",
    NULL},
+  {"--first", COUNT, "K", "verdicts: the first seed", "1"},
   OPTIONS_END};
 
 const struct verb verb_bench = {

@@ -56,23 +56,33 @@ static long double size_of(const verdict_case *c, const long double *impulse, in
   return most;
 }
 
+/* One more order; one that is not known leaves open what is above it. */
+static void lower(double *least, bool *unknown, double order)
+{
+  *unknown = *unknown || isnan(order);
+  if (order < *least) *least = order;
+}
+
 /* The lowest of the orders on impulses that are there, and without any. */
 static int find_truth(steif_context *ctx, verdict_case *c, const long double *impulse,
                       method_orders *known)
 {
   long double most = 0;
   double order;
+  bool unknown = false;
   const int count = c->system.index - 1;
   c->truth = INFINITY;
   for (int q = 0; q < count; q++) most = fmaxl(most, size_of(c, impulse, q));
   for (int q = 0; q < count; q++) {
     if (size_of(c, impulse, q) <= NONE * most) continue;
     STEIF_TRY(method_order_on_impulse(ctx, c->method, q, known, &order));
-    if (!(order >= c->truth)) c->truth = order;
+    lower(&c->truth, &unknown, order);
   }
-  if (c->system.forcing == SYSTEM_FREE && !c->system.finite) return STEIF_OK;
-  STEIF_TRY(method_order_without(ctx, c->method, &c->system, c->component, &order));
-  if (!(order >= c->truth)) c->truth = order;
+  if (c->system.forcing != SYSTEM_FREE || c->system.finite) {
+    STEIF_TRY(method_order_without(ctx, c->method, &c->system, c->component, &order));
+    lower(&c->truth, &unknown, order);
+  }
+  if (unknown && c->truth > APART) c->truth = NAN;
   return STEIF_OK;
 }
 

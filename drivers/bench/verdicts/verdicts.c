@@ -34,8 +34,10 @@ static void note(steif_report *r, const verdict_case *c, const char *message)
 
 static int run(struct call *call, campaign *p, long seeds, steif_report *r)
 {
-  for (long seed = 1; seed <= seeds; seed++) {
-    if (seed % 50 == 1) progress(call, "%ld of %ld", seed, seeds);
+  const long first = whole_or(call, "--first", 1);
+  for (long k = 0; k < seeds; k++) {
+    const long seed = first + k;
+    if (k % 50 == 0) progress(call, "%ld of %ld", k, seeds);
     if (verdict_case_run(call->ctx, seed, &p->known, &p->one)) return fail(call);
     p->count[p->one.outcome]++;
     p->of_method[p->one.method][p->one.outcome]++;

@@ -3,6 +3,7 @@
  * would lose a factor 1/h of accuracy to cancellation.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "pairing.h"
+#include "spline.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -10,13 +11,15 @@
 /* Of a weight, in units of long double: a power and a sum of eight. */
 #define ROUNDING 4
 
-static void add(stf_pairing *p, long double weight, const long double *x)
+/* width: of what the weight is from, values of the test function about t. */
+static void add(stf_pairing *p, long double weight, long double width, long double t,
+                const long double *x)
 {
-  for (int m = 0; m < p->n && weight != 0; m++) {
-    const long double term = weight * x[m];
-    p->sum[m] += term;
-    if (p->square) p->square[m] += term * term;
-  }
+  for (int m = 0; m < p->n && weight != 0; m++) p->sum[m] += weight * x[m];
+  if (!p->square) return;
+  const long double size =
+    p->g->smooth ? fabsl(width) * stf_spline_size(p->g->smooth, t) : fabsl(weight);
+  for (int m = 0; m < p->n; m++) p->square[m] += size * x[m] * (size * x[m]);
 }
 
 /* What is given is a bound; the deviation of such errors is a quarter of it. */
@@ -53,12 +56,14 @@ static void keep_node(stf_pairing *p, size_t i, const long double *x)
 int stf_pairing_node(stf_pairing *p, size_t i, const long double *x)
 {
   const long double t = (long double)i * p->h;
-  long double w = 0;
+  long double w = 0, about = t;
   switch (p->convention) {
   case STEIF_P:
+    about = t + p->h / 2;
     if (i < p->steps) STEIF_TRY(stf_weight_box(p->g, t, (long double)(i + 1) * p->h, &w));
     break;
   case STEIF_R:
+    about = t - p->h / 2;
     if (i > 0) STEIF_TRY(stf_weight_box(p->g, (long double)(i - 1) * p->h, t, &w));
     break;
   case STEIF_C:
@@ -67,7 +72,7 @@ int stf_pairing_node(stf_pairing *p, size_t i, const long double *x)
     break;
   default: return STEIF_OK;
   }
-  add(p, w, x);
+  if (w != 0) add(p, w, p->h, about, x);
   if (p->events) keep_node(p, i, x);
   return STEIF_OK;
 }
@@ -77,8 +82,9 @@ int stf_pairing_stage(stf_pairing *p, size_t i, long double c, long double b,
 {
   long double w;
   if (p->convention != STEIF_STAGE) return STEIF_OK;
-  STEIF_TRY(stf_weight_at(p->g, ((long double)i + c) * p->h, 0, &w));
-  add(p, p->h * b * w, X);
+  const long double t = ((long double)i + c) * p->h;
+  STEIF_TRY(stf_weight_at(p->g, t, 0, &w));
+  add(p, p->h * b * w, p->h * b, t, X);
   if (p->events) keep(p, (long double)i + c, p->h * b, X);
   return STEIF_OK;
 }

@@ -46,9 +46,10 @@ typedef struct stf_pairing {
   size_t steps;
   long double h;
   int n;
-  stf_events *events;  /* all of it, too; NULL: not wanted */
-  long double *sum;    /* n */
-  long double *square; /* n: sums of squares of all terms; NULL: not wanted */
+  stf_events *events; /* all of it, too; NULL: not wanted */
+  long double *sum;   /* n */
+  long double
+    *square; /* n: sums of squares of terms, with sizes of weights; NULL: not wanted */
 } stf_pairing;
 /* What rounding of weights makes of a sum of terms with this sum of squares: two standard deviations. */
 long double stf_weight_noise(const stf_weight *g, long double square);

@@ -5,6 +5,7 @@
 #include "spline.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 enum { MOST_CELLS = 1024, POWER = 8, LOOKS = 3, MOST = 2 * STF_DERIVATIVES + 2 };
 /* Of the largest |g|, in units of its rounding. */
@@ -155,12 +156,27 @@ static int power(const stf_weight *g, stf_spline *s)
   return STEIF_OK;
 }
 
+/* p(1 - v) in powers of v: sums of sums of coefficients. */
+static void turn_around(int limbs, int degree, stf_real *p)
+{
+  for (int k = 0; k < degree; k++)
+    for (int j = degree - 1; j >= k; j--) stf_real_add(limbs, p + j, p + j + 1, p + j);
+  for (int q = 1; q <= degree; q += 2) p[q].sign = -p[q].sign;
+}
+
 static int round_all(steif_context *ctx, stf_spline *s)
 {
-  const size_t count = (size_t)s->cells * (size_t)(s->degree + 1);
-  s->rounded = stf_allocate(ctx, count, sizeof *s->rounded);
+  const size_t terms = (size_t)s->degree + 1, cells = (size_t)s->cells;
+  s->rounded = stf_allocate(ctx, 2 * cells * terms, sizeof *s->rounded);
   if (!s->rounded) return STEIF_NO_MEMORY;
-  for (size_t i = 0; i < count; i++) s->rounded[i] = stf_real_value(s->p + i);
+  for (size_t i = 0; i < cells; i++) {
+    long double *to = s->rounded + 2 * i * terms;
+    stf_real p[MOST];
+    memcpy(p, s->p + i * terms, terms * sizeof *p);
+    for (size_t q = 0; q < terms; q++) to[q] = stf_real_value(p + q);
+    turn_around(s->limbs, s->degree, p);
+    for (size_t q = 0; q < terms; q++) to[terms + q] = stf_real_value(p + q);
+  }
   return STEIF_OK;
 }
 
@@ -196,15 +212,41 @@ int stf_spline_open(const stf_weight *g, int smooth, int limbs, bool rounded, st
   return rounded ? round_all(g->ctx, s) : STEIF_OK;
 }
 
-long double stf_spline_value(const stf_spline *s, long double t)
+/* The coefficients about the nearer end of the cell of t, and how far that is; NULL: t is beyond. */
+static const long double *nearer(const stf_spline *s, long double t, long double *v)
 {
   const long double at = t * s->cells / stf_real_value(&s->t1);
-  if (!(at < s->cells)) return 0;
+  if (!(at < s->cells)) return NULL;
   const int cell = at > 0 ? (int)at : 0;
-  const long double *p = s->rounded + cell * (s->degree + 1), u = at - cell;
+  const long double *p = s->rounded + 2 * cell * (s->degree + 1), u = at - cell;
+  *v = u <= 0.5L ? u : 1 - u;
+  return u <= 0.5L ? p : p + s->degree + 1;
+}
+
+long double stf_spline_value(const stf_spline *s, long double t)
+{
+  long double v;
+  const long double *p = nearer(s, t, &v);
+  if (!p) return 0;
   long double sum = p[s->degree];
-  for (int q = s->degree - 1; q >= 0; q--) sum = sum * u + p[q];
+  for (int q = s->degree - 1; q >= 0; q--) sum = sum * v + p[q];
   return sum;
+}
+
+/* Horner's running error bound (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 5.1), and the
+ * derivative times t. */
+long double stf_spline_size(const stf_spline *s, long double t)
+{
+  long double v;
+  const long double *p = nearer(s, t, &v);
+  if (!p) return 0;
+  long double sum = p[s->degree], slope = 0, size = fabsl(sum) / 2;
+  for (int q = s->degree - 1; q >= 0; q--) {
+    slope = slope * v + sum;
+    sum = sum * v + p[q];
+    size = size * v + fabsl(sum);
+  }
+  return size + fabsl(t * s->cells / stf_real_value(&s->t1) * slope);
 }
 
 /* The cell of t and its place there. */
