@@ -1,6 +1,7 @@
 /* error_estimate.c: what methods make of their error estimates.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "method.h"
+#include "pencil.h"
 #include <math.h>
 
 /* Weights of the divided difference through k + 1 nodes. */
@@ -55,6 +56,7 @@ void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transfor
   difference(s - 1, node + 1, e->below);
   e->s = s, e->beyond = T->order - s;
   e->gain = re + im * im / re;
+  e->weight = 1 / e->gain;
   for (int k = s + 1; k <= T->order + 1; k++) e->gain /= k;
   e->legendre = 1;
   for (int k = 1; k <= s; k++) e->legendre *= (sunrealtype)k / (s + k);
@@ -80,6 +82,42 @@ void stf_estimate_none(stf_step *s, const stf_estimate *e)
   const sunrealtype bound = 0.05;
   s->control.tolerance = fmin(s->control.tolerance, bound);
   s->control.order = e->s;
+}
+
+/* So many refusals have not cured what is rounding, or no smooth solution. */
+enum { STUBBORN = 2 };
+
+static int by_pencil(stf_step *s, N_Vector v, N_Vector out)
+{
+  return steif_pencil_product(s->system.pencil, 'E', v, out);
+}
+
+/* The part that each of the solves has left, q = gamma_0 z / (1 + gamma_0 z), grows with h^(1 - q). */
+int stf_estimate_stiff(stf_step *s, const stf_estimate *e, sunrealtype h,
+                       int (*product)(stf_step *s, N_Vector v, N_Vector out),
+                       int (*filter)(stf_step *s, sunrealtype h, N_Vector v), N_Vector rest,
+                       N_Vector work)
+{
+  const stf_space *space = &s->system.space;
+  const sunrealtype rounding = 5e-11, bound = 3 + rounding / s->options->rtol, small = 0.1;
+  const sunrealtype whole = stf_norm(space, s->error, s->weights);
+  if (s->tries >= STUBBORN || s->problem->dae_index > 1 || !(whole <= s->control.tolerance))
+    return STEIF_OK;
+  int k = 1;
+  sunrealtype size = e->s * whole;
+  stf_copy(space, s->error, rest);
+  for (; k < e->s && size > small * bound; k++) {
+    STEIF_TRY((product ? product : by_pencil)(s, rest, work));
+    STEIF_TRY(filter(s, h, work));
+    stf_axpy(space, -1 / (e->weight * h), work, rest);
+    size = e->s * stf_norm(space, rest, s->weights);
+  }
+  const sunrealtype times = size / bound * s->control.tolerance / whole;
+  if (k == 1 || !(times > 1)) return STEIF_OK;
+  const sunrealtype left = fmin(1, pow(size / (e->s * whole), 1.0 / (k - 1)));
+  stf_scale(space, times, s->error, s->error);
+  s->control.order = e->s + (int)((e->s - 1) * (1 - left));
+  return STEIF_OK;
 }
 
 /* Unknowns of index 3 forget their start in so many steps; what so many refusals have not cured is not

@@ -238,6 +238,7 @@ void stf_carried_tell(const stf_carried *c, sunrealtype wanted, stf_control *con
 typedef struct stf_estimate {
   int s, beyond;             /* beyond: p - s */
   sunrealtype gain, loosest; /* s! / (gamma_0 (p + 1)!) */
+  sunrealtype weight;        /* gamma_0 */
   sunrealtype legendre;      /* size of x^s + ... orthogonal to lower powers on [0, 1] */
   sunrealtype top[STEIF_STAGES], below[STEIF_STAGES]; /* weights of Z_j */
 } stf_estimate;
@@ -248,6 +249,16 @@ void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunre
 
 /* The same where the estimate is all that is known: no higher order. */
 void stf_estimate_none(stf_step *s, const stf_estimate *e);
+
+/* Stiff components have no more than the order of the estimate either: on y' = -lambda (y - g(t)) + g'(t), z =
+ * h lambda, the error of methods whose last stage is the end is the estimate times s where z is large, and
+ * below s (gamma_0 z / (1 + gamma_0 z))^(s-1) everywhere. The estimate is made larger where that, by as many
+ * more solves as it takes to see, is above the tolerance. product: out = E v; NULL: by the pencil; filter: that
+ * of the estimate. */
+int stf_estimate_stiff(stf_step *s, const stf_estimate *e, sunrealtype h,
+                       int (*product)(stf_step *s, N_Vector v, N_Vector out),
+                       int (*filter)(stf_step *s, sunrealtype h, N_Vector v), N_Vector rest,
+                       N_Vector work);
 
 /* Velocities and multipliers of index 3 have no more than the order of the estimate: it is made
  * larger for them, as if the tolerance had not been raised, but above rounding; not in the first steps,

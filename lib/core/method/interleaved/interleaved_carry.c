@@ -13,7 +13,7 @@ static stf_carrier_size sizes(const stf_step *s)
   return (stf_carrier_size){e->s + 1, e->s, e->s, e->s};
 }
 
-static int filter(stf_step *s, sunrealtype h, N_Vector v)
+int stf_irk_interleaved_damp(stf_step *s, sunrealtype h, N_Vector v)
 {
   const state *e = s->state;
   (void)h;
@@ -67,7 +67,7 @@ static int carry(stf_carry *T, sunrealtype h)
                                     .B_over_h = B_over_h,
                                     .estimate = &e->higher_order,
                                     .Z = e->stage,
-                                    .filter = filter};
+                                    .filter = stf_irk_interleaved_damp};
   const int code = stf_carry_collocation(T, h, &c);
   memcpy(e->L->Z, e->aside, bytes);
   e->L->residuals = residuals;

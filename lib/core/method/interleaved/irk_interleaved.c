@@ -42,11 +42,13 @@ static int claim(stf_step *s, state *e)
   e->Y = views(s, e->L->Y), e->F = views(s, e->L->F);
   e->a = stf_pool_array(s->pool, n * (size_t)e->L->wide, sizeof *e->a);
   e->moved = stf_pool_vector(s->pool, s->y);
+  e->rest = stf_pool_vector(s->pool, s->y);
   e->f0 = stf_pool_array(s->pool, n, sizeof *e->f0);
   e->before = stf_pool_array(s->pool, n, sizeof *e->before);
   if (e->M) e->last_Z = stf_pool_array(s->pool, n * (size_t)e->L->wide, sizeof *e->last_Z);
   if (e->M && !e->last_Z) return STEIF_NO_MEMORY;
-  return e->Y && e->F && e->moved && e->a && e->f0 && e->before ? STEIF_OK : STEIF_NO_MEMORY;
+  return e->Y && e->F && e->moved && e->rest && e->a && e->f0 && e->before ? STEIF_OK
+                                                                           : STEIF_NO_MEMORY;
 }
 
 static int open_derivatives(stf_step *s)
@@ -129,6 +131,18 @@ static bool finite(int n, const double *x)
   return zero == 0;
 }
 
+static int product(stf_step *s, N_Vector v, N_Vector out)
+{
+  const state *e = s->state;
+  const double *a = STF_ARRAY(v);
+  double *x = STF_ARRAY(out);
+  for (int i = 0; i < e->n; i++) {
+    x[i] = e->M ? 0 : a[i];
+    for (int j = 0; e->M && j < e->n; j++) x[i] += e->M[i * e->n + j] * a[j];
+  }
+  return STEIF_OK;
+}
+
 static int estimate(stf_step *s, double h)
 {
   state *e = s->state;
@@ -136,9 +150,11 @@ static int estimate(stf_step *s, double h)
   e->f0_known = finite(e->n, e->f0);
   defect(e, e->f0, h, STF_ARRAY(s->error));
   stf_interleaved_filter(e->L, STF_ARRAY(s->error));
-  if (!stf_filters_twice(s)) return STEIF_OK;
-  if (stf_norm(&s->system.space, s->error, s->weights) <= s->control.tolerance) return STEIF_OK;
-  return filter_again(s, s->t, s->y, h);
+  if (stf_filters_twice(s) &&
+      stf_norm(&s->system.space, s->error, s->weights) > s->control.tolerance)
+    STEIF_TRY(filter_again(s, s->t, s->y, h));
+  return stf_estimate_stiff(s, &e->higher_order, h, product, stf_irk_interleaved_damp, e->moved,
+                            e->rest);
 }
 
 static int estimate_end(stf_step *s, double h)

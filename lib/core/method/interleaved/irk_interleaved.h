@@ -12,7 +12,7 @@ typedef struct stf_irk_interleaved {
   int s, n, itmax, iterations, fails; /* fails: attempts refused since the last accepted step */
   stf_interleaved *L;
   N_Vector *Y, *F; /* views of the stages in L */
-  N_Vector moved;
+  N_Vector moved, rest;
   double *a; /* n x wide: u(t_n + x h_old) - y_n = sum_k a_k x^(k+1) */
   double K[STF_EIGEN_STAGES][STF_INTERLEAVED_STAGES]; /* a_k = sum_j K[j][k] Z_j */
   double d[STF_EIGEN_STAGES], end[STF_EIGEN_STAGES];
@@ -45,6 +45,8 @@ int stf_irk_interleaved_iterate(stf_step *s, double h);
 
 /* Factors of the matrices at hand. */
 int stf_irk_interleaved_factor(stf_step *s, double h);
+/* The filter of the estimate. */
+int stf_irk_interleaved_damp(stf_step *s, sunrealtype h, N_Vector v);
 extern const stf_carrier stf_irk_interleaved_carrier;
 
 #endif

@@ -201,10 +201,11 @@ static int estimate(stf_step *s, sunrealtype h)
   stf_combine(space, e->s, slope, e->trial, e->work);
   if (!e->u.accurate) return estimate_end(s, h);
   STEIF_TRY(filtered(s, h, s->t, s->y));
-  if (!stf_filters_twice(s)) return STEIF_OK;
-  if (stf_norm(space, s->error, s->weights) <= s->control.tolerance) return STEIF_OK;
-  stf_sum(space, 1, s->y, 1, s->error, s->newton.Y);
-  return filtered(s, h, s->t, s->newton.Y);
+  if (stf_filters_twice(s) && stf_norm(space, s->error, s->weights) > s->control.tolerance) {
+    stf_sum(space, 1, s->y, 1, s->error, s->newton.Y);
+    STEIF_TRY(filtered(s, h, s->t, s->newton.Y));
+  }
+  return stf_estimate_stiff(s, &e->higher_order, h, NULL, filter, e->X[0], e->work);
 }
 
 static int solve(stf_step *s, sunrealtype h)
