@@ -66,6 +66,7 @@ int main(int argc, char **argv)
     verbs_overview(stderr);
     return EXIT_USAGE;
   }
+  interruption_open(NULL);
   const int code = dispatch(&call, argc, argv);
   steif_context_free(&call.ctx);
   if (fflush(stdout) == 0 && !ferror(stdout)) return code;

@@ -13,6 +13,16 @@ expect(0 solve -h OUT "^steif solve")
 expect(0 -V OUT "^steif [0-9.]+\n$")
 expect(2 help slove ERR "did you mean solve")
 
+# A reader that has gone is said, and no success.
+foreach(words "--help" "solve --help" "list problems")
+  execute_process(COMMAND sh -c "sleep 0.3; exec \"$0\" ${words}" ${PROGRAM} COMMAND true
+                  RESULTS_VARIABLE codes ERROR_VARIABLE err)
+  list(GET codes 0 code)
+  if(NOT code EQUAL 141 OR NOT err MATCHES "^steif.*: nobody reads the output any more .STEIF_IO.\n$")
+    message(SEND_ERROR "steif ${words} | true: exit ${code}, ${err}")
+  endif()
+endforeach()
+
 # Usage, with its reason as JSON; before and after the word that is wrong.
 expect(2 slove --json ERR "did you mean solve")
 member("unknown name" status)

@@ -58,6 +58,13 @@ expect(2 solve vdpol be --rtolx 1e-3 ERR "did you mean --rtol[?]")
 expect(2 solve vdpol be --h 0.1 --rtol 1e-3 ERR "--h and --rtol contradict")
 expect(2 solve vdpol be --h 0.1 --atol 1e-3 ERR "contradict")
 expect(2 compare vdpol be --h 0.1 --hs 0.2 ERR "contradict")
+
+# Remedies are options and verbs here, not members and functions of C.
+expect(1 solve hires radau:s=3 --max-steps 5 OUT "raise[ \n]+--max-steps" ERR "limit: raise --max-steps")
+expect(1 solve hires radau:s=3 --max-steps 5 --json ERR "raise --max-steps" OUT "raise --max-steps")
+expect(1 solve rober rk4 ERR "give steps with --h .STEIF_UNSUPPORTED")
+expect(1 solve caraxis rodas4 --json OUT "give steps with --h[ .]" ERR "give steps with --h .STEIF_UNSUPPORTED")
+expect(1 solve hires be --max-seconds 1e-9 ERR "--max-seconds is 1e-09")
 foreach(number nan inf -1 0 1e-3x "" 1e999)
   expect(2 solve vdpol be --h "${number}" ERR "--h")
   expect(2 solve vdpol be --h=${number} ERR "--h")

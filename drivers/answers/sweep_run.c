@@ -37,6 +37,7 @@ static int member(steif_context *ctx, long long k, steif_problem *problem, steif
 static void take_message(struct member_record *r, const char *text)
 {
   snprintf(r->message, sizeof r->message, "%s", text);
+  speak(r->message, sizeof r->message);
   for (char *at = r->message; *at; at++)
     if (*at == '\n' || *at == '\r') *at = ' ';
 }

@@ -36,6 +36,7 @@ static void explain(steif_context *ctx, const steif_problem *problem, const char
   for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
     if (o->code == codes[i] && !steif_failure_find(ctx, problem, method, options, &f))
       snprintf(o->why, sizeof o->why, "%s", f.message);
+  speak(o->why, sizeof o->why);
 }
 
 /* The sentence of a run that has ended. */
@@ -50,6 +51,7 @@ static void describe(steif_context *ctx, outcome *o)
   else
     snprintf(o->message, sizeof o->message, "%s",
              o->code == STEIF_OK ? "ok" : steif_message(ctx));
+  speak(o->message, sizeof o->message);
 }
 
 outcome integrate_from(steif_context *ctx, const steif_problem *problem, const char *method,

@@ -1,4 +1,5 @@
-/* interruption.c: SIGINT and SIGTERM: a flag for who polls, else the end with a sentence.
+/* interruption.c: SIGINT, SIGTERM, and SIGPIPE, which a reader that has gone sends: a flag for who polls, else
+ * the end with a sentence.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "interruption.h"
 #include <signal.h>
@@ -30,9 +31,10 @@ static void put(const char *text)
 /* Only what a signal handler may call. */
 static void end(int number)
 {
-  put("\nsteif ");
-  put(verb_name);
-  put(": interrupted; what is not shown yet is not kept [STEIF_STOPPED]\n");
+  put(number == SIGPIPE ? "steif" : "\nsteif");
+  if (verb_name) put(" "), put(verb_name);
+  put(number == SIGPIPE ? ": nobody reads the output any more [STEIF_IO]\n"
+                        : ": interrupted; what is not shown yet is not kept [STEIF_STOPPED]\n");
   _exit(128 + number);
 }
 
@@ -51,11 +53,11 @@ static void on_signal(int number)
 
 void interruption_open(const char *verb)
 {
-  static const int numbers[] = {SIGINT, SIGTERM, SIGALRM};
+  static const int numbers[] = {SIGINT, SIGTERM, SIGALRM, SIGPIPE};
   const struct sigaction ours = {.sa_handler = on_signal};
   struct sigaction before;
   verb_name = verb;
-  for (int i = 0; i < 3; i++) {
+  for (int i = 0; i < 4; i++) {
     sigaction(numbers[i], NULL, &before);
     if (before.sa_handler != SIG_IGN) sigaction(numbers[i], &ours, NULL);
   }

@@ -1,4 +1,4 @@
-/* interruption.h: SIGINT and SIGTERM.
+/* interruption.h: SIGINT, SIGTERM and SIGPIPE.
  *
  * A verb that polls keeps what there is: the first signal sets the flag that runs see after a step, one
  * half a second later, or a step of half a minute, ends the program. Where nobody polls the first does so, after a sentence; what

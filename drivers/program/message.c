@@ -27,10 +27,13 @@ int exit_of(int code)
 /* status, and message: what a failure is as JSON. */
 static void object(const struct call *call, int code, const char *text)
 {
+  char spoken[4096];
   steif_report *r = call->json && call->ctx ? steif_report_new(call->ctx) : NULL;
   if (!r) return;
+  snprintf(spoken, sizeof spoken, "%s", text);
+  speak(spoken, sizeof spoken);
   steif_report_text(r, "status", steif_code_name(code));
-  steif_report_text(r, "message", text);
+  steif_report_text(r, "message", spoken);
   steif_report_write(r, STEIF_JSON, stdout);
   steif_report_free(&r);
 }
@@ -43,6 +46,7 @@ static void sentence(const struct call *call, int code, const char *symbol, cons
   progress(call, NULL);
   fflush(stdout);
   vsnprintf(text, sizeof text, format, arguments);
+  speak(text, sizeof text);
   fprintf(stderr, call->verb ? "steif %s: " : "steif: ", call->verb ? call->verb->name : "");
   fprintf(stderr, symbol ? "%s [%s]\n" : "%s%s\n", text, symbol ? symbol : "");
   if (symbol) object(call, code, text);

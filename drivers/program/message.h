@@ -30,6 +30,9 @@ int fail(const struct call *call);
 /* The same where a file of the user's is to blame: EXIT_FILE. */
 int fail_file(const struct call *call);
 
+/* A sentence of the library, whose remedies are functions and members, as one of options and verbs; in place. */
+void speak(char *text, size_t room);
+
 /* "; did you mean NAME?", of the name_at(list, i), NULL past the end, that is nearest to `wrong`; ";" where none is
  * near: a third of the letters may be wrong. */
 enum { GUESS = 96 };

@@ -42,6 +42,7 @@ outcome layer_against(steif_context *ctx, const struct layer *l, const char *met
     o.code =
       steif_deviation(ctx, &p, method, &options, l->steps, l->t + 1, l->exact + l->k, error);
   snprintf(o.message, sizeof o.message, "%s", o.code == STEIF_OK ? "ok" : steif_message(ctx));
+  speak(o.message, sizeof o.message);
   if (found) steif_problem_clear(ctx, &p);
   steif_forget(ctx);
   return o;

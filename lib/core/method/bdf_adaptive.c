@@ -313,19 +313,20 @@ static sunrealtype alone(const stf_step *s, int k, sunrealtype least)
 /* Highest orders 1 and 2 would need a million steps for few digits if all errors added: the tolerance is
  * shared among those that are remembered, down to what makes a million steps, and they say what has come
  * of it. Tolerances above 2e-3 and weights of the caller mean the error of one step. Errors of index above
- * 1 are not carried on. */
+ * 1 are not carried on, but counted where they are rounding. */
 static int open_shares(stf_step *s)
 {
   state *e = s->state;
   const bool low = e->p <= 2, given = s->options->rtol > 2e-3 || s->options->ewt;
+  const sunrealtype least = e->p == 1 ? 1e-9 : rounding, rounded = least / s->options->rtol;
+  const bool rough = low || 2 * alone(s, e->p, 0) < rounded;
+  const bool counted = low ? !given : rough || s->problem->dae_index < 2;
   const bool followed = low ? !given : s->problem->dae_index < 2;
-  const sunrealtype least = e->p == 1 ? 1e-9 : rounding;
   for (int k = 1; k <= HIGHEST; k++)
     e->wanted[k] = !low ? alone(s, k, followed ? 0 : rounding) : given ? first : 0;
-  if (!followed) return STEIF_OK;
+  if (!counted) return STEIF_OK;
   e->carried.always = low;
-  const bool rough = 2 * e->wanted[e->p] < least / s->options->rtol;
-  return stf_carried_open(s, least, together(s, low), low || rough, &e->carried);
+  return stf_carried_open(s, least, together(s, low), rough, &e->carried);
 }
 
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)

@@ -60,8 +60,11 @@ void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transfor
   for (int k = s + 1; k <= T->order + 1; k++) e->gain /= k;
   e->legendre = 1;
   for (int k = 1; k <= s; k++) e->legendre *= (sunrealtype)k / (s + k);
-  const sunrealtype most = T->claims & STEIF_STIFFLY_ACCURATE ? 0.05 : 0.04;
-  const sunrealtype part = fmin(most, (s > 2 ? 0.002 : 0.001) * s * s);
+  const bool end = T->claims & STEIF_STIFFLY_ACCURATE;
+  const sunrealtype part = fmin(end ? 0.05 : 0.04, (s > 2 ? 0.002
+                                                    : end ? 0.0003
+                                                          : 0.001) *
+                                                     s * s);
   e->loosest =
     part * pow(anchor, (s + 1.0) / (2 * s)) * pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
 }
