@@ -11,7 +11,7 @@ static const struct {
                   {"impulse", bench_impulse},   {"phi", bench_phi},
                   {"lyapunov", bench_lyapunov}, {"model", bench_model},
                   {"lorenz", bench_lorenz},     {"certificates", bench_certificates},
-                  {"verdicts", bench_verdicts}};
+                  {"verdicts", bench_verdicts}, {"scale", bench_scale}};
 enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
 static const char *name_at(const void *list, size_t i)
@@ -49,14 +49,20 @@ static const struct option options[] = {
    "systems (default: 10000; --quick: 300)",
    NULL},
   {"--first", COUNT, "K", "verdicts: the first seed", "1"},
+  {"--ranks", COUNT, "P", "scale: up to so many", "4096"},
+  {"--rows", POSITIVE, "N", "scale: unknowns of a rank", "24000"},
+  {"--latency", POSITIVE, "S", "scale: seconds of a message", "2e-6"},
+  {"--bandwidth", POSITIVE, "B", "scale: bytes a second", "1e10"},
+  {"--grid", COUNT, "K", "scale: measured with (2^K - 1)^3 points", "5"},
+  {"--delay", REAL, "S", "scale: seconds slept at every message, to check the counts", "0"},
   OPTIONS_END};
 
 const struct verb verb_bench = {
   .name = "bench",
   .about = "Measure steps against their kernels, solves against CVODE, IDA, ARKODE, and these "
            "against direct C programs",
-  .usage =
-    "[step|books|workprec|success|impulse|phi|lyapunov|model|lorenz|certificates|verdicts]",
+  .usage = "[step|books|workprec|success|impulse|phi|lyapunov|model|lorenz|certificates|"
+           "verdicts|scale]",
   .most = 1,
   .picture = true,
   .option = options,

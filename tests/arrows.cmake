@@ -159,6 +159,16 @@ function(unknown path pattern why)
   endforeach()
 endfunction()
 
+# Vectors may be spread over ranks, or have no array: the core asks space.h for the rows that are here, and pencils
+# of matrices look at the kind of their vectors.
+file(GLOB_RECURSE core RELATIVE ${SOURCE}/lib/core ${SOURCE}/lib/core/*.[ch])
+foreach(file ${core})
+  file(STRINGS ${SOURCE}/lib/core/${file} found REGEX "(N_VGetArrayPointer|N_VGetHostArray|nvgetarraypointer)")
+  if(found AND NOT file MATCHES "^(base/space[.][ch]|pencil/pencil[.]c)$")
+    message(SEND_ERROR "lib/core/${file} takes the array of a vector, which may be spread: stf_own_rows or stf_array of space.h")
+  endif()
+endforeach()
+
 # Drivers stand outside: public headers and their own.
 file(GLOB own RELATIVE ${SOURCE}/drivers ${SOURCE}/drivers/*/*.h)
 list(TRANSFORM own REPLACE ".*/" "")

@@ -83,7 +83,7 @@ static void as_good_as_direct(void)
     const steif_stats *d = steif_statistics(direct), *k = steif_statistics(krylov);
     CHECK(d->nli == 0 && 2 * k->nli > k->nsolve && k->nli < 4 * k->nsolve);
     CHECK((double)k->steps < 1.1 * (double)d->steps);
-    CHECK(k->nlu > 0 && k->nlu < k->steps / 4);
+    CHECK(k->nlu > 0 && 2 * k->nlu < 3 * d->nlu); /* made about as often as factors */
     if (m == 0) CHECK((double)k->nfe < 0.8 * (double)d->nfe);
     steif_solver_free(&direct), steif_solver_free(&krylov);
   }

@@ -225,7 +225,7 @@ void stf_norm_each(const stf_space *space, int count, N_Vector const *x, N_Vecto
                    sunrealtype *norms)
 {
   const N_Vector_Ops ops = w->ops;
-  const bool once = stf_spread(w) && ops->nvwsqrsumlocal && ops->nvdotprodmultiallreduce;
+  const bool once = ops->nvwsqrsumlocal && ops->nvdotprodmultiallreduce;
   stf_count_sum(space);
   for (int j = 0; j < count; j++)
     norms[j] = once ? N_VWSqrSumLocal(x[j], w) : norm(space, x[j], w);

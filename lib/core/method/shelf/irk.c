@@ -102,8 +102,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
               table->name);
   if (s->adaptive && !(s->options->newton > 0))
     s->newton.tolerance = s->problem->dae_index >= 3 ? 1e-6 : 1e-4;
-  if (s->adaptive && s->table->s > 1 && !s->system.linear && s->system.storage == STEIF_SPARSE)
-    STEIF_TRY(blend(s));
+  const bool factors = s->system.storage == STEIF_SPARSE && !s->system.krylov;
+  if (s->adaptive && table->s > 1 && !s->system.linear && factors) STEIF_TRY(blend(s));
   stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
   return STEIF_OK;
 }
