@@ -39,6 +39,19 @@ static void events(steif_report *r, const steif_problem *p)
   }
 }
 
+/* The numbers that :name=value, --vary and --free change. */
+static void parameters(steif_report *r, const steif_problem *p)
+{
+  const steif_parameters *of = p->parameters;
+  char number[24];
+  for (int k = 0; of && k < of->count; k++) {
+    steif_report_row(r, "parameters");
+    snprintf(number, sizeof number, "p%d", k + 1);
+    steif_report_text(r, "parameters.parameter", of->name ? of->name[k] : number);
+    steif_report_real(r, "parameters.value", of->value[k]);
+  }
+}
+
 static void fill(steif_report *r, const struct call *call, const void *result)
 {
   static const char *const storage[] = {"dense", "band", "sparse", "krylov"};
@@ -60,6 +73,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
                              : "nothing");
   report_natural(r, "digits", known && known->digits ? known->digits : -1);
   steif_report_text(r, "source", known ? known->source : NULL);
+  parameters(r, p);
   events(r, p);
   if (call->json) steif_report_text(r, "equations", a->text);
 }

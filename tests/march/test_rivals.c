@@ -133,6 +133,40 @@ static void events_are_found_on_both_sides(void)
   steif_context_free(&ctx);
 }
 
+/* y_0' = -r (y_0 - c(t)^2 - 1e-9), c = max(0, cos 3 t), rests at 1e-9, and coarse steps carry it below zero; the
+ * others are smooth. */
+static int resting(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  const double c = fmax(0, cos(3 * t));
+  (void)f(t, y, out, user);
+  NV_Ith_S(out, 0) = -rate(user, t) * (NV_Ith_S(y, 0) - c * c - 1e-9);
+  return 0;
+}
+
+/* Steps made anew for a sign are short, and neither stiffness nor accuracy made them so: the run keeps the
+ * method that it has without the constraint, though it makes more steps. */
+static void constraints_are_no_verdict(void)
+{
+  static const int positive[N] = {2};
+  relaxation r = {40, 40};
+  steif_context *ctx = steif_context_new(NULL);
+  long rejected[2];
+  for (int kept = 0; kept < 2; kept++) {
+    const steif_options o = {.rtol = 1e-4};
+    steif_problem p = problem(&r);
+    p.f = resting, p.constraint = kept ? positive : NULL;
+    steif_solver *s = steif_solver_new(ctx, &p, "auto", &o);
+    CU_ASSERT_FATAL(s != NULL);
+    CHECK(!steif_solve_to(s, END));
+    CHECK(!strncmp(steif_method_used(s), "radau:s=7 ", 10));
+    CHECK(!strstr(steif_method_used(s), "change"));
+    rejected[kept] = steif_statistics(s)->rejected;
+    steif_solver_free(&s);
+  }
+  CHECK(rejected[1] > rejected[0]);
+  steif_context_free(&ctx);
+}
+
 static void stepping_asks_for_no_memory(void)
 {
   relaxation *of[] = {&hardening, &softening};
@@ -173,6 +207,7 @@ CU_TestInfo tests_of_rivals[] = {
   {"it turns to the cheaper method", it_turns_to_the_cheaper_method},
   {"pauses do not change its mind", pauses_do_not_change_its_mind},
   {"events are found on both sides", events_are_found_on_both_sides},
+  {"constraints are no verdict", constraints_are_no_verdict},
   {"stepping asks for no memory", stepping_asks_for_no_memory},
   {"opening may fail anywhere", opening_may_fail_anywhere},
   CU_TEST_INFO_NULL};

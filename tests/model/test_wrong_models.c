@@ -130,6 +130,25 @@ static void are_survived(void)
   fixture_close(&s);
 }
 
+/* z_1 + z_2 = a, ..., z_(n-1) + z_n = a: of many unknowns, too, the one that nothing determines is named. */
+static void large_ones_are_counted(void)
+{
+  enum { MANY = 20000, LINE = 32 };
+  char *text = malloc(2 * (size_t)MANY * LINE), *to = text;
+  CU_ASSERT_FATAL(text != NULL);
+  to += sprintf(to, "state a = 1\na' = -a\nstate z1\n");
+  for (int i = 2; i <= MANY; i++)
+    to += sprintf(to, "state z%d\n0 = z%d + z%d - a\n", i, i - 1, i);
+  sprintf(to, "time 0 to 1\n");
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p = {0};
+  CHECK(steif_model_parse(ctx, text, "m.steif", NULL, &p) == STEIF_BAD_INPUT);
+  CHECK(!!strstr(steif_message(ctx), "20000 equations for 20001 unknowns: nothing determines "
+                                     "'z20000' (line 40001), or else one of 'z1', 'z2'"));
+  steif_context_free(&ctx);
+  free(text);
+}
+
 /* Each example with one token left out or doubled is a model or has a sentence. */
 static void of_one_token(void)
 {
@@ -165,5 +184,6 @@ static void of_one_token(void)
 
 CU_TestInfo tests_of_wrong_models[] = {{"hostile texts", are_survived},
                                        {"one token more or less", of_one_token},
+                                       {"large ones are counted", large_ones_are_counted},
                                        {"each has its sentence", have_their_sentence},
                                        CU_TEST_INFO_NULL};

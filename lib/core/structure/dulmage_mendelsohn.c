@@ -8,12 +8,13 @@
 #include "buckets.h"
 #include "matching.h"
 
-int stf_graph_reach(stf_pool *pool, const stf_graph *g, unsigned char *reach)
+/* On from the columns that are reached. */
+static int spread(stf_pool *pool, const stf_graph *g, unsigned char *reach)
 {
   sunindextype *queue = stf_pool_array(pool, (size_t)g->n, sizeof *queue), last = 0;
   if (!queue) return STEIF_NO_MEMORY;
   for (sunindextype j = 0; j < g->n; j++)
-    if ((reach[j] = g->row_of[j] == FREE)) queue[last++] = j;
+    if (reach[j]) queue[last++] = j;
   for (sunindextype first = 0; first < last; first++) {
     const sunindextype j = queue[first];
     for (sunindextype k = g->ptr[j]; k < g->ptr[j + 1]; k++) {
@@ -24,6 +25,19 @@ int stf_graph_reach(stf_pool *pool, const stf_graph *g, unsigned char *reach)
     }
   }
   return STEIF_OK;
+}
+
+int stf_graph_reach(stf_pool *pool, const stf_graph *g, unsigned char *reach)
+{
+  for (sunindextype j = 0; j < g->n; j++) reach[j] = g->row_of[j] == FREE;
+  return spread(pool, g, reach);
+}
+
+int stf_graph_reach_from(stf_pool *pool, const stf_graph *g, sunindextype column,
+                         unsigned char *reach)
+{
+  for (sunindextype j = 0; j < g->n; j++) reach[j] = j == column;
+  return spread(pool, g, reach);
 }
 
 /* degree_j = max over columns m of degree_m + weight(i, m) - weight(i, j) where row i, matched to j,

@@ -36,6 +36,9 @@ sunindextype stf_graph_weight(const stf_graph *g);
  * the under-determined part of the Dulmage-Mendelsohn decomposition; of the transposed graph, the
  * equations of the over-determined part. */
 int stf_graph_reach(stf_pool *pool, const stf_graph *g, unsigned char *reach);
+/* Of this free column alone: the unknowns that may take its place. */
+int stf_graph_reach_from(stf_pool *pool, const stf_graph *g, sunindextype column,
+                         unsigned char *reach);
 /* Of a perfect matching of largest weight: degree[j] = the largest exponent of s that the pattern
  * allows in row j of (s E + F)^{-1}. The largest of all plus one is the structural index. */
 int stf_graph_degrees(stf_pool *pool, const stf_graph *g, sunindextype *degree);

@@ -26,12 +26,12 @@ static int take_text(stf_model *m, const char *path, const char *text)
 
 int stf_number_of(stf_model *m, const stf_expression *e, double *value)
 {
-  stf_graph g = {.ctx = m->ctx};
+  stf_formulas g = {.ctx = m->ctx};
   stf_builder b;
   int code = stf_builder_open(&b, m, &g, true);
   if (!code) code = stf_value(&b, e, value);
   stf_builder_close(&b);
-  stf_graph_free(&g);
+  stf_formulas_free(&g);
   if (code) return stf_complaints(&m->syntax.sources) ? steif_status(m->ctx) : code;
   return STEIF_OK;
 }
@@ -88,12 +88,12 @@ static void blocks_free(stf_model *m)
 {
   for (size_t i = 0; i < m->blocks.count; i++) {
     stf_block *block = *STF_AT(m->blocks, stf_block *, i);
-    stf_graph_free(&block->graph);
+    stf_formulas_free(&block->graph);
     stf_vector_free(m->ctx, &block->equations);
     stf_vector_free(m->ctx, &block->switches);
   }
   stf_vector_free(m->ctx, &m->blocks);
-  if (m->event_block) stf_graph_free(&m->event_block->graph);
+  if (m->event_block) stf_formulas_free(&m->event_block->graph);
   if (m->event_block) stf_vector_free(m->ctx, &m->event_block->switches);
 }
 

@@ -222,7 +222,7 @@ static int timers(stf_model *m)
   stf_vector stores = {0};
   int code = STEIF_OK;
   int32_t next = m->switches;
-  stf_graph *g = &m->event_block->graph;
+  stf_formulas *g = &m->event_block->graph;
   for (size_t i = 0; !code && i < m->reactions->list.count; i++) {
     const stf_reaction *r = reaction(m->reactions, i);
     if (r->trigger != STF_TIMER) continue;

@@ -10,7 +10,7 @@ static int ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-static int add(const stf_graph *g, int32_t node, stf_vector *mark, stf_vector *list)
+static int add(const stf_formulas *g, int32_t node, stf_vector *mark, stf_vector *list)
 {
   int32_t *m = STF_AT(*mark, int32_t, node);
   if (*m) return STEIF_OK;
@@ -21,7 +21,7 @@ static int add(const stf_graph *g, int32_t node, stf_vector *mark, stf_vector *l
   return STEIF_OK;
 }
 
-int stf_reach(const stf_graph *g, int32_t root, stf_vector *mark, stf_vector *list)
+int stf_reach(const stf_formulas *g, int32_t root, stf_vector *mark, stf_vector *list)
 {
   int32_t child[3];
   list->count = 0;
@@ -50,7 +50,7 @@ int stf_reach(const stf_graph *g, int32_t root, stf_vector *mark, stf_vector *li
 #define FUN(kind, a) stf_apply1(g, STF_OP_##kind, a)
 
 /* d f(a)/da of node `self` = f(a), times w. */
-static int32_t of_one(stf_graph *g, const stf_node *n, int32_t self, int32_t w)
+static int32_t of_one(stf_formulas *g, const stf_node *n, int32_t self, int32_t w)
 {
   const int32_t a = n->a;
   switch (n->kind) {
@@ -83,7 +83,7 @@ static int32_t of_one(stf_graph *g, const stf_node *n, int32_t self, int32_t w)
 }
 
 /* The same of node `self` = f(a, b) by a (first) or b. */
-static int32_t of_two(stf_graph *g, const stf_node *n, int32_t self, int32_t w, bool first)
+static int32_t of_two(stf_formulas *g, const stf_node *n, int32_t self, int32_t w, bool first)
 {
   const int32_t a = n->a, b = n->b;
   switch (n->kind) {
@@ -112,7 +112,7 @@ static int32_t of_two(stf_graph *g, const stf_node *n, int32_t self, int32_t w, 
   }
 }
 
-int32_t stf_partial_times(stf_graph *g, int32_t self, int32_t w, int operand)
+int32_t stf_partial_times(stf_formulas *g, int32_t self, int32_t w, int operand)
 {
   const stf_node n = *stf_node_at(g, self);
   const int count = stf_operands(n.kind);
@@ -134,7 +134,7 @@ static int32_t *adjoint(const stf_sweep *s, int32_t node)
 
 /* The adjoints of the operands of `node`, which is 1 + the number of a node or
  * 0. */
-static int push_back(stf_graph *g, int32_t node, int wanted, stf_sweep *s)
+static int push_back(stf_formulas *g, int32_t node, int wanted, stf_sweep *s)
 {
   int32_t child[3];
   const int count = stf_children(stf_node_at(g, node), child);
@@ -159,7 +159,8 @@ static int wanted_of(int kind)
                                 : STF_ON_PARAMETER;
 }
 
-static int sweep_back(stf_graph *g, int32_t root, int kind, stf_sweep *s, stf_vector *partials)
+static int sweep_back(stf_formulas *g, int32_t root, int kind, stf_sweep *s,
+                      stf_vector *partials)
 {
   const int wanted = wanted_of(kind);
   *adjoint(s, root) = N(1) + 1;
@@ -180,8 +181,8 @@ static int sweep_back(stf_graph *g, int32_t root, int kind, stf_sweep *s, stf_ve
   return STEIF_OK;
 }
 
-int stf_graph_differentiate(stf_graph *g, int32_t root, int kind, stf_sweep *s,
-                            stf_vector *partials)
+int stf_formulas_differentiate(stf_formulas *g, int32_t root, int kind, stf_sweep *s,
+                               stf_vector *partials)
 {
   partials->count = 0;
   if (!(stf_node_at(g, root)->on & wanted_of(kind))) return STEIF_OK;
@@ -195,7 +196,7 @@ int stf_graph_differentiate(stf_graph *g, int32_t root, int kind, stf_sweep *s,
   return code;
 }
 
-int32_t stf_without(stf_graph *g, int32_t root, int kind, stf_sweep *s)
+int32_t stf_without(stf_formulas *g, int32_t root, int kind, stf_sweep *s)
 {
   const int wanted = wanted_of(kind);
   if (!(stf_node_at(g, root)->on & wanted)) return root;

@@ -26,7 +26,7 @@ static uint64_t entry_of(size_t h, int32_t node)
   return ((uint64_t)h & ~(uint64_t)UINT32_MAX) | (uint32_t)(node + 1);
 }
 
-static uint64_t *slot(const stf_graph *g, const stf_node *n, size_t h)
+static uint64_t *slot(const stf_formulas *g, const stf_node *n, size_t h)
 {
   const size_t mask = g->slots.count - 1;
   for (size_t i = h;; i++) {
@@ -37,7 +37,7 @@ static uint64_t *slot(const stf_graph *g, const stf_node *n, size_t h)
   }
 }
 
-static int widen(stf_graph *g)
+static int widen(stf_formulas *g)
 {
   stf_vector before = g->slots;
   g->slots = (stf_vector){0};
@@ -58,7 +58,7 @@ static int widen(stf_graph *g)
   return STEIF_OK;
 }
 
-static int32_t keep(stf_graph *g, stf_node n)
+static int32_t keep(stf_formulas *g, stf_node n)
 {
   if (2 * (g->nodes.count + 1) > g->slots.count && widen(g)) return -1;
   const size_t h = hash(&n);
@@ -86,12 +86,12 @@ int stf_children(const stf_node *n, int32_t child[3])
   return count;
 }
 
-int32_t stf_number(stf_graph *g, double value)
+int32_t stf_number(stf_formulas *g, double value)
 {
   return keep(g, (stf_node){.kind = STF_OP_NUMBER, .number = value});
 }
 
-int32_t stf_leaf(stf_graph *g, int kind, int32_t a, const int32_t stride[STF_LOOPS])
+int32_t stf_leaf(stf_formulas *g, int kind, int32_t a, const int32_t stride[STF_LOOPS])
 {
   static const uint8_t on[] = {
     [STF_OP_TIME] = STF_ON_TIME,     [STF_OP_PARAMETER] = STF_ON_PARAMETER,
@@ -109,14 +109,14 @@ int32_t stf_leaf(stf_graph *g, int kind, int32_t a, const int32_t stride[STF_LOO
   return keep(g, n);
 }
 
-bool stf_is_number(const stf_graph *g, int32_t i, double value)
+bool stf_is_number(const stf_formulas *g, int32_t i, double value)
 {
   const stf_node *n = stf_node_at(g, i);
   return n->kind == STF_OP_NUMBER && n->number == value;
 }
 
 /* Products instead of powers 2, 3, 4. */
-static int32_t power(stf_graph *g, int32_t a, int32_t b)
+static int32_t power(stf_formulas *g, int32_t a, int32_t b)
 {
   const int32_t square = stf_apply2(g, STF_OP_MULTIPLY, a, a);
   if (square < 0 || stf_is_number(g, b, 2)) return square;
@@ -132,14 +132,14 @@ static bool power_of_two(double x)
 /* What is 0 unless a condition holds, c ? u : 0, or c ? 0 : u. A derivative of
  * the branch that is not taken may be infinite or no number: it must not be
  * multiplied by that 0. */
-static bool guarded(const stf_graph *g, int32_t i)
+static bool guarded(const stf_formulas *g, int32_t i)
 {
   const stf_node *n = stf_node_at(g, i);
   return n->kind == STF_OP_SELECT && (stf_is_number(g, n->b, 0) || stf_is_number(g, n->c, 0));
 }
 
 /* The operation inside the branch of the first operand. */
-static int32_t inside(stf_graph *g, int kind, int32_t a, int32_t b)
+static int32_t inside(stf_formulas *g, int kind, int32_t a, int32_t b)
 {
   const stf_node n = *stf_node_at(g, a);
   const bool first = stf_is_number(g, n.c, 0);
@@ -149,7 +149,7 @@ static int32_t inside(stf_graph *g, int kind, int32_t a, int32_t b)
 }
 
 /* What is the same number for every operand; -1: nothing. */
-static int32_t fold(stf_graph *g, int kind, int32_t a, int32_t b)
+static int32_t fold(stf_formulas *g, int kind, int32_t a, int32_t b)
 {
   const bool zero = stf_is_number(g, a, 0) || stf_is_number(g, b, 0);
   switch (kind) {
@@ -178,7 +178,7 @@ static int32_t fold(stf_graph *g, int kind, int32_t a, int32_t b)
 }
 
 /* Of constants. */
-static bool constant(const stf_graph *g, const stf_node *n, int count, const int32_t *child)
+static bool constant(const stf_formulas *g, const stf_node *n, int count, const int32_t *child)
 {
   if (n->kind == STF_OP_LOOKUP || n->kind == STF_OP_TILT) return false;
   for (int i = 0; i < count; i++)
@@ -186,7 +186,7 @@ static bool constant(const stf_graph *g, const stf_node *n, int count, const int
   return true;
 }
 
-int32_t stf_apply(stf_graph *g, int kind, int32_t a, int32_t b, int32_t c)
+int32_t stf_apply(stf_formulas *g, int kind, int32_t a, int32_t b, int32_t c)
 {
   stf_node n = {.kind = (uint8_t)kind, .a = a, .b = b};
   int32_t child[3] = {a, b, c};
@@ -214,7 +214,7 @@ int32_t stf_apply(stf_graph *g, int kind, int32_t a, int32_t b, int32_t c)
   return folded >= 0 ? folded : keep(g, n);
 }
 
-void stf_graph_free(stf_graph *g)
+void stf_formulas_free(stf_formulas *g)
 {
   stf_vector_free(g->ctx, &g->nodes);
   stf_vector_free(g->ctx, &g->slots);

@@ -28,7 +28,7 @@ static int complain(const stf_builder *b, uint32_t at, const char *what)
   return stf_complain(&b->m->syntax.sources, at, STEIF_BAD_INPUT, "%s", what);
 }
 
-int stf_builder_open(stf_builder *b, stf_model *m, stf_graph *g, bool numeric)
+int stf_builder_open(stf_builder *b, stf_model *m, stf_formulas *g, bool numeric)
 {
   *b = (stf_builder){.m = m, .g = g, .numeric = numeric};
   return stf_vector_resize(m->ctx, &b->memo, m->symbols.count, sizeof(int32_t));
@@ -369,7 +369,7 @@ int stf_value(stf_builder *b, const stf_expression *e, double *value)
 {
   int32_t node = 0;
   if (b->g->nodes.count > NODES_KEPT) {
-    stf_graph_free(b->g);
+    stf_formulas_free(b->g);
     memset(b->memo.data, 0, b->memo.count * sizeof(int32_t));
   }
   STEIF_TRY(stf_build(b, e, &node));

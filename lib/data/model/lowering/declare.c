@@ -169,7 +169,7 @@ static int check_value(stf_model *m, stf_builder *b, const stf_symbol *s)
 
 static int values(stf_model *m)
 {
-  stf_graph g = {.ctx = m->ctx};
+  stf_formulas g = {.ctx = m->ctx};
   stf_builder b;
   int code = stf_builder_open(&b, m, &g, true);
   for (size_t i = 0; !code && i < m->symbols.count; i++) {
@@ -191,7 +191,7 @@ static int values(stf_model *m)
     if (code && code != STEIF_NO_MEMORY && m->syntax.sources.errors) code = STEIF_OK;
   }
   stf_builder_close(&b);
-  stf_graph_free(&g);
+  stf_formulas_free(&g);
   if (!code) code = stf_complaints(&m->syntax.sources);
   return code;
 }
@@ -311,7 +311,7 @@ static int number_level(stf_model *m, int level)
 
 int stf_number_unknowns(stf_model *m)
 {
-  stf_graph g = {.ctx = m->ctx};
+  stf_formulas g = {.ctx = m->ctx};
   stf_builder b;
   orders(m);
   int code = stf_builder_open(&b, m, &g, true);
@@ -327,7 +327,7 @@ int stf_number_unknowns(stf_model *m)
                           stf_named(m, s->word));
   }
   stf_builder_close(&b);
-  stf_graph_free(&g);
+  stf_formulas_free(&g);
   for (int level = 0; !code && level < 7; level++) code = number_level(m, level);
   if (!code && !m->n)
     code = stf_complain(&m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,

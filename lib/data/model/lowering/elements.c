@@ -28,12 +28,12 @@ static int whole(stf_builder *b, const stf_code *c, stf_affine *x)
 {
   double value;
   const uint32_t from = (uint32_t)(c - STF_AT(b->m->syntax.codes, stf_code, 0));
-  stf_graph g = {.ctx = b->m->ctx};
+  stf_formulas g = {.ctx = b->m->ctx};
   stf_builder own;
   int code = stf_builder_open(&own, b->m, &g, true);
   if (!code) code = stf_value(&own, &(stf_expression){from, from + 1}, &value);
   stf_builder_close(&own);
-  stf_graph_free(&g);
+  stf_formulas_free(&g);
   STEIF_TRY(code);
   if (value == floor(value) && fabs(value) < (double)FAR) {
     *x = (stf_affine){.c = (int64_t)value};

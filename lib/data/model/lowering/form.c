@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-int stf_fixed_value(stf_model *m, const stf_graph *g, int32_t node, double *value)
+int stf_fixed_value(stf_model *m, const stf_formulas *g, int32_t node, double *value)
 {
   STEIF_TRY(stf_reach(g, node, &m->sweep.mark, &m->sweep.list));
   stf_vector x = {0};
@@ -96,8 +96,8 @@ static int divide(stf_model *m, stf_block *block, stf_equation *e, int32_t *take
 
 static int classify(stf_model *m, stf_block *block, stf_equation *e, int32_t *taken_by)
 {
-  stf_graph *g = &block->graph;
-  STEIF_TRY(stf_graph_differentiate(g, e->residual, STF_OP_SLOPE, &m->sweep, &m->partials));
+  stf_formulas *g = &block->graph;
+  STEIF_TRY(stf_formulas_differentiate(g, e->residual, STF_OP_SLOPE, &m->sweep, &m->partials));
   for (size_t i = 0; i < m->partials.count; i++) {
     const int on = stf_node_at(g, STF_AT(m->partials, stf_partial, i)->value)->on;
     if (on & STF_ON_SLOPE)

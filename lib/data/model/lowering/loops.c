@@ -161,7 +161,7 @@ static int bind_counters(stf_model *m, stf_builder *b, const loops *l, const reg
 
 static void drop_block(stf_model *m, stf_block *block)
 {
-  stf_graph_free(&block->graph);
+  stf_formulas_free(&block->graph);
   stf_vector_free(m->ctx, &block->equations);
   stf_vector_free(m->ctx, &block->switches);
   m->blocks.count--;
@@ -267,7 +267,7 @@ static int rectangle(stf_model *m, stf_builder *b, const loops *l, const region 
 static int is_rectangle(stf_model *m, loops *l, region *all, bool *yes)
 {
   stf_builder b;
-  stf_graph g = {.ctx = m->ctx};
+  stf_formulas g = {.ctx = m->ctx};
   int code = stf_builder_open(&b, m, &g, false);
   for (int d = 0; !code && d < l->dims; d++) {
     stf_affine x = {0};
@@ -279,7 +279,7 @@ static int is_rectangle(stf_model *m, loops *l, region *all, bool *yes)
   }
   *yes = !b.fallback;
   stf_builder_close(&b);
-  stf_graph_free(&g);
+  stf_formulas_free(&g);
   return code;
 }
 

@@ -82,8 +82,8 @@ static int add(stf_model *m, stf_vector *entries, size_t block, const stf_equati
 static int partials(stf_model *m, stf_vector *entries, size_t i, const stf_equation *e,
                     int32_t root, int kind, bool minus)
 {
-  stf_graph *g = &block_at(m, i)->graph;
-  STEIF_TRY(stf_graph_differentiate(g, root, kind, &m->sweep, &m->partials));
+  stf_formulas *g = &block_at(m, i)->graph;
+  STEIF_TRY(stf_formulas_differentiate(g, root, kind, &m->sweep, &m->partials));
   for (size_t k = 0; k < m->partials.count; k++) {
     const stf_partial p = *STF_AT(m->partials, stf_partial, k);
     const stf_node leaf = *stf_node_at(g, p.leaf);

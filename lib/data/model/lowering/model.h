@@ -70,7 +70,7 @@ typedef struct stf_setting {
 
 /* Equations that share loops and a graph. */
 typedef struct stf_block {
-  stf_graph graph;
+  stf_formulas graph;
   stf_box box;
   stf_vector equations; /* of stf_equation */
   stf_vector switches;  /* of stf_switch */
@@ -178,7 +178,7 @@ int stf_check_names(stf_model *m);
 /* builder.c: expressions into nodes. */
 typedef struct stf_builder {
   stf_model *m;
-  stf_graph *g;
+  stf_formulas *g;
   bool numeric; /* parameters are numbers and there are no unknowns but those
                    that have started */
   bool events;  /* relations are frozen between events, unless `literal` */
@@ -193,7 +193,7 @@ typedef struct stf_builder {
   const uint8_t *started;                   /* n; NULL: none */
   stf_vector stack, frames, bindings, memo; /* memo: 1 + node of each symbol */
 } stf_builder;
-int stf_builder_open(stf_builder *b, stf_model *m, stf_graph *g, bool numeric);
+int stf_builder_open(stf_builder *b, stf_model *m, stf_formulas *g, bool numeric);
 void stf_builder_close(stf_builder *b);
 int stf_bind_node(stf_builder *b, int32_t word, int32_t node);
 int stf_bind_index(stf_builder *b, int32_t word, const stf_affine *at);
@@ -220,7 +220,7 @@ int stf_build_blocks(stf_model *m);
 /* form.c: explicit rows, the form, rows of the others. */
 int stf_deduce_form(stf_model *m);
 /* The value of a node that depends on parameters only. */
-int stf_fixed_value(stf_model *m, const stf_graph *g, int32_t node, double *value);
+int stf_fixed_value(stf_model *m, const stf_formulas *g, int32_t node, double *value);
 /* counting.c: as many equations as unknowns, each with one of its own; taken_by: rows that are explicit. */
 int stf_count_equations(stf_model *m, const int32_t *taken_by);
 /* blame.c: why row `row` of f or F has no value. */

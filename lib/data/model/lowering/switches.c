@@ -15,7 +15,7 @@ static int add_break(stf_builder *b, int32_t g, bool *falls)
   double value = 0, slope = 0;
   stf_vector partials = {0};
   stf_sweep sweep = {{0}, {0}, {0}};
-  int code = stf_graph_differentiate(b->g, g, STF_OP_TIME, &sweep, &partials);
+  int code = stf_formulas_differentiate(b->g, g, STF_OP_TIME, &sweep, &partials);
   const int32_t slope_node =
     !code && partials.count ? STF_AT(partials, stf_partial, 0)->value : -1;
   const int32_t at_zero = code ? -1 : stf_without(b->g, g, STF_OP_TIME, &sweep);

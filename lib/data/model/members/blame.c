@@ -21,7 +21,7 @@ static double leaf(const stf_feed *f, const stf_node *n, const int32_t *counter)
 }
 
 /* "t = 0, x = 2, k = 1": what the node depends on, a few of it. */
-static void depends(const stf_model *m, const stf_graph *g, const stf_feed *f,
+static void depends(const stf_model *m, const stf_formulas *g, const stf_feed *f,
                     const int32_t *counter, int32_t node, size_t room, char *text)
 {
   stf_sweep sweep = {{0}, {0}, {0}};
@@ -41,7 +41,7 @@ static void depends(const stf_model *m, const stf_graph *g, const stf_feed *f,
 }
 
 /* The first node whose operands have values and which has none; its operands in x. */
-static int32_t first_without(stf_model *m, const stf_graph *g, const stf_feed *f,
+static int32_t first_without(stf_model *m, const stf_formulas *g, const stf_feed *f,
                              const int32_t *counter, int32_t root, double x[3])
 {
   stf_sweep sweep = {{0}, {0}, {0}};

@@ -1,20 +1,22 @@
 /* counting.c: equations against unknowns, by a maximum matching: what nothing determines, and which
  * equations are too many (A. L. Dulmage, N. S. Mendelsohn, Canad. J. Math. 10, 1958).
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "matching.h"
 #include "model.h"
 #include <stdio.h>
 #include <string.h>
 
-enum { LARGEST = 3000 }; /* unknowns; beyond it the numbers alone are told */
+enum { LARGEST = 200000 }; /* unknowns; beyond it the numbers alone are told */
 
 typedef struct sides {
   stf_model *m;
-  int32_t count;                     /* equations */
-  const stf_equation **equation;     /* of each, with its pass */
-  size_t *from;                      /* count + 1: its unknowns in `unknown` */
-  stf_vector unknown;                /* int32_t */
-  int32_t *of_unknown, *of_equation; /* 1 + partner, 0: none */
-  uint8_t *seen, *reached;           /* equations; unknowns */
+  int32_t count;                 /* equations */
+  const stf_equation **equation; /* of each, with its pass */
+  size_t *from;                  /* count + 1: its unknowns in `unknown` */
+  stf_vector unknown;            /* int32_t */
+  int32_t *last;                 /* 1 + the last equation that has listed an unknown */
+  stf_graph graph;
+  unsigned char *reached; /* columns of the graph, or of the transposed one */
 } sides;
 
 static int32_t *unknown(const sides *s, size_t i) { return STF_AT(s->unknown, int32_t, i); }
@@ -51,26 +53,25 @@ static int collect(sides *s)
   return STEIF_OK;
 }
 
-/* An alternating path from equation e to a free unknown. */
-static bool augment(sides *s, int32_t e)
+/* Columns of the graph are equations, rows are unknowns: those that free equations reach by alternating
+ * paths are too many; transposed, they are the unknowns that nothing determines. */
+static int match(sides *s, stf_pool *pool)
 {
-  s->seen[e] = 1;
-  for (size_t i = s->from[e]; i < s->from[e + 1]; i++) {
-    const int32_t u = *unknown(s, i), other = s->of_unknown[u] - 1;
-    if (other >= 0 && (s->seen[other] || !augment(s, other))) continue;
-    s->of_unknown[u] = e + 1;
-    s->of_equation[e] = u + 1;
-    return true;
+  const sunindextype n = s->count > s->m->n ? s->count : s->m->n;
+  stf_graph *g = &s->graph;
+  STEIF_TRY(stf_graph_allocate(pool, n, (sunindextype)s->unknown.count, g));
+  for (sunindextype e = 0; e < n; e++) {
+    sunindextype to = g->ptr[e];
+    for (size_t i = e < s->count ? s->from[e] : 0; e < s->count && i < s->from[e + 1]; i++) {
+      const int32_t u = *unknown(s, i);
+      if (s->last[u] == e + 1) continue; /* x and x' of one equation are one edge */
+      s->last[u] = (int32_t)e + 1;
+      g->row[to++] = u;
+    }
+    g->ptr[e + 1] = to;
   }
-  return false;
-}
-
-static void match(sides *s)
-{
-  for (int32_t e = 0; e < s->count; e++) {
-    memset(s->seen, 0, (size_t)s->count);
-    augment(s, e);
-  }
+  sunindextype rank;
+  return stf_graph_match(pool, g, &rank);
 }
 
 /* ---- sentences ------------------------------------------------------------------------------- */
@@ -94,27 +95,33 @@ static void name(char *text, size_t room, const char *word, int *count)
   if (*count == 7) snprintf(text + used, room - used, ", ...");
 }
 
-/* Unknown u has no partner: with it all unknowns that might take its place. */
-static void missing(sides *s, int32_t u)
+/* The equations that the graph's reached columns are: their lines, their number, and their unknowns. */
+static int lines_of(const sides *s, char *lines, size_t room, char *names, size_t names_room,
+                    bool *of_them)
+{
+  int equations = 0, count = 0;
+  memset(of_them, 0, (size_t)s->m->n * sizeof *of_them);
+  for (int32_t k = 0; k < s->count; k++) {
+    if (!s->reached[k]) continue;
+    const size_t used = strlen(lines);
+    if (++equations <= 8)
+      snprintf(lines + used, room - used, "%s%d", equations > 1 ? ", " : "",
+               line_of_equation(s, k));
+    for (size_t i = s->from[k]; i < s->from[k + 1]; i++) of_them[*unknown(s, i)] = true;
+  }
+  for (int32_t i = 0; i < s->m->n; i++)
+    if (of_them[i]) name(names, names_room, s->m->unknown[i], &count);
+  return equations;
+}
+
+/* Unknown u has no partner: with it all unknowns that might take its place, the last of which is named. */
+static void missing(const sides *s, int32_t u)
 {
   stf_model *m = s->m;
   char others[300] = "";
   int count = 0;
-  bool changed = true;
-  memset(s->reached, 0, (size_t)m->n);
-  s->reached[u] = 1;
-  while (changed) {
-    changed = false;
-    for (int32_t e = 0; e < s->count; e++) {
-      const int32_t own = s->of_equation[e] - 1;
-      bool contains = false;
-      for (size_t i = s->from[e]; i < s->from[e + 1]; i++)
-        contains = contains || s->reached[*unknown(s, i)];
-      if (!contains || own < 0 || s->reached[own]) continue;
-      s->reached[own] = 1;
-      changed = true;
-    }
-  }
+  for (int32_t i = 0; i < m->n; i++)
+    if (s->reached[i]) u = i;
   for (int32_t i = 0; i < m->n; i++)
     if (i != u && s->reached[i]) name(others, sizeof others, m->unknown[i], &count);
   stf_complain(&m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,
@@ -126,67 +133,44 @@ static void missing(sides *s, int32_t u)
                count ? " that share its equations" : "");
 }
 
-/* Equation e has no partner: with it all that share its unknowns. */
-static void surplus(sides *s, int32_t e)
+/* An equation has no partner, nor has unknown u if that is not negative. */
+static void surplus(const sides *s, int32_t u, bool *of_them)
 {
   stf_model *m = s->m;
   char lines[200] = "", names[300] = "";
-  int count = 0, equations = 0;
-  memset(s->seen, 0, (size_t)s->count);
-  memset(s->reached, 0, (size_t)m->n);
-  augment(s, e); /* marks what alternating paths reach */
-  for (int32_t k = 0; k < s->count; k++) {
-    if (!s->seen[k]) continue;
-    const size_t used = strlen(lines);
-    if (++equations <= 8)
-      snprintf(lines + used, sizeof lines - used, "%s%d", equations > 1 ? ", " : "",
-               line_of_equation(s, k));
-    for (size_t i = s->from[k]; i < s->from[k + 1]; i++) s->reached[*unknown(s, i)] = 1;
-  }
-  for (int32_t i = 0; i < m->n; i++)
-    if (s->reached[i]) name(names, sizeof names, m->unknown[i], &count);
-  stf_complain(&m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,
-               "%d equations for %d unknowns: those of lines %s determine only %s; one of the "
-               "%d is too many",
-               (int)s->count, (int)m->n, lines, *names ? names : "no unknown", equations);
+  const int equations = lines_of(s, lines, sizeof lines, names, sizeof names, of_them);
+  const char *only = *names ? names : "no unknown";
+  if (u < 0)
+    stf_complain(
+      &m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,
+      "%d equations for %d unknowns: those of lines %s determine only %s; one of the "
+      "%d is too many",
+      (int)s->count, (int)m->n, lines, only, equations);
+  else
+    stf_complain(&m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,
+                 "no matching: the equations of lines %s contain %s only, nothing determines "
+                 "'%s' (line %d)",
+                 lines, only, m->unknown[u], line_of_unknown(s, u));
 }
 
-/* As many equations as unknowns, and still no matching. */
-static void singular(sides *s, int32_t e, int32_t u)
+static int tell(sides *s, stf_pool *pool)
 {
-  stf_model *m = s->m;
-  char lines[200] = "", names[300] = "";
-  int count = 0, equations = 0;
-  memset(s->seen, 0, (size_t)s->count);
-  memset(s->reached, 0, (size_t)m->n);
-  augment(s, e);
-  for (int32_t k = 0; k < s->count; k++) {
-    if (!s->seen[k]) continue;
-    const size_t used = strlen(lines);
-    if (++equations <= 8)
-      snprintf(lines + used, sizeof lines - used, "%s%d", equations > 1 ? ", " : "",
-               line_of_equation(s, k));
-    for (size_t i = s->from[k]; i < s->from[k + 1]; i++) s->reached[*unknown(s, i)] = 1;
-  }
-  for (int32_t i = 0; i < m->n; i++)
-    if (s->reached[i]) name(names, sizeof names, m->unknown[i], &count);
-  stf_complain(
-    &m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,
-    "no matching: the equations of lines %s contain %s only, nothing determines '%s' (line %d)",
-    lines, *names ? names : "no unknown", m->unknown[u], line_of_unknown(s, u));
-}
-
-static void tell(sides *s)
-{
+  const stf_graph *g = &s->graph;
   int32_t e = 0, u = 0;
-  while (e < s->count && s->of_equation[e]) e++;
-  while (u < s->m->n && s->of_unknown[u]) u++;
-  if (u < s->m->n && s->count < s->m->n)
+  while (e < s->count && g->row_of[e] >= 0) e++;
+  while (u < s->m->n && g->column_of[u] >= 0) u++;
+  if (u < s->m->n && s->count < s->m->n) {
+    stf_graph t;
+    STEIF_TRY(stf_graph_transpose(pool, g, &t));
+    STEIF_TRY(stf_graph_reach_from(pool, &t, u, s->reached));
     missing(s, u);
-  else if (e < s->count && u < s->m->n)
-    singular(s, e, u);
-  else if (e < s->count)
-    surplus(s, e);
+  } else if (e < s->count) {
+    bool *of_them = stf_pool_array(pool, (size_t)s->m->n, sizeof *of_them);
+    if (!of_them) return STEIF_NO_MEMORY;
+    STEIF_TRY(stf_graph_reach_from(pool, g, e, s->reached));
+    surplus(s, u < s->m->n ? u : -1, of_them);
+  }
+  return STEIF_OK;
 }
 
 /* ---- rows of arrays that no loop gives --------------------------------------------------------- */
@@ -232,17 +216,11 @@ static int compare(stf_model *m, int64_t count)
   sides s = {.m = m, .count = (int32_t)count};
   s.equation = stf_pool_array(pool, rows, sizeof *s.equation);
   s.from = stf_pool_array(pool, rows + 1, sizeof *s.from);
-  s.of_unknown = stf_pool_array(pool, n, sizeof *s.of_unknown);
-  s.of_equation = stf_pool_array(pool, rows, sizeof *s.of_equation);
-  s.seen = stf_pool_array(pool, rows, 1);
-  s.reached = stf_pool_array(pool, n, 1);
-  int code = s.equation && s.from && s.of_unknown && s.of_equation && s.seen && s.reached
-               ? collect(&s)
-               : STEIF_NO_MEMORY;
-  if (!code) {
-    match(&s);
-    tell(&s);
-  }
+  s.last = stf_pool_array(pool, n, sizeof *s.last);
+  s.reached = stf_pool_array(pool, n > rows ? n : rows, 1);
+  int code = s.equation && s.from && s.last && s.reached ? collect(&s) : STEIF_NO_MEMORY;
+  if (!code) code = match(&s, pool);
+  if (!code) code = tell(&s, pool);
   stf_vector_free(m->ctx, &s.unknown);
   stf_pool_free(&pool);
   return code;

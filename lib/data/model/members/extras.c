@@ -41,7 +41,7 @@ static int breaks(stf_model *m, steif_problem *p)
 
 /* x >= 0: 1, x > 0: 2, x <= 0: -1, x < 0: -2 of unknown *i; 0: another
  * requirement. */
-static int sign_of(const stf_graph *g, int32_t node, int32_t *i)
+static int sign_of(const stf_formulas *g, int32_t node, int32_t *i)
 {
   const stf_node *n = stf_node_at(g, node);
   if (n->kind != STF_OP_LESS && n->kind != STF_OP_LESS_EQUAL) return 0;
@@ -77,7 +77,7 @@ static int requirement(stf_model *m, stf_builder *b, int32_t statement)
 int stf_build_constraints(stf_model *m)
 {
   stf_builder b;
-  stf_graph g = {.ctx = m->ctx};
+  stf_formulas g = {.ctx = m->ctx};
   m->constraint = stf_pool_array(m->pool, (size_t)m->n, sizeof *m->constraint);
   m->constraint_of = stf_pool_array(m->pool, m->syntax.statements.count, 1);
   if (!m->constraint || !m->constraint_of) return STEIF_NO_MEMORY;
@@ -86,7 +86,7 @@ int stf_build_constraints(stf_model *m)
     if (stf_statement_at(m, (int32_t)i)->kind == STF_SAY_REQUIRE)
       code = requirement(m, &b, (int32_t)i);
   stf_builder_close(&b);
-  stf_graph_free(&g);
+  stf_formulas_free(&g);
   return m->syntax.sources.errors ? stf_complaints(&m->syntax.sources) : code;
 }
 
@@ -146,7 +146,7 @@ static int collect(stf_model *m, int kind, stf_quantity *q, int32_t *count)
   stf_builder_close(&b);
   if (!code && stores.count) code = stf_compile_quantity(m, &block, &stores, q);
   stf_vector_free(m->ctx, &stores);
-  stf_graph_free(&block.graph);
+  stf_formulas_free(&block.graph);
   return m->syntax.sources.errors ? stf_complaints(&m->syntax.sources) : code;
 }
 
@@ -173,7 +173,7 @@ static int listed(stf_model *m, int32_t statement, double *value, sunindextype *
                   sunindextype *count)
 {
   stf_builder b;
-  stf_graph g = {.ctx = m->ctx};
+  stf_formulas g = {.ctx = m->ctx};
   int code = stf_builder_open(&b, m, &g, true);
   *count = 0;
   for (size_t i = (size_t)statement + 1; !code && i < m->syntax.statements.count; i++) {
@@ -186,7 +186,7 @@ static int listed(stf_model *m, int32_t statement, double *value, sunindextype *
     ++*count;
   }
   stf_builder_close(&b);
-  stf_graph_free(&g);
+  stf_formulas_free(&g);
   return m->syntax.sources.errors ? stf_complaints(&m->syntax.sources) : code;
 }
 

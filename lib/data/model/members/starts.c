@@ -99,7 +99,7 @@ static void missing(stf_model *m)
 
 int stf_build_start(stf_model *m)
 {
-  stf_graph g = {.ctx = m->ctx};
+  stf_formulas g = {.ctx = m->ctx};
   stf_builder b;
   int code = stf_builder_open(&b, m, &g, true);
   for (size_t i = 0; !code && i < m->syntax.statements.count; i++) {
@@ -107,7 +107,7 @@ int stf_build_start(stf_model *m)
     if (s->kind == STF_SAY_STATE) code = start(m, &b, s);
   }
   stf_builder_close(&b);
-  stf_graph_free(&g);
+  stf_formulas_free(&g);
   if (!code) missing(m);
   const int told = stf_complaints(&m->syntax.sources);
   return told ? told : code;

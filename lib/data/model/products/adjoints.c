@@ -4,7 +4,7 @@
 #include <string.h>
 
 typedef struct adjoints {
-  stf_graph *g;
+  stf_formulas *g;
   stf_vector of; /* int32_t: 1 + node, 0: none */
 } adjoints;
 
@@ -19,7 +19,7 @@ static int add(const adjoints *s, int32_t node, int32_t part)
 
 /* The weight of the row of an equation. Rows that are no multiples of counters have places of their
  * own, behind the others, pass by pass. */
-static int32_t weight(const stf_block *block, stf_graph *g, const stf_equation *e,
+static int32_t weight(const stf_block *block, stf_formulas *g, const stf_equation *e,
                       int64_t *rows)
 {
   if (!e->slot) return stf_leaf(g, STF_OP_WEIGHT, e->row, e->stride);

@@ -39,7 +39,7 @@ static int one(stf_model *m, stf_builder *b, const stf_expression *e, int k, dou
 {
   int32_t node;
   STEIF_TRY(stf_build(b, e, &node));
-  STEIF_TRY(stf_graph_differentiate(b->g, node, STF_OP_PARAMETER, &m->sweep, &m->partials));
+  STEIF_TRY(stf_formulas_differentiate(b->g, node, STF_OP_PARAMETER, &m->sweep, &m->partials));
   for (size_t i = 0; i < m->partials.count; i++) {
     const stf_partial p = *STF_AT(m->partials, stf_partial, i);
     if (stf_node_at(b->g, p.leaf)->a == k) return stf_fixed_value(m, b->g, p.value, to);
@@ -63,7 +63,7 @@ static int of_statement(stf_model *m, stf_builder *b, const stf_statement *said,
 
 static int of_text(stf_model *m, int k, double *S0)
 {
-  stf_graph g = {.ctx = m->ctx};
+  stf_formulas g = {.ctx = m->ctx};
   stf_builder b;
   int code = stf_builder_open(&b, m, &g, false);
   for (size_t i = 0; !code && i < m->syntax.statements.count; i++) {
@@ -71,7 +71,7 @@ static int of_text(stf_model *m, int k, double *S0)
     if (s->kind == STF_SAY_STATE) code = of_statement(m, &b, s, k, S0);
   }
   stf_builder_close(&b);
-  stf_graph_free(&g);
+  stf_formulas_free(&g);
   return code;
 }
 

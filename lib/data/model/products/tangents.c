@@ -4,7 +4,7 @@
 #include <string.h>
 
 typedef struct tangents {
-  stf_graph *g;
+  stf_formulas *g;
   stf_vector live, along; /* uint8_t; int32_t: 1 + node, 0: none */
 } tangents;
 
@@ -14,7 +14,7 @@ static int32_t *along(const tangents *s, int32_t node)
 }
 
 /* The direction of a leaf; -2: it does not move. */
-static int32_t of_leaf(stf_graph *g, stf_node n)
+static int32_t of_leaf(stf_formulas *g, stf_node n)
 {
   const int32_t stride[STF_LOOPS] = {n.b, n.stride[0], n.stride[1]};
   switch (n.kind) {

@@ -175,9 +175,9 @@ static const char *of_two(const machine *m, const stf_node *n, const stf_series 
 }
 
 /* A branch that is not taken may have no series: NaN until it is chosen. */
-int stf_taylor(const stf_graph *g, int32_t root, const stf_feed *feed, const stf_curve *curve,
-               const int32_t *counter, int order, stf_sweep *sweep, double *value,
-               const char **why)
+int stf_taylor(const stf_formulas *g, int32_t root, const stf_feed *feed,
+               const stf_curve *curve, const int32_t *counter, int order, stf_sweep *sweep,
+               double *value, const char **why)
 {
   int32_t child[3];
   const char *unused = NULL;

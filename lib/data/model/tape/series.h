@@ -14,9 +14,9 @@ typedef struct stf_curve {
 
 /* The coefficients 0 .. order of `root` at feed->t; without a curve it has no unknowns. STEIF_RETRY:
  * they are not known there, and *why (or NULL) says of which operation, if it was NULL before. */
-int stf_taylor(const stf_graph *g, int32_t root, const stf_feed *feed, const stf_curve *curve,
-               const int32_t *counter, int order, stf_sweep *sweep, double *value,
-               const char **why);
+int stf_taylor(const stf_formulas *g, int32_t root, const stf_feed *feed,
+               const stf_curve *curve, const int32_t *counter, int order, stf_sweep *sweep,
+               double *value, const char **why);
 
 /* special_series.c: NULL, or why there is no series; w: 4 series of scratch. */
 const char *stf_special_series(int kind, int n, const stf_series *a, stf_series *u,

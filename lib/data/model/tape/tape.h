@@ -64,7 +64,7 @@ typedef struct stf_feed {
 } stf_feed;
 
 /* Outputs are nodes with a destination (`from` is the node). */
-int stf_tape_compile(const stf_graph *g, const stf_box *box, size_t count,
+int stf_tape_compile(const stf_formulas *g, const stf_box *box, size_t count,
                      const stf_store *outputs, stf_tape *tape);
 /* fuse.c: products and the sums that need them as one instruction. */
 int stf_tape_fuse(steif_context *ctx, stf_tape *tape);

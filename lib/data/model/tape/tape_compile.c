@@ -4,7 +4,7 @@
 #include <string.h>
 
 typedef struct compiler {
-  const stf_graph *g;
+  const stf_formulas *g;
   stf_tape *tape;
   stf_vector scalar, lane; /* 1 + register of each node; 0: none yet */
   stf_vector live;         /* uint8_t */
@@ -160,7 +160,7 @@ static void states_first(stf_tape *t)
   }
 }
 
-int stf_tape_compile(const stf_graph *g, const stf_box *box, size_t count,
+int stf_tape_compile(const stf_formulas *g, const stf_box *box, size_t count,
                      const stf_store *outputs, stf_tape *tape)
 {
   compiler c = {.g = g, .tape = tape};
