@@ -144,7 +144,7 @@ static void large_ones_are_counted(void)
   steif_problem p = {0};
   CHECK(steif_model_parse(ctx, text, "m.steif", NULL, &p) == STEIF_BAD_INPUT);
   CHECK(!!strstr(steif_message(ctx), "20000 equations for 20001 unknowns: nothing determines "
-                                     "'z20000' (line 40001), or else one of 'z1', 'z2'"));
+                                     "'z20000' (line 40000), or else one of 'z1', 'z2'"));
   steif_context_free(&ctx);
   free(text);
 }
