@@ -10,10 +10,15 @@
     steif.weak("bdf:p=2", E, F, x0)             # does the method converge to them
     steif.c2d(A, B, dt=0.1, scheme="foh")       # x' = A x + B u on a time grid
 
+    steif.sensitivity(f, (t0, t1), y0, p=[0.04])           # dy/dp of y' = f(t, y, *p)
+    steif.fit(f, t, data, p=[0.1], y0=y0)                  # p from measurements
+    steif.sweep("lotka.steif", {"p1": [1.4, 1.5, 1.6]})    # many runs on all cores
+
 The library is found by the environment variable STEIF_LIBRARY, else beside this file, else by the loader.
 """
 from ._library import SteifError, version
 from ._linear import c2d, impulse, weak
+from ._parameters import fit, sensitivity, sweep
 from ._solve import Result, solve
 
-__all__ = ["solve", "impulse", "weak", "c2d", "Result", "SteifError", "version"]
+__all__ = ["solve", "sensitivity", "fit", "sweep", "impulse", "weak", "c2d", "Result", "SteifError", "version"]

@@ -1,6 +1,8 @@
 /* layout.c: offsets of members by name.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <steif/discrete.h>
+#include <steif/ensemble.h>
+#include <steif/fit.h>
 #include <steif/layout.h>
 #include <steif/solver.h>
 #include <steif/weak.h>
@@ -21,6 +23,7 @@ static const struct {
   AT(problem, E), AT(problem, A), AT(problem, user), AT(problem, storage), AT(problem, nnz),
   AT(problem, pattern), AT(problem, index), AT(problem, dae_index), AT(problem, linear),
   AT(problem, names), AT(problem, events), AT(problem, event), AT(problem, event_list),
+  AT(problem, parameters),
 
   SIZE(pattern), AT(pattern, column), AT(pattern, row),
   SIZE(names), AT(names, equation), AT(names, unknown),
@@ -29,6 +32,20 @@ static const struct {
   SIZE(options), AT(options, rtol), AT(options, atol), AT(options, atols), AT(options, h),
   AT(options, h0), AT(options, h_max), AT(options, t1), AT(options, max_steps),
   AT(options, observe), AT(options, on_event), AT(options, stop),
+
+  AT(options, sensitivities), AT(options, active_count), AT(options, active),
+
+  SIZE(parameters), AT(parameters, count), AT(parameters, value), AT(parameters, name),
+  SIZE(measurements), AT(measurements, count), AT(measurements, t), AT(measurements, value),
+  AT(measurements, sd), AT(measurements, component),
+  SIZE(fit_options), AT(fit_options, run), AT(fit_options, count), AT(fit_options, parameter),
+  AT(fit_options, start), AT(fit_options, low), AT(fit_options, high), AT(fit_options, scale),
+  AT(fit_options, starts),
+  SIZE(fit), AT(fit, count), AT(fit, log), AT(fit, p), AT(fit, sd), AT(fit, low), AT(fit, high),
+  AT(fit, covariance), AT(fit, correlation), AT(fit, undetermined), AT(fit, chi2), AT(fit, dof),
+  AT(fit, residuals), AT(fit, residual), AT(fit, runs), AT(fit, message),
+  SIZE(ensemble_options), AT(ensemble_options, problem), AT(ensemble_options, method),
+  AT(ensemble_options, options), AT(ensemble_options, threads), AT(ensemble_options, stop),
 
   SIZE(stats), AT(stats, steps), AT(stats, rejected), AT(stats, nfe), AT(stats, nje),
   AT(stats, nlu), AT(stats, nsolve), AT(stats, cpu_s),
