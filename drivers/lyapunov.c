@@ -42,7 +42,8 @@ static const struct option options[] = {
   {"--window", POSITIVE, "W", "length of the windows (default: a tenth of what is averaged)",
    NULL},
   {"--period", POSITIVE, "P",
-   "period of A(t) in x' = A(t) x, a whole number of steps: multipliers of the recurrence",
+   "period of A(t) in x' = A(t) x, a whole number of steps: multipliers of the recurrence "
+   "(the verdict looks for one itself)",
    NULL},
   {"--steps", COUNT, "M", "steps in the period P, instead of --h: h = P/M", NULL},
   {"--search", FLAG, NULL, "look for the longest steps that keep the decay in any case", NULL},

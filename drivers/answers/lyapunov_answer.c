@@ -77,7 +77,10 @@ static void fill_decay(steif_report *r, const struct lyapunov_answer *a)
   if (!a->judged) return;
   steif_report_whole(r, "decision", d->verdict);
   report_members(r, "", rates, d);
-  if (d->period > 0) steif_report_real(r, "period", d->period);
+  if (d->period > 0) {
+    steif_report_real(r, "period", d->period);
+    steif_report_truth(r, "period_found", d->found);
+  }
   if (d->h_good > 0) {
     steif_report_real(r, "h_star", d->h_good);
     report_maybe(r, "", "h_too_long", d->h_bad < 1e300, d->h_bad);

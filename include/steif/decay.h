@@ -1,7 +1,7 @@
 /* steif/decay.h: does a linear equation or the linearisation of y' = f(t, y) decay, do the numbers of a
  * method with a constant step, and for which steps?
  *
- * What is said of the equation does not come from the steps of the method. With a period P of A(t) it is
+ * What is said of the equation does not come from the steps of the method. With a period P of A(t), told or found, it is
  * the monodromy matrix over P by gauss:s=6 (a DAE of index 1: radau:s=5), with more and more steps until
  * its largest multiplier does not change: exponent ln |rho| / P. Without, discrete QR along the same
  * method with steps h0, h0/1.618, h0/2.618, ..., whose ratios leave no common phase of sampling, from the same
@@ -42,7 +42,7 @@ typedef struct steif_decay {
   sunrealtype lambda, lambda_error, mu, mu_error;
   sunrealtype rise, rise_numbers;
   int periodic;       /* lambda comes from multipliers */
-  sunrealtype period; /* of A(t); 0: none is known */
+  sunrealtype period; /* of A(t); 0: none is known or found */
   int turns,
     parts; /* h (1 +- 1e-3) is `turns` periods / `parts`, parts <= 4: every step samples the
                          same phases; 0: no */
@@ -57,9 +57,12 @@ typedef struct steif_decay {
     tail; /* 1: beyond, the error mu - lambda falls like a power of h on two octaves and is below
                     |lambda|/2: measured, not proven */
   char sentence[600];
+  int found; /* 1: the period was neither told nor the problem's: A(t) came back after it */
 } steif_decay;
 
-/* options: h, t1, transient as for steif_lyapunov. period: 0: that of the problem; without one QR. search:
+/* options: h, t1, transient as for steif_lyapunov. period: 0: that of the problem, or for x' = A(t) x one that
+ * is looked for: from h/64 to a third of the run, and every entry of A comes back, to rounding, at 256 times
+ * after any number of periods; without one QR. STEIF_BAD_INPUT where A(t + period) is not A(t). search:
  * 1: look for h* in any case. Problems as for steif_lyapunov, n <= 64 (else STEIF_UNSUPPORTED). */
 STEIF_EXPORT int steif_decay_find(steif_context *ctx, const steif_problem *problem,
                                   const char *method, const steif_lyapunov_options *options,

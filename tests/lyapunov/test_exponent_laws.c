@@ -211,8 +211,9 @@ static void short_memory_is_told(void)
     mine.refuse_at = mine.served + k;
     code = steif_problem_find(ctx, "steyer", &p);
     if (code == STEIF_OK)
-      code =
-        measure(ctx, &p, "bdf:p=2", (steif_lyapunov_options){.h = 0.1, .t1 = 4}, 0, 1).code;
+      code = measure(ctx, &p, "bdf:p=2", (steif_lyapunov_options){.h = 2 * pi / 64, .t1 = 4}, 0,
+                     2 * pi)
+               .code;
     CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
     steif_problem_clear(ctx, &p);
     steif_context_free(&ctx);

@@ -3,6 +3,7 @@
  * the recurrence.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "lyapunov_thresholds.h"
+#include "period_search.h"
 #include "variation.h"
 #include "lapack.h"
 #include <math.h>
@@ -77,6 +78,15 @@ static int multipliers(steif_context *ctx, int d, sunrealtype *Phi, sunrealtype 
   return STEIF_OK;
 }
 
+/* Is it one of A(t)? */
+static int tested(stf_pool *pool, trial *t, const steif_problem *p, sunrealtype period)
+{
+  stf_variation v;
+  STEIF_TRY(
+    stf_variation_open(pool, t->ctx, p, "be", t->facts->h, p->t0 + t->facts->h, 1, 1, &v));
+  return stf_period_tested(&v, t->facts->end, period);
+}
+
 static int recurrence(stf_pool *pool, trial *t, const steif_problem *p, const char *method,
                       sunrealtype period)
 {
@@ -91,6 +101,7 @@ static int recurrence(stf_pool *pool, trial *t, const steif_problem *p, const ch
               "= %.17g makes "
               "%.0f",
               period / t->facts->h, t->facts->h, period, period / fmax(m, 1), fmax(m, 1));
+  STEIF_TRY(tested(pool, t, p, period));
   sunrealtype *Phi = stf_pool_array(pool, d * d + (2 + WORK) * d, sizeof *Phi);
   if (!Phi) return STEIF_NO_MEMORY;
   sunrealtype *rate = Phi + d * d;

@@ -21,7 +21,8 @@ typedef struct stf_question {
   const char *method;                /* of the numbers */
   const char *exact;                 /* of the equation */
   sunrealtype t1, transient, period; /* period 0: none, or not linear */
-  bool linear;
+  bool linear, found;                /* found: the period was looked for */
+  sunrealtype off; /* A(t + period) - A(t) of a period found: exponents are not known better */
   const volatile int *stop;
 } stf_question;
 

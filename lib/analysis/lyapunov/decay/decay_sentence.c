@@ -107,13 +107,16 @@ static sunrealtype below(sunrealtype h)
 
 void stf_decay_tell(const stf_question *q, steif_decay *d)
 {
-  if (d->lambda < 0 && d->h_good > 0 && isfinite(d->h_bad))
-    add(d, "; they decay for h below %.3g", below(d->h_good));
-  else if (d->lambda < 0 && d->h_good > 0)
-    add(d, "; they decay for every h tried up to %.3g", below(d->h_good));
+  /* Between steps that were tried there may be bad ones, near fractions of a period: those are tried where
+   * it is known. */
+  const bool all = d->periodic && isfinite(d->h_bad);
+  if (d->lambda < 0 && d->h_good > 0)
+    add(d, all ? "; they decay for h below %.3g" : "; they decay for every h tried up to %.3g",
+        below(d->h_good));
   if (d->most > 0)
     add(d, " (all h = P/m, m = %ld .. %ld; beyond: %s)", d->least, d->most,
         d->tail ? "measured, not proven" : "not known");
+  if (d->found) add(d, "; all entries of A come back after %.10g: its period", d->period);
   if (d->turns > 0 && d->parts == 1)
     add(d, "; h is %d time(s) the period %.6g of %s: every step samples the same phase",
         d->turns, d->period, q->linear ? "A" : "f");

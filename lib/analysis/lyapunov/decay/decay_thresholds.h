@@ -34,6 +34,16 @@
 #define STF_SEARCH_STEPS 4000000
 /* Steps this close are one. */
 #define STF_SEARCH_SMALLEST 1e-5
+/* A period that is looked for. Every entry comes back at so many times, to so many roundings of t and of A; s
+ * varies by more than this part of its size; a lag is tried below this part of the largest mean square, and
+ * given up where s is off by more than that part of its range. A period that was told is one to so much of the
+ * largest entry, as if written with six digits. */
+#define STF_PERIOD_POINTS 256
+#define STF_PERIOD_ROUNDING 16
+#define STF_PERIOD_VARIES 1e-9
+#define STF_PERIOD_MINIMUM 0.1
+#define STF_PERIOD_NEAR 1e-6
+#define STF_PERIOD_TOLD 1e-4
 /* The tail: orders seen on two octaves agree to this. */
 #define STF_TAIL_AGREES 0.2
 

@@ -118,7 +118,7 @@ static int measure(stf_pool *pool, const stf_question *q, const char *method, lo
   STEIF_TRY(stretch(&a, steps, &second));
   const sunrealtype rounding = STF_EPS * sqrt((sunrealtype)steps) * 4;
   *rate = (stf_rate){.value = second / span,
-                     .error = (fabs(second - first) + rounding) / span,
+                     .error = (fabs(second - first) + rounding) / span + q->off,
                      .steps = 2 * steps + burn};
   return STEIF_OK;
 }
