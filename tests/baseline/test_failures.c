@@ -83,7 +83,7 @@ static void values_that_are_not_finite(void)
     for (int k = 0; k < 2; k++) {
       const sunrealtype value = k ? INFINITY : NAN;
       CHECK(outcome(all[e], (trouble){.value = value, .from = 0.71},
-                    WORDS("component 1 of f was not finite at t = 0.7")) == STEIF_NOT_FINITE);
+                    WORDS("component 2 of f was not finite at t = 0.7")) == STEIF_NOT_FINITE);
       CHECK(outcome(all[e], (trouble){.value = value, .from = -1}, WORDS("t = 0")) ==
             STEIF_NOT_FINITE);
       CHECK(outcome(all[e], (trouble){.value = value, .from = -1, .jacobian = 1},

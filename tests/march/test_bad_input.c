@@ -103,7 +103,7 @@ static void callbacks_that_fail_are_named(void)
 {
   for (int m = 0; m < METHODS; m++) {
     fails(F_NAN, methods[m], STEIF_NOT_FINITE,
-          "component 0 of f of problem 'wrong' is not finite at the start, t = 1: correct");
+          "component 1 of f of problem 'wrong' is not finite at the start, t = 1: correct");
     fails(F_REFUSES, methods[m], STEIF_CALLBACK, "f of problem 'wrong' could not be evaluated");
     fails(F_STOPS, methods[m], STEIF_CALLBACK, "(it returned -3)");
     fails(F_RESIZES, methods[m], STEIF_BAD_INPUT,

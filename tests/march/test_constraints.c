@@ -28,7 +28,7 @@ static void a_solution_that_leaves_is_told(void)
     steif_solver *s = smooth_open(ctx, &p, methods[m], &o);
     const int code = steif_solve_to(s, 2);
     CHECK(ours ? code == STEIF_INFEASIBLE : code < 0);
-    CHECK(!ours || strstr(steif_message(ctx), "component 0 of problem 'leave' becomes -"));
+    CHECK(!ours || strstr(steif_message(ctx), "component 1 of problem 'leave' becomes -"));
     CHECK(!ours || NV_Ith_S(steif_solution(s), 0) >= 0);
     if (ours) CLOSE(steif_time(s), 0.5, 1e-3);
     steif_solver_free(&s);
@@ -84,7 +84,7 @@ static void bad_constraints_are_refused(void)
   smooth_refused(&p, "radau:s=3", NULL, STEIF_BAD_INPUT, "constraint[1] = 3 of problem 'p'");
   p.constraint = sign;
   smooth_refused(&p, "radau:s=3", NULL, STEIF_INFEASIBLE,
-                 "component 1 of problem 'p' is -1e-09 at the start, t = 0, and is declared to "
+                 "component 2 of problem 'p' is -1e-09 at the start, t = 0, and is declared to "
                  "be >= 0");
   smooth_refused(&p, "rk4", &(steif_options){.h = 0.1}, STEIF_INFEASIBLE,
                  "declared to be >= 0");

@@ -182,9 +182,9 @@ static void what_does_not_split_is_refused(void)
   p.positions = 2;
   refused(&p, "verlet", 0.1, STEIF_BAD_INPUT, "positions = 2");
   p = forced, p.f = mixed;
-  refused(&p, "rkn6", 0.1, STEIF_UNSUPPORTED, "component 1 of f");
+  refused(&p, "rkn6", 0.1, STEIF_UNSUPPORTED, "component 2 of f");
   p = forced, p.kick = wrong_kick;
-  refused(&p, "verlet", 0.1, STEIF_BAD_INPUT, "component 1 of kick");
+  refused(&p, "verlet", 0.1, STEIF_BAD_INPUT, "component 2 of kick");
   p = forced, p.unit_mass = 1;
   p.t0 = 0.2;
   refused(&p, "verlet", 0.1, STEIF_BAD_INPUT, "says q' = p");

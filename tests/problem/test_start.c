@@ -163,18 +163,18 @@ static void bad_starts_are_refused(void)
   steif_problem p = {.name = "p", .n = 2, .t0 = 0.5, .t1 = 1, .y0 = y0, .f = f};
   refused((give){.returned = 1}, p, STEIF_CALLBACK, "f of problem 'p' could not be evaluated");
   refused((give){.value = NAN}, p, STEIF_NOT_FINITE,
-          "component 0 of f of problem 'p' is not finite at the start, t = 0.5");
+          "component 1 of f of problem 'p' is not finite at the start, t = 0.5");
   p.E = unit;
   refused((give){.returned = 1}, p, STEIF_CALLBACK, "f of problem 'p' could not be evaluated");
-  refused((give){.value = NAN}, p, STEIF_NOT_FINITE, "component 0 of f of problem 'p'");
+  refused((give){.value = NAN}, p, STEIF_NOT_FINITE, "component 1 of f of problem 'p'");
   p.f = NULL, p.A = unit, p.g = g;
-  refused((give){.value = NAN}, p, STEIF_NOT_FINITE, "component 1 of g of problem 'p'");
+  refused((give){.value = NAN}, p, STEIF_NOT_FINITE, "component 2 of g of problem 'p'");
   p.E = p.A = NULL, p.g = NULL, p.F = undefined, p.yp0 = yp0;
-  refused((give){.value = 1}, p, STEIF_NOT_FINITE, "component 1 of F of problem 'p'");
+  refused((give){.value = 1}, p, STEIF_NOT_FINITE, "component 2 of F of problem 'p'");
   p.yp0 = NULL;
   p.f = NULL, p.F = F, p.start = begin;
   refused((give){.returned = 1}, p, STEIF_CALLBACK, "start of problem 'p' returned 1");
-  refused((give){.value = INFINITY}, p, STEIF_NOT_FINITE, "start value 0 of problem");
+  refused((give){.value = INFINITY}, p, STEIF_NOT_FINITE, "start value 1 of problem");
 }
 
 CU_TestInfo tests_of_start[] = {

@@ -92,7 +92,7 @@ static void describe_fault(const stf_baseline *base, size_t room, char *text)
              base->fault.t);
   else if (base->fault.at >= 0)
     snprintf(text, room, "; component %lld of %s was not finite at t = %.12g",
-             (long long)base->fault.at, base->fault.who, base->fault.t);
+             (long long)base->fault.at + 1, base->fault.who, base->fault.t);
   else
     snprintf(text, room, "; %s was not finite at t = %.12g", base->fault.who, base->fault.t);
 }
@@ -137,7 +137,7 @@ static int check_solution(const stf_baseline *base)
   return STEIF_FAIL(run->ctx, STEIF_NOT_FINITE,
                     "%s returned component %lld of y that is not finite at t = %.12g after %ld "
                     "steps and called it success; look for overflow in f",
-                    base->package, (long long)at, run->t, run->stats.steps);
+                    base->package, (long long)at + 1, run->t, run->stats.steps);
 }
 
 int stf_baseline_verdict(stf_baseline *base, int flag, sunrealtype h, int order)

@@ -283,7 +283,7 @@ static int separable(stf_kick_drift *h, const char *name, N_Vector y, N_Vector s
       i < 0, s->ctx, STEIF_UNSUPPORTED,
       "'%s' splits q' = T_p(p), p' = -V_q(q), but component %lld of f of problem '%s', "
       "of %c', changes with %c: it is not separable; take gauss:s=2",
-      name, (long long)i, p->name, half_name, half_name);
+      name, (long long)i + 1, p->name, half_name, half_name);
   }
   return STEIF_OK;
 }
@@ -303,7 +303,7 @@ static int same(stf_kick_drift *h, N_Vector y, N_Vector slope, N_Vector f)
     STEIF_CHECK(
       i < 0, s->ctx, STEIF_BAD_INPUT,
       "component %lld of %s of problem '%s' is %.17g at the start, that of f is %.17g",
-      (long long)i, what[k], p->name, STF_ARRAY(f)[i < 0 ? 0 : i],
+      (long long)i + 1, what[k], p->name, STF_ARRAY(f)[i < 0 ? 0 : i],
       STF_ARRAY(slope)[i < 0 ? 0 : i]);
   }
   for (sunindextype i = 0; p->unit_mass && i < h->m; i++)

@@ -76,7 +76,7 @@ static int first_call(steif_context *ctx, const steif_problem *p, int form, bool
     stf_finite(&space, out), ctx, STEIF_NOT_FINITE,
     "component %lld of %s of problem '%s' is not finite at the start, t = %g: correct "
     "the start or the equations",
-    (long long)stf_not_finite(out), what, p->name, p->t0);
+    (long long)stf_not_finite(out) + 1, what, p->name, p->t0);
   return STEIF_OK;
 }
 
@@ -85,11 +85,11 @@ int stf_system_start(steif_context *ctx, const steif_problem *p, int form,
 {
   STEIF_TRY(stf_start_values(ctx, p, y, yp));
   STEIF_CHECK(stf_finite(space, y), ctx, STEIF_NOT_FINITE,
-              "start value %lld of problem '%s' is not finite", (long long)stf_not_finite(y),
-              p->name);
+              "start value %lld of problem '%s' is not finite",
+              (long long)stf_not_finite(y) + 1, p->name);
   STEIF_CHECK(stf_finite(space, yp), ctx, STEIF_NOT_FINITE,
               "slope %lld at the start of problem '%s' is not finite",
-              (long long)stf_not_finite(yp), p->name);
+              (long long)stf_not_finite(yp) + 1, p->name);
   *known = p->yp0 || p->start || form == STEIF_ODE;
   if (form == STEIF_ODE) return first_call(ctx, p, form, true, y, yp, yp);
   stf_pool *pool = stf_pool_new(ctx);

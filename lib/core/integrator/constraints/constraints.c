@@ -39,7 +39,7 @@ int stf_constraint_check(steif_solver *s, sunrealtype t, N_Vector v, const char 
       holds(p->constraint[i], y[i]), s->ctx, STEIF_INFEASIBLE,
       "component %lld of problem '%s' is %.9g %s, t = %.12g, and is declared to be %s: "
       "correct the value or .constraint",
-      (long long)i, p->name, y[i], where, t, sign_of(p->constraint[i]));
+      (long long)i + 1, p->name, y[i], where, t, sign_of(p->constraint[i]));
   return STEIF_OK;
 }
 
@@ -72,7 +72,7 @@ static int left(steif_solver *s, sunindextype i, sunrealtype y, sunrealtype h)
     "component %lld of problem '%s' becomes %.9g in the step of %.3g from t = "
     "%.12g, and is declared to be %s: the solution leaves the constraint there, "
     "or the tolerance (with prescribed steps the step) is too large",
-    (long long)i, s->problem->name, y, h, s->step.t, sign_of(s->problem->constraint[i]));
+    (long long)i + 1, s->problem->name, y, h, s->step.t, sign_of(s->problem->constraint[i]));
 }
 
 int stf_constraint_keep(steif_solver *s, sunrealtype h, int tries)
