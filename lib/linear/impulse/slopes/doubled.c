@@ -15,8 +15,8 @@ sunindextype stf_matrix_order(SUNMatrix M)
 
 bool stf_entries_next(stf_entries *at, sunindextype *i, sunindextype *j, sunrealtype *value)
 {
-  const sunindextype n = at->M ? stf_matrix_order(at->M) : 0;
-  for (; at->j < n; at->j++, at->k = 0) {
+  const sunindextype n = at->M ? stf_matrix_order(at->M) : 0, end = at->end ? at->end : n;
+  for (; at->j < end && n; at->j++, at->k = 0) {
     const sunindextype from = sparse(at->M) ? SM_INDEXPTRS_S(at->M)[at->j] : 0;
     const sunindextype count = sparse(at->M) ? SM_INDEXPTRS_S(at->M)[at->j + 1] - from : n;
     if (at->k >= count) continue;
@@ -46,10 +46,10 @@ static int no_memory(steif_context *ctx, sunindextype n)
 static void append(SUNMatrix to, SUNMatrix M, sunindextype j, sunindextype below,
                    sunrealtype factor, sunindextype *count)
 {
-  stf_entries at = {M, j, 0};
+  stf_entries at = {M, j, 0, j + 1};
   sunindextype i, column;
   sunrealtype value;
-  while (stf_entries_next(&at, &i, &column, &value) && column == j) {
+  while (stf_entries_next(&at, &i, &column, &value)) {
     if (value == 0) continue;
     SM_INDEXVALS_S(to)[*count] = i + below;
     SM_DATA_S(to)[(*count)++] = factor * value;
@@ -81,9 +81,9 @@ static SUNMatrix dense_pair(const stf_doubled *d, SUNMatrix M, SUNMatrix slope)
   sunrealtype value;
   if (!to) return NULL;
   SUNMatZero(to);
-  for (stf_entries at = {M, 0, 0}; stf_entries_next(&at, &i, &j, &value);)
+  for (stf_entries at = {M, 0, 0, 0}; stf_entries_next(&at, &i, &j, &value);)
     SM_ELEMENT_D(to, i, j) += value, SM_ELEMENT_D(to, n + i, n + j) += value;
-  for (stf_entries at = {slope, 0, 0}; stf_entries_next(&at, &i, &j, &value);)
+  for (stf_entries at = {slope, 0, 0, 0}; stf_entries_next(&at, &i, &j, &value);)
     SM_ELEMENT_D(to, n + i, j) += d->unit * value;
   return to;
 }
@@ -154,10 +154,10 @@ static SUNMatrix sparse_sum(steif_context *ctx, SUNMatrix from, SUNMatrix slope,
     const sunindextype first = count;
     append(to, from, j, 0, 1, &count);
     const sunindextype own = count;
-    stf_entries at = {slope, j, 0};
+    stf_entries at = {slope, j, 0, j + 1};
     sunindextype i, column;
     sunrealtype value;
-    while (stf_entries_next(&at, &i, &column, &value) && column == j) {
+    while (stf_entries_next(&at, &i, &column, &value)) {
       sunindextype k = first;
       while (k < own && SM_INDEXVALS_S(to)[k] != i) k++;
       if (k == own) SM_INDEXVALS_S(to)[k = count++] = i, SM_DATA_S(to)[k] = 0;
@@ -178,7 +178,7 @@ SUNMatrix stf_moved_matrix(steif_context *ctx, SUNMatrix from, SUNMatrix slope, 
     to = sparse_sum(ctx, from, slope, by);
   } else if ((to = SUNDenseMatrix(n, n, steif_sundials(ctx)))) {
     SUNMatCopy(from, to);
-    for (stf_entries at = {slope, 0, 0}; stf_entries_next(&at, &i, &j, &value);)
+    for (stf_entries at = {slope, 0, 0, 0}; stf_entries_next(&at, &i, &j, &value);)
       SM_ELEMENT_D(to, i, j) += by * value;
   }
   if (!to) no_memory(ctx, n);

@@ -27,10 +27,10 @@ int stf_doubled_force(sunrealtype t, int derivative, N_Vector g, void *user);
 /* E + by E_p as `from`, new. NULL: short of memory, said. */
 SUNMatrix stf_moved_matrix(steif_context *ctx, SUNMatrix from, SUNMatrix slope, sunrealtype by);
 
-/* Visits the entries of a dense matrix or of one by columns. */
+/* Visits the entries of a dense matrix or of one by columns, from column j up to `end`; 0: all. */
 typedef struct stf_entries {
   SUNMatrix M;
-  sunindextype j, k;
+  sunindextype j, k, end;
 } stf_entries;
 bool stf_entries_next(stf_entries *at, sunindextype *i, sunindextype *j, sunrealtype *value);
 sunindextype stf_matrix_order(SUNMatrix M);

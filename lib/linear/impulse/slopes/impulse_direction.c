@@ -177,7 +177,7 @@ static bool zero(SUNMatrix M)
 {
   sunindextype i, j;
   sunrealtype value;
-  for (stf_entries at = {M, 0, 0}; stf_entries_next(&at, &i, &j, &value);)
+  for (stf_entries at = {M, 0, 0, 0}; stf_entries_next(&at, &i, &j, &value);)
     if (value != 0) return false;
   return true;
 }

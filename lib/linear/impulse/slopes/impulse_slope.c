@@ -35,7 +35,7 @@ static int check_slope(steif_context *ctx, const char *what, SUNMatrix slope, su
   STEIF_CHECK(stf_matrix_order(slope) == n, ctx, STEIF_BAD_INPUT,
               "%s has %lld columns, the system has %lld unknowns", what,
               (long long)stf_matrix_order(slope), (long long)n);
-  for (stf_entries at = {slope, 0, 0}; stf_entries_next(&at, &i, &j, &value);)
+  for (stf_entries at = {slope, 0, 0, 0}; stf_entries_next(&at, &i, &j, &value);)
     STEIF_CHECK(isfinite(value), ctx, STEIF_NOT_FINITE, "%s has %g in row %lld, column %lld",
                 what, value, (long long)i + 1, (long long)j + 1);
   return STEIF_OK;
@@ -61,10 +61,10 @@ static int check(const search *w)
 
 static sunrealtype at(SUNMatrix M, sunindextype row, sunindextype column)
 {
-  stf_entries look = {M, column, 0};
+  stf_entries look = {M, column, 0, column + 1};
   sunindextype i, j;
   sunrealtype value, sum = 0;
-  while (stf_entries_next(&look, &i, &j, &value) && j == column)
+  while (stf_entries_next(&look, &i, &j, &value))
     if (i == row) sum += value;
   return sum;
 }
@@ -73,7 +73,7 @@ static sunrealtype largest(SUNMatrix M)
 {
   sunindextype i, j;
   sunrealtype value, most = 0;
-  for (stf_entries look = {M, 0, 0}; stf_entries_next(&look, &i, &j, &value);)
+  for (stf_entries look = {M, 0, 0, 0}; stf_entries_next(&look, &i, &j, &value);)
     most = fmax(most, fabs(value));
   return most;
 }
@@ -85,7 +85,7 @@ static sunrealtype step_of(SUNMatrix M, SUNMatrix slope)
   sunindextype i, j;
   sunrealtype value, least = INFINITY;
   const sunrealtype most = slope ? largest(M) : 0;
-  for (stf_entries look = {slope, 0, 0}; stf_entries_next(&look, &i, &j, &value);) {
+  for (stf_entries look = {slope, 0, 0, 0}; stf_entries_next(&look, &i, &j, &value);) {
     const sunrealtype own = value != 0 ? fabs(at(M, i, j)) : 0;
     if (value != 0 && (own > 0 || most > 0))
       least = fmin(least, (own > 0 ? own : most) / fabs(value));
