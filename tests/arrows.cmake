@@ -10,6 +10,8 @@ cmake_minimum_required(VERSION 3.19)
 # the options and the statistics of solver.h, whose functions are those of the integrator.
 set(room_of_solver method)
 set(room_of_gradient checkpoint)
+set(room_of_direction checkpoint)
+set(room_of_hessian checkpoint)
 set(room_of_record integrator)
 set(room_of_sensitivity integrator)
 set(room_of_krylov integrator)

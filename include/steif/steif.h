@@ -7,8 +7,10 @@
 #include <steif/base.h>
 #include <steif/problem.h>
 #include <steif/gradient.h>
+#include <steif/hessian.h>
 #include <steif/index.h>
 #include <steif/consistent.h>
+#include <steif/direction.h>
 #include <steif/initial.h>
 #include <steif/krylov.h>
 #include <steif/layout.h>

@@ -3,9 +3,12 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_gradients[], tests_of_checkpoints[], tests_of_duality[],
-  tests_of_gradient_input[];
+  tests_of_gradient_input[], tests_of_directions[], tests_of_hessians[], tests_of_forms[];
 
 SUITE_MAIN({.pName = "gradients", .pTests = tests_of_gradients},
            {.pName = "checkpoints", .pTests = tests_of_checkpoints},
            {.pName = "duality", .pTests = tests_of_duality},
-           {.pName = "input", .pTests = tests_of_gradient_input})
+           {.pName = "input", .pTests = tests_of_gradient_input},
+           {.pName = "directions", .pTests = tests_of_directions},
+           {.pName = "hessians", .pTests = tests_of_hessians},
+           {.pName = "forms", .pTests = tests_of_forms})

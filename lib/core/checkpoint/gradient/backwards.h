@@ -1,12 +1,14 @@
 /* backwards.h: a run gone through backwards: records of its steps, their transposes, and the schedule by
  * which steps are made again.
  *
- * A record is a row of doubles: head, then Y_j and Y'_j of each point, then the error estimate.
+ * A record is a row of doubles: head, then Y_j and Y'_j of each point, then the error estimate; last, where second
+ * derivatives are wanted, what Y_j and Y'_j are along the line.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_BACKWARDS_H
 #define STF_BACKWARDS_H
 
+#include "direction_inside.h"
 #include "integrator.h"
 #include "stage_polynomial.h"
 #include <steif/gradient.h>
@@ -40,7 +42,7 @@ typedef struct stf_adjoint {
   double *side,
     *K; /* dense, of small systems or where sweeps do not converge; NULL: none yet */
   int *pivot;
-  bool direct;
+  bool direct, forward; /* the stages' own matrix is factored; K x = r is being solved */
   N_Vector *residual, *omega, product, total;
   long solves, factors;
 } stf_adjoint;
@@ -49,6 +51,8 @@ int stf_adjoint_open(stf_pool *pool, stf_system *system, int m, const steif_tabl
 /* Factors after the matrices at the points are filled: B/h of the method, m x m by rows. */
 int stf_adjoint_factor(stf_adjoint *a, sunrealtype t, sunrealtype h, const sunrealtype *B);
 int stf_adjoint_solve(stf_adjoint *a, N_Vector *r, N_Vector *w);
+/* K x = r, with the same factors. */
+int stf_adjoint_solve_forward(stf_adjoint *a, N_Vector *r, N_Vector *x);
 /* out += c M^T x, which 'E' or 'A' at a point. */
 void stf_adjoint_add(const stf_adjoint *a, int point, char which, sunrealtype c, N_Vector x,
                      N_Vector out);
@@ -56,6 +60,21 @@ void stf_adjoint_add(const stf_adjoint *a, int point, char which, sunrealtype c,
 void stf_add_transposed(SUNMatrix M, sunindextype n, sunrealtype c, const sunrealtype *x,
                         sunrealtype *out);
 void stf_add_dense(SUNMatrix M, sunindextype n, sunrealtype c, double *to, sunindextype ld);
+
+/* A run along a line of parameters and start values: dots are derivatives by theta, at 0. */
+typedef struct stf_pushed {
+  steif_direction *line;
+  stf_slopes *slopes; /* dF/dtheta */
+  N_Vector *Y, *Yp;   /* of the points of a step */
+  N_Vector y, kappa;  /* of y and, in chains, of the last slope, before the next step */
+  N_Vector *past;     /* BDF: y at 0, and values before */
+  N_Vector *x, *r;    /* of the stages */
+  SUNMatrix E, A;     /* at points of differences; E NULL: identity */
+  N_Vector at, slope_at;
+  N_Vector *bend_E, *bend_A; /* of the stages: derivatives of E^T w and A^T w, w held */
+  N_Vector *gy;              /* of the slopes of functionals */
+  sunrealtype *gp;
+} stf_pushed;
 
 typedef struct stf_backwards {
   steif_context *ctx;
@@ -66,34 +85,62 @@ typedef struct stf_backwards {
   stf_space space;
   sunindextype n;
   int count, P; /* functionals, parameters */
+  int
+    channels; /* count, or with a tangent twice that: channel count + i is the derivative of channel i */
+  stf_pushed *tangent; /* NULL: first derivatives only */
   enum stf_trace_kind kind;
   int points;
   bool adaptive;
-  size_t width;             /* doubles of a record */
+  size_t width, own;        /* doubles of a record; but for the tangents */
   const steif_table *table; /* collocation and chains */
   stf_stage_polynomial u;
   stf_adjoint adjoint;
   stf_slopes *slopes;
   N_Vector *Y, *Yp, *r, *w, before, work, error;
-  N_Vector *lambda, *kappa; /* of y and, in chains, of the last slope; by functionals */
+  N_Vector *lambda, *kappa; /* of y and, in chains, of the last slope; by channels */
   N_Vector *past[STF_PAST]; /* BDF: of values before */
   N_Vector *gy;
-  sunrealtype *gp, *g, *other, *nu; /* nu: BDF, weights of past values of the integral */
+  sunrealtype *Fp, *gp, *g, *other, *nu; /* nu: BDF, weights of past values of the integral */
   sunrealtype *value, *mu, *estimate;
 } stf_backwards;
 
 /* functional.c: B->g, B->gy and B->gp of the integrand, or of what is said of the end, at (t, y). */
 int stf_functional_at(stf_backwards *B, int at_end, sunrealtype t, N_Vector y);
-/* mu_i += c dF/dp^T w at (t, Y, Yp), B->value += c g_i and mu_i += c g_p. */
+/* out_k = w . dF/dp_k; and mu of a channel less that. */
+int stf_parameters_times(stf_backwards *B, sunrealtype t, N_Vector Y, N_Vector Yp, N_Vector w,
+                         sunrealtype *out);
 int stf_pull_parameters(stf_backwards *B, int i, sunrealtype t, N_Vector Y, N_Vector Yp,
                         N_Vector w);
 
 /* pull.c: lambda and mu through the step of a record. */
 int stf_pull(stf_backwards *B, const sunrealtype *record);
 int stf_pull_start(stf_backwards *B, sunrealtype t0, N_Vector y0, N_Vector yp0);
+/* The matrix of the stages of collocation at the points read. */
+int stf_factor_collocation(stf_backwards *B, const stf_head *head);
+
+/* push.c: the step of a record along the line, into the record. */
+int stf_push_open(stf_backwards *B, steif_direction *line);
+int stf_push_start(stf_backwards *B, sunrealtype t0, N_Vector y0, N_Vector yp0);
+int stf_push(stf_backwards *B, sunrealtype *record);
+void stf_push_read(stf_backwards *B, const sunrealtype *record);
+/* All that the next step is pushed from, `size` doubles of it, into or from a row. */
+size_t stf_push_size(const stf_backwards *B);
+void stf_push_keep(stf_backwards *B, sunrealtype *to);
+void stf_push_back(stf_backwards *B, const sunrealtype *from);
+
+/* curvature.c: derivatives of products along the line, by differences of two lengths extrapolated. Of w held at a
+ * point (Y, Yp) that moves with (dY, dYp): bend_E = (E^T w)', bend_A = (A^T w)', and mu of channel count + i less
+ * (F_p^T w)'. */
+int stf_bend(stf_backwards *B, int i, sunrealtype t, const N_Vector point[4], N_Vector w,
+             N_Vector bend_E, N_Vector bend_A);
+/* tangent->gy, gp: of the slopes of the integrand, or of what is said of the end. */
+int stf_bend_functional(stf_backwards *B, int at_end, sunrealtype t, N_Vector y, N_Vector dy);
+/* out = (dy0/dp_k)'. */
+int stf_bend_start(stf_backwards *B, int k, N_Vector out);
 
 /* step_record.c: the step just made by s, from `before`, into a record. */
 int stf_record_open(stf_backwards *B);
+void stf_record_read(stf_backwards *B, const sunrealtype *record); /* into Y, Yp and error */
 int stf_record_step(stf_backwards *B, steif_solver *s, N_Vector before, sunrealtype *record);
 
 /* revolve.c: how far to go from the first of l > 1 steps until the next image, with c images left, that at the

@@ -84,21 +84,22 @@ static int vectors(stf_backwards *B, int count, N_Vector **v)
 
 static int claim(stf_backwards *B)
 {
-  const size_t count = (size_t)B->count, P = (size_t)B->P;
+  const size_t count = (size_t)B->count, channels = (size_t)B->channels, P = (size_t)B->P;
   const int stages = B->table && B->kind != STF_TRACE_BDF ? B->table->s : 1;
   N_Vector **one[] = {&B->lambda, &B->kappa, &B->gy};
-  for (size_t i = 0; i < STF_COUNT(one); i++) STEIF_TRY(vectors(B, B->count, one[i]));
-  for (int j = 1; j < STF_PAST; j++) STEIF_TRY(vectors(B, B->count, &B->past[j]));
+  for (size_t i = 0; i < STF_COUNT(one); i++) STEIF_TRY(vectors(B, B->channels, one[i]));
+  for (int j = 1; j < STF_PAST; j++) STEIF_TRY(vectors(B, B->channels, &B->past[j]));
   STEIF_TRY(vectors(B, B->points, &B->Y));
   STEIF_TRY(vectors(B, B->points, &B->Yp));
-  STEIF_TRY(vectors(B, (stages + 1) * B->count, &B->r));
+  STEIF_TRY(vectors(B, (stages + 1) * B->channels, &B->r));
   STEIF_TRY(vectors(B, stages, &B->w));
   N_Vector *scratch[] = {&B->before, &B->work, &B->error};
   for (size_t i = 0; i < STF_COUNT(scratch); i++)
     if (!(*scratch[i] = stf_pool_vector(B->pool, B->space.like))) return STEIF_NO_MEMORY;
-  const size_t size[] = {count * P, count,     3 * count, STF_PAST * count,
-                         count,     count * P, 2 * count};
-  sunrealtype **array[] = {&B->gp, &B->g, &B->other, &B->nu, &B->value, &B->mu, &B->estimate};
+  const size_t size[] = {count * P, count,        3 * count, STF_PAST * count,
+                         count,     channels * P, 2 * count, P};
+  sunrealtype **array[] = {&B->gp,    &B->g,  &B->other,    &B->nu,
+                           &B->value, &B->mu, &B->estimate, &B->Fp};
   for (size_t i = 0; i < STF_COUNT(array); i++)
     if (!(*array[i] = stf_pool_array(B->pool, size[i] + 1, sizeof(sunrealtype))))
       return STEIF_NO_MEMORY;
@@ -114,6 +115,8 @@ static int open_back(stf_journey *J)
   STEIF_TRY(stf_record_open(B));
   STEIF_TRY(check_solver(J));
   B->space = system->space;
+  B->channels = J->line ? 2 * B->count : B->count;
+  if (J->line) B->width += 2 * (size_t)B->n * (size_t)B->points;
   STEIF_TRY(claim(B));
   const int m = B->kind == STF_TRACE_COLLOCATION ? B->table->s : 1;
   STEIF_TRY(stf_adjoint_open(B->pool, system, m, B->table, &B->adjoint));
@@ -121,16 +124,28 @@ static int open_back(stf_journey *J)
     STEIF_TRY(stf_transform_build(B->pool, B->ctx, B->table, &B->adjoint.transform));
   if (B->kind == STF_TRACE_COLLOCATION)
     STEIF_TRY(stf_stage_polynomial_open(B->pool, B->table, B->adjoint.transform.B, &B->u));
+  if (J->line) STEIF_TRY(stf_push_open(B, J->line));
   if (!B->P) return STEIF_OK;
   return stf_slopes_open(B->pool, B->ctx, B->problem, system->form, B->space.like, &B->slopes);
 }
 
-/* lambda, mu and J at the end. */
-static int at_end(stf_journey *J)
+static int bend_end(stf_backwards *B, const stf_step *last)
+{
+  const stf_pushed *D = B->tangent;
+  const size_t size = (size_t)(B->count * B->P);
+  STEIF_TRY(stf_bend_functional(B, 1, last->t, last->y, D->y));
+  for (int i = 0; i < B->count; i++) stf_copy(&B->space, D->gy[i], B->lambda[B->count + i]);
+  if (size) memcpy(B->mu + size, D->gp, size * sizeof *B->mu);
+  return STEIF_OK;
+}
+
+int stf_journey_end(stf_journey *J)
 {
   stf_backwards *B = &J->back;
+  J->ended = true;
   for (int i = 0; i < B->count; i++) B->nu[i] = 1;
   if (!B->functional->end) return STEIF_OK;
+  if (B->tangent) STEIF_TRY(bend_end(B, &J->runner->step));
   STEIF_TRY(stf_functional_at(B, 1, J->runner->step.t, J->runner->step.y));
   for (int i = 0; i < B->count; i++) {
     B->value[i] = B->g[i];
@@ -153,21 +168,39 @@ static int claim_results(stf_backwards *B, steif_gradient *g)
   return g->value && (g->dp || !P) && g->dy0 && g->error_estimate ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
+static int as_status(steif_context *ctx, int code)
+{
+  return code > 0 ? steif_status(ctx) : code;
+}
+
+/* dJ/dp_k = mu_k + (dy0/dp_k) . lambda, and its derivative along the line. */
+static int by_parameter(stf_journey *J, int k)
+{
+  stf_backwards *B = &J->back;
+  STEIF_TRY(as_status(B->ctx, steif_parameter_start(B->ctx, B->problem, k, B->work)));
+  for (int i = 0; i < B->count; i++)
+    J->out->dp[i * B->P + k] = B->mu[i * B->P + k] + N_VDotProd(B->work, B->lambda[i]);
+  if (!J->line) return STEIF_OK;
+  STEIF_TRY(as_status(B->ctx, stf_bend_start(B, k, B->error)));
+  for (int i = 0; i < B->count; i++)
+    J->Hp[i * B->P + k] = B->mu[(B->count + i) * B->P + k] +
+                          N_VDotProd(B->work, B->lambda[B->count + i]) +
+                          N_VDotProd(B->error, B->lambda[i]);
+  return STEIF_OK;
+}
+
 static int results(stf_journey *J)
 {
   stf_backwards *B = &J->back;
   steif_gradient *g = J->out;
+  const size_t size = (size_t)B->n * sizeof *g->dy0;
   STEIF_TRY(claim_results(B, g));
   for (int i = 0; i < B->count; i++) {
     g->value[i] = B->value[i], g->error_estimate[i] = B->estimate[i];
-    memcpy(g->dy0 + i * B->n, STF_ARRAY(B->lambda[i]), (size_t)B->n * sizeof *g->dy0);
+    memcpy(g->dy0 + i * B->n, STF_ARRAY(B->lambda[i]), size);
+    if (J->Hy0) memcpy(J->Hy0 + i * B->n, STF_ARRAY(B->lambda[B->count + i]), size);
   }
-  for (int k = 0; k < B->P; k++) {
-    const int code = steif_parameter_start(B->ctx, B->problem, k, B->work);
-    if (code) return code > 0 ? steif_status(B->ctx) : code;
-    for (int i = 0; i < B->count; i++)
-      g->dp[i * B->P + k] = B->mu[i * B->P + k] + N_VDotProd(B->work, B->lambda[i]);
-  }
+  for (int k = 0; k < B->P; k++) STEIF_TRY(by_parameter(J, k));
   g->cost.steps = J->steps, g->cost.bytes = J->bytes;
   g->cost.factors = B->adjoint.factors;
   g->cost.transposed_solves = B->adjoint.solves;
@@ -188,10 +221,11 @@ static int travel(stf_journey *J)
   const stf_step *first = &B->home->step;
   const sunrealtype t0 = first->t;
   stf_copy(&B->space, first->y, start[0]), stf_copy(&B->space, first->yp, start[1]);
+  if (J->line) STEIF_TRY(stf_push_start(B, t0, start[0], start[1]));
   STEIF_TRY(stf_journey_forward(J));
   J->out->cost.solves = steif_statistics(J->runner)->nsolve;
-  STEIF_TRY(at_end(J));
   STEIF_TRY(stf_journey_back(J));
+  if (J->line) STEIF_TRY(stf_push_start(B, t0, start[0], start[1]));
   STEIF_TRY(stf_pull_start(B, t0, start[0], start[1]));
   return results(J);
 }
@@ -203,27 +237,35 @@ static void clear(steif_context *ctx, steif_gradient *g)
   g->value = g->dp = g->dy0 = g->error_estimate = NULL;
 }
 
+int stf_journey_make(stf_journey *J, const steif_problem *problem,
+                     const steif_functional *functional, steif_gradient *g)
+{
+  steif_context *ctx = J->back.ctx;
+  STEIF_TRY(check_call(ctx, problem, functional, g));
+  J->out = g, J->limit = g->memory ? g->memory : usual;
+  STEIF_TRY(check_problem(ctx, problem, &J->options));
+  J->options.observe = NULL, J->options.on_event = NULL;
+  J->back =
+    (stf_backwards){.ctx = ctx, .problem = problem, .functional = functional, .n = problem->n};
+  J->back.count = functional->count;
+  J->back.P = problem->parameters ? problem->parameters->count : 0;
+  g->value = g->dp = g->dy0 = g->error_estimate = NULL;
+  g->cost = (steif_gradient_cost){0};
+  const int code = travel(J);
+  stf_journey_close(J);
+  if (code) clear(ctx, g);
+  return as_status(ctx, code);
+}
+
 int steif_gradient_find(steif_context *ctx, const steif_problem *problem, const char *method,
                         const steif_options *options, const steif_functional *functional,
                         steif_gradient *g)
 {
   if (!ctx) return STEIF_BAD_INPUT;
   steif_forget(ctx);
-  STEIF_TRY(check_call(ctx, problem, functional, g));
-  stf_journey J = {.method = method, .out = g, .limit = g->memory ? g->memory : usual};
+  stf_journey J = {.method = method, .back = {.ctx = ctx}};
   J.options = options ? *options : steif_defaults();
-  STEIF_TRY(check_problem(ctx, problem, &J.options));
-  J.options.observe = NULL, J.options.on_event = NULL;
-  J.back =
-    (stf_backwards){.ctx = ctx, .problem = problem, .functional = functional, .n = problem->n};
-  J.back.count = functional->count;
-  J.back.P = problem->parameters ? problem->parameters->count : 0;
-  g->value = g->dp = g->dy0 = g->error_estimate = NULL;
-  g->cost = (steif_gradient_cost){0};
-  const int code = travel(&J);
-  stf_journey_close(&J);
-  if (code) clear(ctx, g);
-  return code > 0 ? steif_status(ctx) : code;
+  return stf_journey_make(&J, problem, functional, g);
 }
 
 void steif_gradient_free(steif_context *ctx, steif_gradient *g)

@@ -115,10 +115,11 @@ static int run(stf_journey *J)
   return STEIF_OK;
 }
 
-/* Step `k` once more: to the same bits. */
+/* Step `k` once more: to the same bits; the record after the window is for those that are not kept. */
 static int again(stf_journey *J, long k, sunrealtype *record)
 {
   steif_solver *s = J->runner;
+  if (J->line && !record) record = J->record + (size_t)J->window * J->back.width;
   STEIF_TRY(step(J, s, record));
   const unsigned long long hash =
     stf_checksum(STF_ARRAY(s->step.y), (size_t)J->back.n * sizeof(sunrealtype));
@@ -127,7 +128,7 @@ static int again(stf_journey *J, long k, sunrealtype *record)
               "step %ld of problem '%s', from t = %.12g, made again, did not come to the same "
               "bits: do its callbacks remember something (begin, save, restore)?",
               k + 1, s->problem->name, J->log[k].t);
-  return STEIF_OK;
+  return J->line ? stf_push(&J->back, record) : STEIF_OK;
 }
 
 /* ---- images ---------------------------------------------------------------------------------- */
@@ -137,6 +138,22 @@ static void path_of(const stf_journey *J, const stf_run_image *m, char *path, si
   snprintf(path, room, "%s/gradient-%ld-%p.image", J->out->folder, m->step, (const void *)J);
 }
 
+/* Of tangents beside an image. */
+static size_t bytes_beside(const stf_journey *J)
+{
+  return J->line ? stf_push_size(&J->back) * sizeof(sunrealtype) : 0;
+}
+
+static int save_tangent(stf_journey *J, stf_run_image *m)
+{
+  if (!J->line) return STEIF_OK;
+  m->tangent = stf_allocate(J->back.ctx, stf_push_size(&J->back), sizeof *m->tangent);
+  if (!m->tangent) return STEIF_NO_MEMORY;
+  stf_push_keep(&J->back, m->tangent);
+  J->on_images += bytes_beside(J);
+  return STEIF_OK;
+}
+
 static int save(stf_journey *J, long at)
 {
   char path[4096];
@@ -144,6 +161,8 @@ static int save(stf_journey *J, long at)
   *m = (stf_run_image){.step = at};
   STEIF_TRY(stf_checkpoint_bytes(J->runner, NULL, 0, &m->bytes, &m->count));
   J->images++;
+  const int lost = save_tangent(J, m);
+  if (lost) return lost;
   if (!J->out->folder) {
     J->on_images += m->count;
     took(J);
@@ -167,6 +186,8 @@ static void drop(stf_journey *J)
     unlink(path);
   }
   stf_release(J->back.ctx, m->bytes);
+  if (m->tangent) J->on_images -= bytes_beside(J);
+  stf_release(J->back.ctx, m->tangent);
 }
 
 /* The runner goes on from the last image. */
@@ -183,6 +204,7 @@ static int restore(stf_journey *J)
   if (J->runner != J->back.home) steif_solver_free(&J->runner);
   J->runner = stf_checkpoint_revive(J->back.ctx, J->back.problem, &J->options, bytes, count);
   if (!m->bytes) stf_release(J->back.ctx, bytes);
+  if (J->line) stf_push_back(&J->back, m->tangent);
   return J->runner ? STEIF_OK : steif_status(J->back.ctx);
 }
 
@@ -197,6 +219,7 @@ static int pull_unit(stf_journey *J, long unit)
              to = from + J->window < J->steps ? from + J->window : J->steps;
   for (long k = from; k < to; k++)
     STEIF_TRY(again(J, k, J->record + (size_t)(k - from) * J->back.width));
+  if (!J->ended) STEIF_TRY(stf_journey_end(J));
   for (long k = to; k-- > from;)
     STEIF_TRY(stf_pull(&J->back, J->record + (size_t)(k - from) * J->back.width));
   return STEIF_OK;
@@ -241,15 +264,16 @@ static int plan(stf_journey *J)
   if (size < J->image[0].count) size = J->image[0].count;
   const size_t unit = J->back.width * sizeof *J->record;
   const size_t log = (size_t)J->room * sizeof *J->log;
-  const size_t of_image = J->out->folder ? 0 : size;
-  const size_t least = log + STF_FEWEST * of_image + unit;
+  const size_t of_image = (J->out->folder ? 0 : size) + bytes_beside(J);
+  const size_t unkept = J->line ? unit : 0;
+  const size_t least = log + STF_FEWEST * of_image + unit + unkept;
   STEIF_CHECK(
     J->limit >= least, J->back.ctx, STEIF_BAD_INPUT,
     "a limit of %zu bytes is too small for the gradient of problem '%s': %ld steps, %d "
     "images of %zu bytes and the stages of a step need %zu; raise .memory%s",
     J->limit, J->back.problem->name, J->steps, STF_FEWEST, size, least,
     J->out->folder ? "" : " or set .folder");
-  const size_t rest = J->limit - log;
+  const size_t rest = J->limit - log - unkept;
   long images = J->out->checkpoints;
   if (!images)
     images =
@@ -276,7 +300,8 @@ static int back_by_images(stf_journey *J)
   more[0] = J->image[0];
   stf_release(J->back.ctx, J->image);
   J->image = more;
-  J->record = stf_allocate(J->back.ctx, (size_t)J->window * J->back.width, sizeof *J->record);
+  J->record = stf_allocate(J->back.ctx, (size_t)(J->window + (J->line != NULL)) * J->back.width,
+                           sizeof *J->record);
   if (!J->record) return STEIF_NO_MEMORY;
   took(J);
   return reverse(J, 0, (J->steps + J->window - 1) / J->window);
@@ -284,9 +309,13 @@ static int back_by_images(stf_journey *J)
 
 int stf_journey_back(stf_journey *J)
 {
-  for (long k = J->recorded; J->whole && k-- > 0;)
+  if (!J->whole) return back_by_images(J);
+  for (long k = 0; J->line && k < J->recorded; k++)
+    STEIF_TRY(stf_push(&J->back, J->record + (size_t)k * J->back.width));
+  STEIF_TRY(stf_journey_end(J));
+  for (long k = J->recorded; k-- > 0;)
     STEIF_TRY(stf_pull(&J->back, J->record + (size_t)k * J->back.width));
-  return J->whole ? STEIF_OK : back_by_images(J);
+  return STEIF_OK;
 }
 
 int stf_journey_forward(stf_journey *J)

@@ -11,6 +11,7 @@ enum { STF_FEWEST = 3 }; /* images */
 typedef struct stf_run_image {
   unsigned char *bytes; /* NULL: in a file */
   size_t count;
+  sunrealtype *tangent; /* NULL: none wanted */
   long step;
 } stf_run_image;
 
@@ -28,7 +29,16 @@ typedef struct stf_journey {
   stf_run_image *image;
   int images, images_most;
   size_t limit, bytes, on_images;
+  bool ended;            /* what is asked of the end has been looked at */
+  steif_direction *line; /* of second derivatives ... */
+  sunrealtype *Hp, *Hy0; /* ... which go there; NULL: first ones only */
 } stf_journey;
+
+/* gradient.c: a gradient, and with a line, second derivatives along it. */
+int stf_journey_make(stf_journey *J, const steif_problem *problem,
+                     const steif_functional *functional, steif_gradient *g);
+/* lambda, mu and J at the end, where the runner and the tangent stand. */
+int stf_journey_end(stf_journey *J);
 
 /* The start as an image, then all steps, recorded while that fits; and back through them. */
 int stf_journey_forward(stf_journey *J);

@@ -4,32 +4,45 @@
 #include <math.h>
 #include <string.h>
 
-int stf_pull_parameters(stf_backwards *B, int i, sunrealtype t, N_Vector Y, N_Vector Yp,
-                        N_Vector w)
+int stf_parameters_times(stf_backwards *B, sunrealtype t, N_Vector Y, N_Vector Yp, N_Vector w,
+                         sunrealtype *out)
 {
   const steif_parameters *q = B->problem->parameters;
-  sunrealtype *mu = B->mu + i * B->P;
+  for (int k = 0; k < B->P; k++) out[k] = 0;
   if (B->P && q->dFdp_transposed) {
-    for (int k = 0; k < B->P; k++) B->gp[k] = 0;
-    const int code = q->dFdp_transposed(t, Y, Yp, w, B->gp, B->problem->user);
+    const int code = q->dFdp_transposed(t, Y, Yp, w, out, B->problem->user);
     STEIF_CHECK(!code, B->ctx, STEIF_CALLBACK, "dFdp_transposed of problem '%s' returned %d",
                 B->problem->name, code);
-    for (int k = 0; k < B->P; k++) mu[k] -= B->gp[k];
     return STEIF_OK;
   }
   for (int k = 0; k < B->P; k++) {
     STEIF_TRY(stf_slopes_at(B->slopes, k, t, Y, Yp, B->work));
-    mu[k] -= N_VDotProd(B->work, w);
+    out[k] = N_VDotProd(B->work, w);
   }
   return STEIF_OK;
 }
 
-/* What the quadrature with weight c at (t, Y) adds: to J, to mu, and c g_y to `to` of each functional. */
-static int quadrature(stf_backwards *B, const sunrealtype *c, sunrealtype t, N_Vector Y,
+int stf_pull_parameters(stf_backwards *B, int i, sunrealtype t, N_Vector Y, N_Vector Yp,
+                        N_Vector w)
+{
+  STEIF_TRY(stf_parameters_times(B, t, Y, Yp, w, B->Fp));
+  for (int k = 0; k < B->P; k++) B->mu[i * B->P + k] -= B->Fp[k];
+  return STEIF_OK;
+}
+
+/* What the quadrature with weight c at point j adds: to J, to mu, and c g_y to `to` of each channel. */
+static int quadrature(stf_backwards *B, const sunrealtype *c, sunrealtype t, int j,
                       N_Vector *to)
 {
+  stf_pushed *D = B->tangent;
   if (!B->functional->integrand) return STEIF_OK;
-  STEIF_TRY(stf_functional_at(B, 0, t, Y));
+  if (D) STEIF_TRY(stf_bend_functional(B, 0, t, B->Y[j], D->Y[j]));
+  for (int i = 0; D && i < B->count; i++) {
+    sunrealtype *mu = B->mu + (B->count + i) * B->P;
+    for (int k = 0; k < B->P; k++) mu[k] += c[i] * D->gp[i * B->P + k];
+    stf_axpy(&B->space, c[i], D->gy[i], to[B->count + i]);
+  }
+  STEIF_TRY(stf_functional_at(B, 0, t, B->Y[j]));
   for (int i = 0; i < B->count; i++) {
     B->value[i] += c[i] * B->g[i];
     for (int k = 0; k < B->P; k++) B->mu[i * B->P + k] += c[i] * B->gp[i * B->P + k];
@@ -44,71 +57,135 @@ static sunrealtype *weights(stf_backwards *B, sunrealtype c)
   return B->other + 2 * B->count;
 }
 
+/* Derivatives of the matrices of stage j, at `point`, times B->w[j] of channel i. */
+static int bend(stf_backwards *B, int i, sunrealtype t, int point, int j)
+{
+  stf_pushed *D = B->tangent;
+  const N_Vector at[] = {B->Y[point], B->Yp[point], D->Y[point], D->Yp[point]};
+  return stf_bend(B, i, t, at, B->w[j], D->bend_E[j], D->bend_A[j]);
+}
+
 /* ---- collocation ------------------------------------------------------------------------------ */
 
-/* B->r[i s + j]: right-hand sides of functional i. */
-static int pull_collocation(stf_backwards *B, const stf_head *head)
+/* B->r[j channels + i] := right-hand sides of channel i, and lambda what does not pass the stages. */
+static void right_sides(stf_backwards *B, int i, N_Vector *right)
 {
   const stf_space *space = &B->space;
+  stf_copy(space, B->lambda[i], B->error);
+  for (int j = 0; j < B->table->s; j++) {
+    right[j] = B->r[j * B->channels + i];
+    stf_axpy(space, 1, right[j], B->lambda[i]);
+    stf_axpy(space, B->u.end[j], B->error, right[j]);
+  }
+}
+
+static int pull_channel(stf_backwards *B, const stf_head *head, int i, N_Vector *right)
+{
+  const steif_table *T = B->table;
+  STEIF_TRY(stf_adjoint_solve(&B->adjoint, right, B->w));
+  for (int j = 0; j < T->s; j++) {
+    const sunrealtype t = head->t + T->c[j] * head->h;
+    stf_adjoint_add(&B->adjoint, j, 'A', 1, B->w[j], B->lambda[i]);
+    STEIF_TRY(stf_pull_parameters(B, i, t, B->Y[j], B->Yp[j], B->w[j]));
+  }
+  return STEIF_OK;
+}
+
+/* right := right - K'^T w, lambda := lambda + A'^T w, after channel i, for channel count + i. */
+static int bend_stages(stf_backwards *B, const stf_head *head, int i, N_Vector *right)
+{
+  const stf_space *space = &B->space;
+  const stf_pushed *D = B->tangent;
+  const steif_table *T = B->table;
+  const int s = T->s;
+  for (int j = 0; j < s; j++) STEIF_TRY(bend(B, i, head->t + T->c[j] * head->h, j, j));
+  right_sides(B, B->count + i, right);
+  for (int j = 0; j < s; j++) {
+    stf_axpy(space, 1, D->bend_A[j], right[j]);
+    stf_axpy(space, 1, D->bend_A[j], B->lambda[B->count + i]);
+    for (int m = 0; D->E && m < s; m++)
+      stf_axpy(space, -B->adjoint.B[j * s + m], D->bend_E[j], right[m]);
+  }
+  return STEIF_OK;
+}
+
+int stf_factor_collocation(stf_backwards *B, const stf_head *head)
+{
   const steif_table *T = B->table;
   const int s = T->s;
   const sunrealtype h = head->h;
   sunrealtype B_over_h[STEIF_STAGES * STEIF_STAGES];
-  N_Vector to[1];
   for (int j = 0; j < s * s; j++) B_over_h[j] = B->adjoint.transform.B[j] / h;
   for (int j = 0; j < s; j++)
     STEIF_TRY(
       stf_matrices_at_fill(&B->adjoint.at, j, head->t + T->c[j] * h, B->Y[j], B->Yp[j]));
-  STEIF_TRY(stf_adjoint_factor(&B->adjoint, head->t, h, B_over_h));
-  (void)to;
+  return stf_adjoint_factor(&B->adjoint, head->t, h, B_over_h);
+}
+
+static int pull_collocation(stf_backwards *B, const stf_head *head)
+{
+  const steif_table *T = B->table;
+  const int s = T->s;
+  const sunrealtype h = head->h;
+  N_Vector right[STEIF_STAGES];
+  STEIF_TRY(stf_factor_collocation(B, head));
   for (int j = 0; j < s; j++) {
-    N_Vector *r = B->r + j * B->count; /* by stages, then functionals */
-    for (int i = 0; i < B->count; i++) stf_zero(space, r[i]);
-    STEIF_TRY(quadrature(B, weights(B, h * T->b[j]), head->t + T->c[j] * h, B->Y[j], r));
+    N_Vector *r = B->r + j * B->channels;
+    for (int i = 0; i < B->channels; i++) stf_zero(&B->space, r[i]);
+    STEIF_TRY(quadrature(B, weights(B, h * T->b[j]), head->t + T->c[j] * h, j, r));
   }
   for (int i = 0; i < B->count; i++) {
-    N_Vector right[STEIF_STAGES];
-    stf_copy(space, B->lambda[i], B->error);
-    for (int j = 0; j < s; j++) {
-      right[j] = B->r[j * B->count + i];
-      stf_axpy(space, 1, right[j], B->lambda[i]);
-      stf_axpy(space, B->u.end[j], B->error, right[j]);
-    }
-    STEIF_TRY(stf_adjoint_solve(&B->adjoint, right, B->w));
-    for (int j = 0; j < s; j++) {
-      stf_adjoint_add(&B->adjoint, j, 'A', 1, B->w[j], B->lambda[i]);
-      STEIF_TRY(stf_pull_parameters(B, i, head->t + T->c[j] * h, B->Y[j], B->Yp[j], B->w[j]));
-    }
+    right_sides(B, i, right);
+    STEIF_TRY(pull_channel(B, head, i, right));
+    if (!B->tangent) continue;
+    STEIF_TRY(bend_stages(B, head, i, right));
+    STEIF_TRY(pull_channel(B, head, B->count + i, right));
   }
   return STEIF_OK;
 }
 
 /* ---- one stage after another ------------------------------------------------------------------ */
 
-/* B->r: what comes to the slopes K_j, by stages and functionals. */
+/* x, what comes to Y_m, through the equation of stage m. */
+static int pull_equation(stf_backwards *B, int i, int m, sunrealtype t, sunrealtype shift,
+                         N_Vector slope, N_Vector x)
+{
+  const stf_pushed *D = B->tangent;
+  const bool dot = i >= B->count;
+  stf_sum(&B->space, shift, slope, 1, x, slope);
+  if (dot) {
+    STEIF_TRY(bend(B, i - B->count, t, m, 0));
+    if (D->E) stf_axpy(&B->space, -shift, D->bend_E[0], slope);
+    stf_axpy(&B->space, 1, D->bend_A[0], slope);
+    stf_axpy(&B->space, 1, D->bend_A[0], x);
+  }
+  STEIF_TRY(stf_adjoint_solve(&B->adjoint, &slope, B->w));
+  stf_adjoint_add(&B->adjoint, 0, 'A', 1, B->w[0], x);
+  return stf_pull_parameters(B, i, t, B->Y[m], B->Yp[m], B->w[0]);
+}
+
+/* B->r: what comes to the slopes K_j, by stages and channels. */
 static int pull_stage(stf_backwards *B, const stf_head *head, int m)
 {
   const stf_space *space = &B->space;
   const steif_table *T = B->table;
   const sunrealtype h = head->h, gamma = T->A[m * T->s + m], t = head->t + T->c[m] * h;
   const sunrealtype shift = gamma > 0 ? 1 / (gamma * h) : 0;
-  N_Vector *x = B->r + T->s * B->count; /* what comes to Y_m */
-  for (int i = 0; i < B->count; i++) stf_zero(space, x[i]);
-  STEIF_TRY(quadrature(B, weights(B, h * T->b[m]), t, B->Y[m], x));
+  N_Vector *x = B->r + T->s * B->channels; /* what comes to Y_m */
+  for (int i = 0; i < B->channels; i++) stf_zero(space, x[i]);
+  STEIF_TRY(quadrature(B, weights(B, h * T->b[m]), t, m, x));
   if (gamma > 0) {
     STEIF_TRY(stf_matrices_at_fill(&B->adjoint.at, 0, t, B->Y[m], B->Yp[m]));
     STEIF_TRY(stf_adjoint_factor(&B->adjoint, t, h, &shift));
   }
-  for (int i = 0; i < B->count; i++) {
-    N_Vector *k = B->r + i, slope = k[m * B->count];
-    if (gamma > 0) {
-      stf_sum(space, shift, slope, 1, x[i], slope);
-      STEIF_TRY(stf_adjoint_solve(&B->adjoint, &slope, B->w));
-      stf_adjoint_add(&B->adjoint, 0, 'A', 1, B->w[0], x[i]);
-      STEIF_TRY(stf_pull_parameters(B, i, t, B->Y[m], B->Yp[m], B->w[0]));
-    }
+  for (int k = 0; k < B->channels; k++) {
+    const int i =
+      B->tangent ? k / 2 + k % 2 * B->count : k; /* a channel, then its derivative */
+    N_Vector *slopes = B->r + i;
+    if (gamma > 0) STEIF_TRY(pull_equation(B, i, m, t, shift, slopes[m * B->channels], x[i]));
     stf_axpy(space, 1, x[i], B->lambda[i]);
-    for (int j = 0; j < m; j++) stf_axpy(space, h * T->A[m * T->s + j], x[i], k[j * B->count]);
+    for (int j = 0; j < m; j++)
+      stf_axpy(space, h * T->A[m * T->s + j], x[i], slopes[j * B->channels]);
   }
   return STEIF_OK;
 }
@@ -118,12 +195,12 @@ static int pull_chain(stf_backwards *B, const stf_head *head)
   const steif_table *T = B->table;
   const stf_space *space = &B->space;
   for (int m = 0; m < T->s; m++)
-    for (int i = 0; i < B->count; i++)
-      stf_scale(space, head->h * T->b[m], B->lambda[i], B->r[m * B->count + i]);
-  for (int i = 0; i < B->count; i++)
-    stf_axpy(space, 1, B->kappa[i], B->r[(T->s - 1) * B->count + i]);
+    for (int i = 0; i < B->channels; i++)
+      stf_scale(space, head->h * T->b[m], B->lambda[i], B->r[m * B->channels + i]);
+  for (int i = 0; i < B->channels; i++)
+    stf_axpy(space, 1, B->kappa[i], B->r[(T->s - 1) * B->channels + i]);
   for (int m = T->s; m-- > 0;) STEIF_TRY(pull_stage(B, head, m));
-  for (int i = 0; i < B->count; i++)
+  for (int i = 0; i < B->channels; i++)
     if (T->A[0] == 0)
       stf_copy(space, B->r[i], B->kappa[i]);
     else
@@ -132,6 +209,19 @@ static int pull_chain(stf_backwards *B, const stf_head *head)
 }
 
 /* ---- BDF ---------------------------------------------------------------------------------------- */
+
+/* B->w[0] := w of channel i. */
+static int pull_value(stf_backwards *B, int i, int at, sunrealtype t, sunrealtype shift)
+{
+  const stf_pushed *D = B->tangent;
+  if (i >= B->count) {
+    STEIF_TRY(bend(B, i - B->count, t, at, 0));
+    if (D->E) stf_axpy(&B->space, -shift, D->bend_E[0], B->lambda[i]);
+    stf_axpy(&B->space, 1, D->bend_A[0], B->lambda[i]);
+  }
+  STEIF_TRY(stf_adjoint_solve(&B->adjoint, &B->lambda[i], B->w));
+  return stf_pull_parameters(B, i, t, B->Y[at], B->Yp[at], B->w[0]);
+}
 
 /* One step of length h to t + h at point `at`; q = sum of (alpha_j/alpha_0) q of the past + (h/alpha_0) g. */
 static int pull_bdf_step(stf_backwards *B, int at, sunrealtype t, sunrealtype h, int order,
@@ -143,18 +233,19 @@ static int pull_bdf_step(stf_backwards *B, int at, sunrealtype t, sunrealtype h,
   STEIF_TRY(stf_matrices_at_fill(&B->adjoint.at, 0, t + h, B->Y[at], B->Yp[at]));
   STEIF_TRY(stf_adjoint_factor(&B->adjoint, t, h, &shift));
   for (int i = 0; i < B->count; i++) c[i] = h / alpha[0] * B->nu[i];
-  STEIF_TRY(quadrature(B, c, t + h, B->Y[at], B->lambda));
-  for (int i = 0; i < B->count; i++) {
-    const sunrealtype nu = B->nu[i];
-    STEIF_TRY(stf_adjoint_solve(&B->adjoint, &B->lambda[i], B->w));
-    STEIF_TRY(stf_pull_parameters(B, i, t + h, B->Y[at], B->Yp[at], B->w[0]));
+  STEIF_TRY(quadrature(B, c, t + h, at, B->lambda));
+  for (int k = 0; k < B->channels; k++) {
+    const int i = B->tangent ? k / 2 + k % 2 * B->count : k;
+    STEIF_TRY(pull_value(B, i, at, t + h, shift));
     stf_zero(space, B->work);
     stf_adjoint_add(&B->adjoint, 0, 'E', 1, B->w[0], B->work);
-    for (int j = 1; j <= order; j++) {
-      stf_axpy(space, -alpha[j] / h, B->work, B->past[j][i]);
-      B->nu[j * B->count + i] -= alpha[j] / alpha[0] * nu;
-    }
+    if (i >= B->count && B->tangent->E) stf_axpy(space, 1, B->tangent->bend_E[0], B->work);
+    for (int j = 1; j <= order; j++) stf_axpy(space, -alpha[j] / h, B->work, B->past[j][i]);
     stf_zero(space, B->lambda[i]);
+  }
+  for (int i = 0; i < B->count; i++) {
+    const sunrealtype nu = B->nu[i];
+    for (int j = 1; j <= order; j++) B->nu[j * B->count + i] -= alpha[j] / alpha[0] * nu;
     B->nu[i] = 0;
   }
   return STEIF_OK;
@@ -183,10 +274,8 @@ static int pull_bdf(stf_backwards *B, const stf_head *head)
   N_Vector *before = B->past[1], *between = B->past[STF_PAST - 1];
   sunrealtype *nu = B->nu + B->count;
   B->past[1] = between;
-  for (int i = 0; i < B->count; i++) {
-    B->other[i] = nu[i], nu[i] = 0;
-    stf_zero(&B->space, between[i]);
-  }
+  for (int i = 0; i < B->count; i++) B->other[i] = nu[i], nu[i] = 0;
+  for (int i = 0; i < B->channels; i++) stf_zero(&B->space, between[i]);
   for (int i = 0; i < B->count; i++) B->estimate[B->count + i] = B->other[i];
   STEIF_TRY(pull_bdf_step(B, 1, head->t + d, d, 1, head->alpha));
   B->past[STF_PAST - 1] = B->lambda, B->lambda = between, B->past[1] = before;
@@ -198,42 +287,38 @@ static int pull_bdf(stf_backwards *B, const stf_head *head)
 
 /* ---- all ---------------------------------------------------------------------------------------- */
 
-static void read_points(stf_backwards *B, const sunrealtype *record)
-{
-  const size_t n = (size_t)B->n;
-  for (int j = 0; j < B->points; j++) {
-    memcpy(STF_ARRAY(B->Y[j]), record, n * sizeof *record);
-    memcpy(STF_ARRAY(B->Yp[j]), record + n, n * sizeof *record);
-    record += 2 * n;
-  }
-  if (B->adaptive) memcpy(STF_ARRAY(B->error), record, n * sizeof *record);
-}
-
 int stf_pull(stf_backwards *B, const sunrealtype *record)
 {
   stf_head head;
   memcpy(&head, record, sizeof head);
-  read_points(B, record + STF_HEAD);
+  stf_record_read(B, record);
+  if (B->tangent) stf_push_read(B, record);
   for (int i = 0; B->adaptive && i < B->count; i++)
     B->estimate[i] += N_VDotProd(B->error, B->lambda[i]);
   STEIF_TRY(B->kind == STF_TRACE_COLLOCATION ? pull_collocation(B, &head)
             : B->kind == STF_TRACE_CHAIN     ? pull_chain(B, &head)
                                              : pull_bdf(B, &head));
-  for (int i = 0; i < B->count; i++)
+  for (int i = 0; i < B->channels; i++)
     STEIF_CHECK(stf_finite(&B->space, B->lambda[i]), B->ctx, STEIF_NOT_FINITE,
                 "the adjoint of functional %d of problem '%s' is not finite at t = %.12g",
-                i + 1, B->problem->name, head.t);
+                i % B->count + 1, B->problem->name, head.t);
   return STEIF_OK;
 }
 
 /* A chain that began with the slope f(t0, y0) hands on what has come to that. */
 int stf_pull_start(stf_backwards *B, sunrealtype t0, N_Vector y0, N_Vector yp0)
 {
+  stf_pushed *D = B->tangent;
   if (B->kind != STF_TRACE_CHAIN || B->table->A[0] != 0) return STEIF_OK;
   STEIF_TRY(stf_matrices_at_fill(&B->adjoint.at, 0, t0, y0, yp0));
-  for (int i = 0; i < B->count; i++) {
+  for (int i = 0; i < B->channels; i++) {
     stf_adjoint_add(&B->adjoint, 0, 'A', 1, B->kappa[i], B->lambda[i]);
     STEIF_TRY(stf_pull_parameters(B, i, t0, y0, yp0, B->kappa[i]));
+  }
+  const N_Vector at[] = {y0, yp0, D ? D->y : NULL, D ? D->kappa : NULL};
+  for (int i = 0; D && i < B->count; i++) {
+    STEIF_TRY(stf_bend(B, i, t0, at, B->kappa[i], D->bend_E[0], D->bend_A[0]));
+    stf_axpy(&B->space, 1, D->bend_A[0], B->lambda[B->count + i]);
   }
   return STEIF_OK;
 }

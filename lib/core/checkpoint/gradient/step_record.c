@@ -19,9 +19,16 @@ int stf_record_open(stf_backwards *B)
   STEIF_TRY(trace(B->home, &now));
   const size_t n = (size_t)B->n;
   B->kind = now.kind, B->table = B->home->step.table;
+  STEIF_CHECK(
+    now.kind != STF_TRACE_CHAIN || B->table->A[0] != 0 ||
+      B->home->step.system.form == STEIF_ODE,
+    B->ctx, STEIF_UNSUPPORTED,
+    "gradients by '%s' are served for y' = f only: its steps begin with y'(t0), whose "
+    "derivative form %s does not give; take an implicit first stage",
+    B->home->spec, steif_form_name(B->home->step.system.form));
   B->points = now.kind == STF_TRACE_BDF ? 2 : B->table->s;
   B->adaptive = B->home->step.adaptive;
-  B->width = STF_HEAD + 2 * n * (size_t)B->points + (B->adaptive ? n : 0);
+  B->own = B->width = STF_HEAD + 2 * n * (size_t)B->points + (B->adaptive ? n : 0);
   return STEIF_OK;
 }
 
@@ -90,6 +97,18 @@ int stf_record_step(stf_backwards *B, steif_solver *s, N_Vector before, sunrealt
   if (now.kind == STF_TRACE_BDF) bdf_of(B, &now, step, to);
   for (int j = 0; now.kind == STF_TRACE_CHAIN && j < B->points; j++)
     to = put(put(to, now.Y[j]), now.Yp[j]);
-  if (B->adaptive) put(record + B->width - (size_t)B->n, step->error);
+  if (B->adaptive) put(record + B->own - (size_t)B->n, step->error);
   return STEIF_OK;
+}
+
+void stf_record_read(stf_backwards *B, const sunrealtype *record)
+{
+  const size_t n = (size_t)B->n;
+  record += STF_HEAD;
+  for (int j = 0; j < B->points; j++) {
+    memcpy(STF_ARRAY(B->Y[j]), record, n * sizeof *record);
+    memcpy(STF_ARRAY(B->Yp[j]), record + n, n * sizeof *record);
+    record += 2 * n;
+  }
+  if (B->adaptive) memcpy(STF_ARRAY(B->error), record, n * sizeof *record);
 }

@@ -114,15 +114,36 @@ static int solve_dense(stf_adjoint *a, N_Vector *r, N_Vector *w)
   int info;
   for (int j = 0; j < a->m; j++)
     for (int i = 0; i < n; i++) x[j * n + i] = STF_ARRAY(r[j])[i];
-  dgetrs_("T", &size, &one, a->K, &size, a->pivot, x, &size, &info, 1);
+  dgetrs_(a->forward ? "N" : "T", &size, &one, a->K, &size, a->pivot, x, &size, &info, 1);
   for (int j = 0; j < a->m; j++)
     for (int i = 0; i < n; i++) STF_ARRAY(w[j])[i] = x[j * n + i];
   a->solves++;
   return STEIF_OK;
 }
 
+/* x := M^{-1} x: from the last of coupled shifts. */
+static int precondition_forward(stf_adjoint *a, N_Vector *x)
+{
+  const stf_transform *T = &a->transform;
+  const int s = a->m;
+  if (s == 1) return steif_pencil_solve(a->pencil, 0, 1, x, NULL);
+  stf_mix(a->space, s, s, T->Tinv, x, a->omega);
+  for (int k = T->shifts; k-- > 0;) {
+    const int row = T->row[k], next = row + (T->im[k] != 0 ? 2 : 1);
+    N_Vector *omega = a->omega + row;
+    for (int i = row; T->coupling && i < next; i++)
+      for (int m = next; m < s; m++) {
+        STEIF_TRY(stf_matrices_at_product(&a->at, a->middle, 'E', a->omega[m], a->product));
+        stf_axpy(a->space, -T->coupling[i * s + m] / a->h, a->product, a->omega[i]);
+      }
+    STEIF_TRY(steif_pencil_solve(a->pencil, k, 1, omega, T->im[k] != 0 ? omega + 1 : NULL));
+  }
+  stf_mix(a->space, s, s, T->T, a->omega, x);
+  return STEIF_OK;
+}
+
 /* x := M^{-T} x. */
-static int precondition(stf_adjoint *a, N_Vector *x)
+static int precondition_transposed(stf_adjoint *a, N_Vector *x)
 {
   const stf_transform *T = &a->transform;
   const int s = a->m;
@@ -142,8 +163,26 @@ static int precondition(stf_adjoint *a, N_Vector *x)
   return STEIF_OK;
 }
 
+static int precondition(stf_adjoint *a, N_Vector *x)
+{
+  return a->forward ? precondition_forward(a, x) : precondition_transposed(a, x);
+}
+
+/* residual = r - K x. */
+static int residuals_forward(stf_adjoint *a, N_Vector *r, N_Vector *x)
+{
+  for (int j = 0; j < a->m; j++) {
+    stf_combine(a->space, a->m, a->B + j * a->m, x, a->total);
+    STEIF_TRY(stf_matrices_at_product(&a->at, j, 'E', a->total, a->product));
+    stf_sum(a->space, 1, r[j], -1, a->product, a->residual[j]);
+    STEIF_TRY(stf_matrices_at_product(&a->at, j, 'A', x[j], a->product));
+    stf_axpy(a->space, 1, a->product, a->residual[j]);
+  }
+  return STEIF_OK;
+}
+
 /* residual = r - K^T w. */
-static void residuals(stf_adjoint *a, N_Vector *r, N_Vector *w)
+static int residuals_transposed(stf_adjoint *a, N_Vector *r, N_Vector *w)
 {
   for (int j = 0; j < a->m; j++) {
     stf_copy(a->space, r[j], a->residual[j]);
@@ -155,6 +194,7 @@ static void residuals(stf_adjoint *a, N_Vector *r, N_Vector *w)
     for (int m = 0; m < a->m; m++)
       stf_axpy(a->space, -a->B[j * a->m + m], a->product, a->residual[m]);
   }
+  return STEIF_OK;
 }
 
 static sunrealtype size_of(const stf_adjoint *a, N_Vector *x)
@@ -181,21 +221,32 @@ static int iterate(stf_adjoint *a, N_Vector *r, N_Vector *w)
     if (moved <= 1e-15 * size || (moved <= 1e-11 * size && moved > 0.5 * last)) return STEIF_OK;
     if (sweep > 3 && moved > 2 * last) return 1;
     last = moved;
-    residuals(a, r, w);
+    STEIF_TRY(a->forward ? residuals_forward(a, r, w) : residuals_transposed(a, r, w));
   }
   return 1;
 }
 
-int stf_adjoint_solve(stf_adjoint *a, N_Vector *r, N_Vector *w)
+static int solve(stf_adjoint *a, N_Vector *r, N_Vector *w)
 {
   if (a->direct) return solve_dense(a, r, w);
   const int code = iterate(a, r, w);
   if (code <= 0) return code;
-  STEIF_CHECK(
-    a->m * a->n <= LARGEST, a->ctx, STEIF_NO_CONVERGENCE,
-    "the transposed equations of a step of length %.6g did not converge: the matrices at "
-    "its stages differ too much; make the steps smaller",
-    a->h);
+  STEIF_CHECK(a->m * a->n <= LARGEST, a->ctx, STEIF_NO_CONVERGENCE,
+              "the %s equations of a step of length %.6g did not converge: the matrices at "
+              "its stages differ too much; make the steps smaller",
+              a->forward ? "differentiated" : "transposed", a->h);
   STEIF_TRY(factor_dense(a, NAN));
   return solve_dense(a, r, w);
+}
+
+int stf_adjoint_solve(stf_adjoint *a, N_Vector *r, N_Vector *w)
+{
+  a->forward = false;
+  return solve(a, r, w);
+}
+
+int stf_adjoint_solve_forward(stf_adjoint *a, N_Vector *r, N_Vector *x)
+{
+  a->forward = true;
+  return solve(a, r, x);
 }
