@@ -126,7 +126,8 @@ static int open_back(stf_journey *J)
     STEIF_TRY(stf_stage_polynomial_open(B->pool, B->table, B->adjoint.transform.B, &B->u));
   if (J->line) STEIF_TRY(stf_push_open(B, J->line));
   if (!B->P) return STEIF_OK;
-  return stf_slopes_open(B->pool, B->ctx, B->problem, system->form, B->space.like, &B->slopes);
+  const int form = steif_problem_form(B->ctx, B->problem); /* the system's may be lowered */
+  return stf_slopes_open(B->pool, B->ctx, B->problem, form, B->space.like, &B->slopes);
 }
 
 static int bend_end(stf_backwards *B, const stf_step *last)

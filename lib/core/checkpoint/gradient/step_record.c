@@ -19,13 +19,6 @@ int stf_record_open(stf_backwards *B)
   STEIF_TRY(trace(B->home, &now));
   const size_t n = (size_t)B->n;
   B->kind = now.kind, B->table = B->home->step.table;
-  STEIF_CHECK(
-    now.kind != STF_TRACE_CHAIN || B->table->A[0] != 0 ||
-      B->home->step.system.form == STEIF_ODE,
-    B->ctx, STEIF_UNSUPPORTED,
-    "gradients by '%s' are served for y' = f only: its steps begin with y'(t0), whose "
-    "derivative form %s does not give; take an implicit first stage",
-    B->home->spec, steif_form_name(B->home->step.system.form));
   B->points = now.kind == STF_TRACE_BDF ? 2 : B->table->s;
   B->adaptive = B->home->step.adaptive;
   B->own = B->width = STF_HEAD + 2 * n * (size_t)B->points + (B->adaptive ? n : 0);
