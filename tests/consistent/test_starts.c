@@ -281,6 +281,38 @@ static void hopeless_starts_say_so(void)
   end(&r);
 }
 
+/* The list of what a repair moved begins with what it moved most. */
+static void moves_are_listed_by_size(void)
+{
+  static const char *const problems[] = {"pendulum3", "caraxis", "impact"};
+  enum { MOST = 10 };
+  steif_context *c = steif_context_new(NULL);
+  for (int k = 0; k < 3; k++) {
+    steif_problem p;
+    CU_ASSERT_FATAL(!steif_problem_find(c, problems[k], &p) && p.n <= MOST);
+    sunrealtype y[MOST];
+    for (int i = 0; i < p.n; i++)
+      y[i] = p.y0[i] + (i % 2 ? 0.01 : -0.01) * (i + 1) * (fabs(p.y0[i]) + 0.1);
+    const steif_point at = {.t = p.t0, .y = y};
+    const steif_request request = {.weight = NULL};
+    steif_start start;
+    CU_ASSERT_FATAL(!steif_consistent(c, &p, &at, &request, &start));
+    double before = INFINITY;
+    int listed = 0;
+    const char *text = strstr(start.message, "moved ");
+    for (; text && (text = strstr(text, " by ")); text += 4, listed++) {
+      const double size = fabs(strtod(text + 4, NULL));
+      if (!(size <= before)) printf("\n  %s: %s", problems[k], start.message);
+      CHECK(size <= before);
+      before = size;
+    }
+    CHECK(listed > 2);
+    steif_start_clear(&start);
+    steif_problem_clear(c, &p);
+  }
+  steif_context_free(&c);
+}
+
 CU_TestInfo tests_of_starts[] = {
   {"published starts", published_starts},
   {"closed starts", closed_starts},
@@ -293,4 +325,5 @@ CU_TestInfo tests_of_starts[] = {
   {"fixed values", fixed_values},
   {"redundant fixed values are accepted", redundant_fixed_values_are_accepted},
   {"hopeless starts say so", hopeless_starts_say_so},
+  {"moves are listed by size", moves_are_listed_by_size},
   CU_TEST_INFO_NULL};

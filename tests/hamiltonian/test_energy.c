@@ -248,6 +248,26 @@ static void the_trapezoidal_rule_stays_in_a_band(void)
   CHECK(d.max < 1e-9 && !d.drifts);
 }
 
+/* Maxima lie between the points of a run, on a parabola through three of them: cos has a period of 2 pi, whose
+ * maxima the steps of 1/2 miss by up to 1/4. */
+static void periods_are_those_between_points(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "harmonic", &p) == STEIF_OK);
+  for (int more = 0; more < 4; more++) {
+    steif_drift drift[4];
+    steif_energy e = {.drift = drift};
+    steif_options o = steif_defaults();
+    o.h = 0.5 + 0.01 * more, o.t1 = o.h * 31;
+    CHECK(!steif_energy_measure(ctx, &p, "gauss:s=4", &o, &e));
+    if (!(fabs(e.period - TWO_PI) < 0.02)) printf("\n  h = %g: period %.6g", o.h, e.period);
+    CHECK(fabs(e.period - TWO_PI) < 0.02);
+  }
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_energy[] = {
   {"steps beyond the border are not lowered", steps_beyond_the_border_are_not_lowered},
   {"RK4 loses 32 times less per period for half the step",
@@ -260,4 +280,5 @@ CU_TestInfo tests_of_energy[] = {
   {"Verlet keeps a band on the pendulum", verlet_keeps_a_band_on_the_pendulum},
   {"RK4 sinks on the pendulum", rk4_sinks_on_the_pendulum},
   {"the trapezoidal rule stays in a band", the_trapezoidal_rule_stays_in_a_band},
+  {"periods are those between points", periods_are_those_between_points},
   CU_TEST_INFO_NULL};

@@ -189,9 +189,31 @@ static void refusals(void)
   CLOSE(re[4], 1.2686166108864938e299, 4 * U);
 }
 
+/* phi_{k+1} = (phi_k - 1/k!)/z in long double loses less than k/|z| of its digits: all around circles where the
+ * library takes one way or the other. */
+static void complex_numbers_of_all_sizes(void)
+{
+  for (double r = 8.5; r < 680; r *= 1.37)
+    for (int m = 0; m < 24; m++) {
+      const double x = r * cos(0.13 + m * 0.2618), y = r * sin(0.13 + m * 0.2618);
+      double re[9], im[9];
+      long double a = expl(x) * cosl(y), b = expl(x) * sinl(y), factorial = 1;
+      CHECK(!steif_phi_scalar(4, x, y, re, im));
+      for (int k = 0; k <= 4; k++) {
+        const long double size = hypotl(a, b);
+        CHECK(hypotl(re[k] - a, im[k] - b) <= 8 * U * size || size < 1e-300L);
+        const long double c = a - 1 / factorial,
+                          square = (long double)x * x + (long double)y * y;
+        const long double next = (c * x + b * y) / square;
+        b = (b * x - c * y) / square, a = next, factorial *= k + 1;
+      }
+    }
+}
+
 CU_TestInfo tests_of_scalar[] = {
   {"phi_0 to phi_4 are right to four units of round-off", values},
   {"the recurrence holds in the left half plane up to p = 8", recurrence},
   {"a tiny imaginary part keeps its digits", tiny_imaginary},
   {"wrong arguments are refused and overflow stays where it is", refusals},
+  {"complex numbers of all sizes", complex_numbers_of_all_sizes},
   CU_TEST_INFO_NULL};

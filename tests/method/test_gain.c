@@ -13,7 +13,7 @@ static int decay(sunrealtype t, N_Vector y, N_Vector out, void *user)
 }
 
 /* On y' = -y the error of a short step is the estimate times gain h^(p-s), p the order: by methods whose
- * first eigenvalue is real and by those where it is one of a pair. */
+ * first eigenvalue is real and by those where it is one of a pair, with matrices for all shifts and with one. */
 static void gain_makes_errors_of_estimates(void)
 {
   static const struct {
@@ -24,10 +24,12 @@ static void gain_makes_errors_of_estimates(void)
   static const sunrealtype start[] = {1};
   const steif_problem p = {.name = "decay", .n = 1, .t1 = 10, .y0 = start, .f = decay};
   steif_context *ctx = steif_context_new(NULL);
-  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+  for (size_t i = 0; i < 2 * (sizeof row / sizeof *row); i++) {
+    const bool sparse = i % 2;
     steif_options o = steif_defaults();
-    o.rtol = 1e-2, o.h0 = row[i].h, o.newton = 1e-13;
-    steif_solver *s = steif_solver_new(ctx, &p, row[i].method, &o);
+    o.rtol = 1e-2, o.h0 = row[i / 2].h, o.newton = 1e-10, o.iterations = 50;
+    if (sparse) o.storage = STEIF_SPARSE;
+    steif_solver *s = steif_solver_new(ctx, &p, row[i / 2].method, &o);
     CU_ASSERT_FATAL(s && !steif_solve_step(s));
     const stf_step *step = &s->step;
     stf_transform split;
@@ -37,14 +39,48 @@ static void gain_makes_errors_of_estimates(void)
     const double error = fabs(NV_Ith_S(step->y, 0) - exp(-step->h));
     const double told =
       fabs(NV_Ith_S(step->error, 0)) * e.gain * pow(step->h, step->table->order - e.s);
-    CHECK(step->h == row[i].h && step->table->order > e.s);
+    CHECK(step->h == row[i / 2].h && step->table->order > e.s);
     if (!(fabs(told / error - 1) < 0.2))
-      printf("\n  %s: error %.4g, by the estimate %.4g", row[i].method, error, told);
+      printf("\n  %s%s: error %.4g, by the estimate %.4g", row[i / 2].method,
+             sparse ? ", sparse" : "", error, told);
     CHECK(fabs(told / error - 1) < 0.2);
     steif_solver_free(&s);
   }
   steif_context_free(&ctx);
 }
 
+/* y_i' = -y_i + cos t, y(0) = 1/2: (sin t + cos t)/2. */
+static int moved(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  (void)user;
+  for (int i = 0; i < NV_LENGTH_S(y); i++) NV_Ith_S(out, i) = cos(t) - NV_Ith_S(y, i);
+  return 0;
+}
+
+/* Stages one by one of many unknowns, and all at once of few: f depends on time, and the order is 4. */
+static void rosenbrock_sees_time(void)
+{
+  enum { MANY = 12 };
+  sunrealtype start[MANY];
+  steif_context *ctx = steif_context_new(NULL);
+  for (int i = 0; i < MANY; i++) start[i] = 0.5;
+  for (int n = 2; n <= MANY; n += MANY - 2) {
+    const steif_problem p = {.name = "moved", .n = n, .t1 = 2, .y0 = start, .f = moved};
+    double error[2];
+    for (int k = 0; k < 2; k++) {
+      steif_options o = steif_defaults();
+      o.h = k ? 0.05 : 0.1;
+      steif_solver *s = steif_solver_new(ctx, &p, "rodas4", &o);
+      CU_ASSERT_FATAL(s && !steif_solve_to(s, 2));
+      error[k] = fabs(NV_Ith_S(steif_solution(s), n - 1) - (sin(2) + cos(2)) / 2);
+      steif_solver_free(&s);
+    }
+    CHECK(error[1] < error[0] / 10 && error[0] < 1e-6);
+  }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_gain[] = {
-  {"the gain makes errors of estimates", gain_makes_errors_of_estimates}, CU_TEST_INFO_NULL};
+  {"the gain makes errors of estimates", gain_makes_errors_of_estimates},
+  {"Rosenbrock methods see time", rosenbrock_sees_time},
+  CU_TEST_INFO_NULL};
