@@ -4,11 +4,23 @@
 #include "suite.h"
 #include <nvector/nvector_serial.h>
 #include <steif/steif.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
 
 static int decay(sunrealtype t, N_Vector y, N_Vector out, void *user)
 {
   (void)t, (void)user;
   NV_Ith_S(out, 0) = -NV_Ith_S(y, 0);
+  return 0;
+}
+
+static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector a,
+               N_Vector b, N_Vector c)
+{
+  (void)t, (void)y, (void)fy, (void)user, (void)a, (void)b, (void)c;
+  if (SUNMatGetID(J) == SUNMATRIX_DENSE) return SM_ELEMENT_D(J, 0, 0) = -1, 0;
+  SM_INDEXPTRS_S(J)[0] = 0, SM_INDEXPTRS_S(J)[1] = 1;
+  SM_INDEXVALS_S(J)[0] = 0, SM_DATA_S(J)[0] = -1;
   return 0;
 }
 
@@ -22,16 +34,19 @@ static void gain_makes_errors_of_estimates(void)
   } row[] = {{"gauss:s=2", 0.02}, {"gauss:s=3", 0.1}, {"gauss:s=4", 0.4},
              {"radau:s=2", 0.02}, {"radau:s=3", 0.1}, {"radau:s=4", 0.4}};
   static const sunrealtype start[] = {1};
-  const steif_problem p = {.name = "decay", .n = 1, .t1 = 10, .y0 = start, .f = decay};
+  const steif_problem p = {
+    .name = "decay", .n = 1, .t1 = 10, .y0 = start, .f = decay, .jac = jac, .nnz = 1};
   steif_context *ctx = steif_context_new(NULL);
   for (size_t i = 0; i < 2 * (sizeof row / sizeof *row); i++) {
     const bool sparse = i % 2;
     steif_options o = steif_defaults();
-    o.rtol = 1e-2, o.h0 = row[i / 2].h, o.newton = 1e-10, o.iterations = 50;
-    if (sparse) o.storage = STEIF_SPARSE;
+    o.rtol = 1e-2, o.h0 = row[i / 2].h, o.newton = 1e-13, o.iterations = 50;
+    if (sparse) o.force_storage = 1, o.storage = STEIF_SPARSE;
     steif_solver *s = steif_solver_new(ctx, &p, row[i / 2].method, &o);
     CU_ASSERT_FATAL(s && !steif_solve_step(s));
     const stf_step *step = &s->step;
+    CHECK(sparse == (step->system.storage == STEIF_SPARSE));
+    CHECK(sparse == (step->newton.gamma > 0));
     stf_transform split;
     stf_estimate e;
     CHECK(!stf_transform_build(s->pool, ctx, step->table, &split));
