@@ -175,6 +175,18 @@ static void tiny_imaginary(void)
   CLOSE(im[2], 1e-180 * (-1.75 * re[2] - 2 * re[2] + 1) / -1.75, 2e-15);
 }
 
+/* phi_1 = -1/z + e^z/z, phi_2 = -1/z - ..., where squares of z are out of range: -1/(-3 + 4 i) = 0.12 + 0.16 i. */
+static void numbers_whose_squares_overflow(void)
+{
+  double re[3], im[3];
+  CHECK(!steif_phi_scalar(2, -3e200, 4e200, re, im));
+  CHECK(re[0] == 0 && im[0] == 0);
+  for (int k = 1; k <= 2; k++) {
+    CLOSE(re[k], 1.2e-201, 8 * U);
+    CLOSE(im[k], 1.6e-201, 8 * U);
+  }
+}
+
 static void refusals(void)
 {
   double re[9], im[9];
@@ -215,5 +227,6 @@ CU_TestInfo tests_of_scalar[] = {
   {"the recurrence holds in the left half plane up to p = 8", recurrence},
   {"a tiny imaginary part keeps its digits", tiny_imaginary},
   {"wrong arguments are refused and overflow stays where it is", refusals},
+  {"numbers whose squares overflow", numbers_whose_squares_overflow},
   {"complex numbers of all sizes", complex_numbers_of_all_sizes},
   CU_TEST_INFO_NULL};
