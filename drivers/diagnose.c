@@ -15,6 +15,7 @@ static bool has_start(const steif_problem *p, const steif_diagnosis *d)
 static int look(struct call *call, const steif_problem *p, const steif_point *q)
 {
   struct diagnosis_answer a = {.problem = p, .diagnosis = {.index = -1}};
+  progress(call, "%s", p->name);
   if (steif_diagnose(call->ctx, p, q, &a.diagnosis) != STEIF_OK) return fail(call);
   if (has_start(p, &a.diagnosis) &&
       steif_consistent(call->ctx, p, q, NULL, &a.start) != STEIF_OK)

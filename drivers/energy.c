@@ -13,6 +13,7 @@ static int find(struct call *call, struct energy_answer *a)
   e->drift = calloc(a->columns, sizeof *e->drift);
   e->row = calloc(e->rows * a->columns, sizeof *e->row);
   int code = EXIT_FAILED;
+  progress(call, "%s on %s to t = %g", call->word[1], a->problem->name, o.t1);
   if (!e->drift || !e->row)
     code = no_memory(call, "the rows", "ask for fewer with --rows");
   else

@@ -6,6 +6,7 @@
 static int find(struct call *call, struct region_answer *a)
 {
   const char *method = call->word[0];
+  progress(call, "%s", method);
   if (steif_region_find(call->ctx, method, &a->region) != STEIF_OK ||
       steif_region_boundary(call->ctx, method, given(call, "--star"), a->count, a->point))
     return fail(call);

@@ -71,6 +71,7 @@ int fitted_find(struct call *call, struct fitted *a)
                                .evaluations = (int)whole_of(call, "--evaluations")};
   int code = check_outputs(call);
   if (code) return code;
+  progress(call, "%s by %s", a->problem->name, call->word[1]);
   const int found = steif_fit_find(call->ctx, a->problem, call->word[1], &a->data, &o, &a->fit);
   if (!a->fit.p) return fail(call);
   if (found) code = fail(call);

@@ -200,6 +200,7 @@ int gradient_answer(struct call *call, const steif_problem *p)
   if (a.options.t1 == 0) a.options.t1 = p->t1;
   a.found.memory = (size_t)whole_or(call, "--memory", 0);
   int code = read_functional(call, &a);
+  progress(call, "%s on %s", call->word[1], p->name);
   if (!code &&
       steif_gradient_find(call->ctx, p, call->word[1], &a.options, &a.functional, &a.found))
     code = fail(call);

@@ -170,6 +170,7 @@ int sensitivity_measure(struct call *call, struct sensitivity_answer *a)
   a->options.sensitivities = 1, a->options.active = a->active,
   a->options.active_count = a->count;
   if (given(call, "--check")) a->options.observe = note, a->options.observer = a;
+  progress(call, "%s on %s", call->word[1], a->problem->name);
   steif_solver *s = steif_solver_new(call->ctx, a->problem, call->word[1], &a->options);
   int code = s ? follow(call, a, s, points) : fail(call);
   if (!code) code = integrals(call, a, s);

@@ -118,6 +118,7 @@ static int integrate_on(struct call *call, const struct descriptor *l, struct re
   const steif_analysis a = descriptor_analysis(call, l);
   const steif_linear_output out = {jump, step, k};
   interruption_poll();
+  progress(call, "%s to t = %g", method, o.t1);
   return ended(k, method,
                steif_linear_run(call->ctx, &l->system, l->x0, l->t0, method, &o, &a, count,
                                 k->breaks, &out));
