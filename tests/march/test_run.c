@@ -152,6 +152,28 @@ static void asking_does_not_move_the_steps(void)
   steif_context_free(&ctx);
 }
 
+/* Euler's steps of 0.1 multiply the energy (q^2 + p^2)/2 of the oscillator, 1/2 at the start, by 1.01 each. */
+static void drifts_are_from_the_start(void)
+{
+  steif_context *own = steif_context_new(NULL);
+  steif_problem p;
+  steif_options o = steif_defaults();
+  sunrealtype drift;
+  o.h = 0.1;
+  CU_ASSERT_FATAL(!steif_problem_find(own, "harmonic", &p) && p.invariants == 1);
+  steif_solver *s = steif_solver_new(own, &p, "euler", &o);
+  CU_ASSERT_FATAL(s != NULL);
+  for (int k = 0; k <= 10; k++) {
+    int count = 1;
+    CHECK(!steif_drift_now(s, &count, &drift) && count == 1);
+    CLOSE_FLOOR(drift, 0.5 * (pow(1.01, k) - 1), 1e-13, 1);
+    CHECK(!steif_solve_step(s));
+  }
+  steif_solver_free(&s);
+  steif_problem_clear(own, &p);
+  steif_context_free(&own);
+}
+
 CU_TestInfo tests_of_run[] = {
   {"an observer sees every step and may stop", an_observer_sees_every_step_and_may_stop},
   {"a failure of the observer is kept", a_failure_of_the_observer_is_kept},
@@ -159,4 +181,5 @@ CU_TestInfo tests_of_run[] = {
   {"a failure is final and keeps its sentence", a_failure_is_final},
   {"times outside the interval are refused", times_outside_are_refused},
   {"asking does not move the steps", asking_does_not_move_the_steps},
+  {"drifts are from the start", drifts_are_from_the_start},
   CU_TEST_INFO_NULL};
