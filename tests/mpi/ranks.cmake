@@ -3,10 +3,11 @@ find_package(MPI COMPONENTS C)
 if(MPI_C_FOUND AND TARGET SUNDIALS::nvecparallel)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/mpi/*.c)
   add_executable(test_mpi ${sources})
+  target_include_directories(test_mpi PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_mpi PRIVATE steif MPI::MPI_C SUNDIALS::nvecparallel steif_settings)
   foreach(ranks 1 2 3)
     # Ranks that share a core wait for each other by giving it away.
-    foreach(part arrays limits runs reductions)
+    foreach(part arrays limits runs reductions memory)
       add_test(NAME mpi_${part}_${ranks}
                COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
                        --bind-to none $<TARGET_FILE:test_mpi> ${part})

@@ -44,5 +44,6 @@ void test_limits(MPI_Comm comm);
 void test_arrays(MPI_Comm comm);
 void test_runs(MPI_Comm comm);
 void test_reductions(MPI_Comm comm);
+void test_memory(MPI_Comm comm);
 
 #endif

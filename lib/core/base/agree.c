@@ -94,6 +94,22 @@ int stf_deferred_settle(N_Vector like, stf_deferred *d, const char **name)
   return returned;
 }
 
+int stf_deferred_gate(N_Vector like, stf_deferred *d)
+{
+  if (!d->opening || alone(like)) return 0;
+  if (!d->gone) stf_agree_any(like, 1, &d->gone);
+  return d->gone ? -1 : 0;
+}
+
+int stf_deferred_leave(steif_context *ctx, N_Vector like, stf_deferred *d, int code)
+{
+  bool failed = code != 0;
+  if (alone(like)) return code;
+  if (!d->gone) stf_agree_any(like, 1, &failed);
+  d->opening = false;
+  return stf_agree(ctx, like, d->gone ? 0 : code);
+}
+
 int stf_deferred_add(N_Vector like, stf_deferred *d, int returned, long id)
 {
   const char *name;

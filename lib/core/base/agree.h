@@ -27,12 +27,20 @@ int stf_agree_returned(N_Vector like, int returned);
  * anyway (gmres.h). Until then the rank that failed goes on with numbers that do not matter. */
 typedef struct stf_deferred {
   bool on;
-  int returned; /* the worst, 0: all well; < 0 before > 0 */
-  long id;      /* of the callback */
+  bool opening, gone; /* see stf_deferred_gate */
+  int returned;       /* the worst, 0: all well; < 0 before > 0 */
+  long id;            /* of the callback */
   const char *(*name)(long id);
   int rank;   /* the lowest that failed last, where ranks know their numbers; else -1 */
   long *sums; /* counts what was made to agree */
 } stf_deferred;
+
+/* While a solver is made a rank may fail alone, for want of memory, and leave: `opening`. Whatever waits for all
+ * ranks is preceded by this, which the rank that leaves calls once, in stf_deferred_leave. Not 0: some rank has
+ * left, `gone`, and nothing more is to be waited for. */
+int stf_deferred_gate(N_Vector like, stf_deferred *d);
+/* At the end of it, with the code of this rank: that of all, with the sentence of one that failed itself. */
+int stf_deferred_leave(steif_context *ctx, N_Vector like, stf_deferred *d, int code);
 
 /* Of one callback: at once, or later where it is on. Returns what is agreed, or 0. */
 int stf_deferred_add(N_Vector like, stf_deferred *d, int returned, long id);

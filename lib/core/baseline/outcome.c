@@ -132,6 +132,8 @@ static int check_progress(stf_baseline *base)
 static int check_solution(const stf_baseline *base)
 {
   const stf_run *run = base->run;
+  if (run->deferred && stf_deferred_gate(run->like, run->deferred))
+    return STEIF_FAIL(run->ctx, STEIF_NO_MEMORY, "another rank could not make its solver");
   if (stf_baseline_finite(run->y)) return STEIF_OK;
   const sunindextype at = stf_not_finite(run->y);
   return STEIF_FAIL(run->ctx, STEIF_NOT_FINITE,

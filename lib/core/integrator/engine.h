@@ -8,6 +8,7 @@
 #ifndef STF_ENGINE_H
 #define STF_ENGINE_H
 
+#include "agree.h"
 #include "base.h"
 #include <steif/sensitivity.h>
 
@@ -30,10 +31,11 @@ typedef struct stf_run {
   void *user;                   /* of the callbacks in options */
   bool mass_of_time;            /* M of the mass form depends on t */
   N_Vector like;                /* vector to clone */
-  sunrealtype t;                /* time of y */
-  N_Vector y, yp;               /* in: start values (yp 0 where not known); out: after a step */
-  steif_stats stats;            /* the engine keeps it current after every step */
-  stf_engine_columns columns;   /* set before `carry` */
+  stf_deferred *deferred;     /* of vectors that are spread over ranks: see stf_deferred_gate */
+  sunrealtype t;              /* time of y */
+  N_Vector y, yp;             /* in: start values (yp 0 where not known); out: after a step */
+  steif_stats stats;          /* the engine keeps it current after every step */
+  stf_engine_columns columns; /* set before `carry` */
 } stf_run;
 
 typedef struct steif_engine {

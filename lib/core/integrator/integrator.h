@@ -123,6 +123,8 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
 /* agreed.c: problem and options checked, the same on all ranks; where vectors are spread over several ranks,
  * they become copies whose callbacks return the same code on all of them. */
 int stf_agreed_open(steif_solver *s, int *form);
+/* While it is made: before sums that follow allocations, of which one may have failed somewhere. */
+int stf_agreed_gate(steif_solver *s);
 /* The code of all ranks at the end of a call or step, with the rank that failed. */
 int stf_agreed_end(steif_solver *s, int code);
 

@@ -3,6 +3,7 @@
 #include "integrator.h"
 #include "varying_mass.h"
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -54,12 +55,14 @@ static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vect
                      .user = s->given->user,
                      .mass_of_time = s->mass_of_time,
                      .like = y,
+                     .deferred = s->agreed ? &s->deferred : NULL,
                      .t = s->problem->t0,
                      .y = y,
                      .yp = yp};
   stf_space space;
   bool known;
   stf_space_open(&space, y);
+  STEIF_TRY(stf_agreed_gate(s));
   STEIF_TRY(stf_system_start(s->ctx, s->problem, form, &space, y, yp, &known));
   s->shown = y;
   return engine->open(&s->run, s->engine_state, spec);
@@ -200,6 +203,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   if (!step->adaptive && !o->mesh) STEIF_TRY(constant_steps(s));
   const stf_space *space = &step->system.space;
   stf_space_open(&step->system.space, y);
+  STEIF_TRY(stf_agreed_gate(s));
   STEIF_TRY(stf_system_start(s->ctx, p, form, space, y, yp, &step->yp_known));
   STEIF_TRY(claim_step(s));
   STEIF_TRY(open_system(s, form, y, yp));
@@ -221,6 +225,7 @@ static int begin_step(steif_solver *s)
   s->shown = step->y;
   if (step->h_equal > 0) STEIF_TRY(stf_rest_open(s, &s->constant, s->t1));
   if (!step->adaptive) return STEIF_OK;
+  STEIF_TRY(stf_agreed_gate(s));
   s->h_next = stf_first_step(s);
   return stf_rounding_open(s);
 }
@@ -289,6 +294,7 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(s->engine ? open_engine(s, form, spec, y, yp) : open_step(s, form, spec, y, yp));
   if (form == STEIF_DESCRIPTOR)
     STEIF_TRY(stf_constant_matrices(s->ctx, s->problem, form, s->t1, y, s->spec));
+  STEIF_TRY(stf_agreed_gate(s));
   if (s->engine) STEIF_TRY(check_ewt(s, y));
   if (s->engine && s->options.h > 0 && !s->options.mesh) STEIF_TRY(constant_steps(s));
   STEIF_TRY(stf_run_begin(s));
@@ -328,6 +334,12 @@ static int take_given(steif_solver *s, const steif_problem *problem, size_t prob
                     : STEIF_OK;
 }
 
+static N_Vector like_of(const steif_options *o, size_t bytes)
+{
+  const bool holds = bytes == 0 || bytes >= offsetof(steif_options, like) + sizeof o->like;
+  return o && holds ? o->like : NULL;
+}
+
 steif_solver *steif_solver_new_sized(size_t problem_bytes, size_t options_bytes,
                                      steif_context *ctx, const steif_problem *problem,
                                      const char *method, const steif_options *options)
@@ -338,13 +350,15 @@ steif_solver *steif_solver_new_sized(size_t problem_bytes, size_t options_bytes,
     return NULL;
   }
   steif_forget(ctx);
+  N_Vector like = like_of(options, options_bytes);
   steif_solver *s = stf_allocate(ctx, 1, sizeof *s);
-  if (!s) return NULL;
-  s->ctx = ctx;
-  s->pool = stf_pool_new(ctx);
-  if (!s->pool || take_given(s, problem, problem_bytes, options, options_bytes) ||
-      stf_agree(ctx, s->options.like, open(s, method)))
-    steif_solver_free(&s);
+  stf_deferred none = {0};
+  int code = STEIF_NO_MEMORY;
+  if (s) s->ctx = ctx, s->pool = stf_pool_new(ctx);
+  if (s && s->pool) code = take_given(s, problem, problem_bytes, options, options_bytes);
+  if (code) stf_agree(ctx, like, code); /* the first that ranks do which have come further */
+  if (!code) code = open(s, method);
+  if (stf_deferred_leave(ctx, like, s ? &s->deferred : &none, code)) steif_solver_free(&s);
   return s;
 }
 

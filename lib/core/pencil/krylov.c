@@ -169,6 +169,15 @@ static int prepare_near(steif_pencil *p, double shift)
     shift, answer);
 }
 
+static int open_pairs(steif_pencil *p)
+{
+  krylov *k = p->state;
+  STEIF_TRY(stf_gmres_pairs(k->pool, &k->gmres));
+  if (!k->u && !(k->u = stf_pool_vector(k->pool, p->like))) return STEIF_NO_MEMORY;
+  k->x[1] = stf_pool_vector(k->pool, p->like);
+  return k->x[1] ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
 /* Imaginary parts get their room at the first complex shift. */
 static int prepare(steif_pencil *p, int slot, steif_shift s)
 {
@@ -176,10 +185,8 @@ static int prepare(steif_pencil *p, int slot, steif_shift s)
   (void)slot;
   STEIF_TRY(prepare_near(p, modulus(s)));
   if (!stf_is_complex(s) || k->x[1]) return STEIF_OK;
-  STEIF_TRY(stf_gmres_pairs(k->pool, &k->gmres));
-  if (!k->u && !(k->u = stf_pool_vector(k->pool, p->like))) return STEIF_NO_MEMORY;
-  k->x[1] = stf_pool_vector(k->pool, p->like);
-  return k->x[1] ? STEIF_OK : STEIF_NO_MEMORY;
+  const int code = open_pairs(p);
+  return p->deferred ? stf_agree(p->ctx, p->like, code) : code;
 }
 
 static void factor(steif_pencil *p, int slot, steif_shift s, stf_outcome *out)

@@ -25,6 +25,7 @@ typedef struct stf_agreed {
 #define AGREED(member, ...)                                                                    \
   const stf_agreed *a = user;                                                                  \
   const steif_problem *p = a->p;                                                               \
+  if (stf_deferred_gate(a->like, a->deferred)) return -1;                                      \
   return stf_deferred_add(a->like, a->deferred, p->member(__VA_ARGS__),                        \
                           (long)offsetof(steif_problem, member))
 
@@ -148,6 +149,7 @@ static int values(const stf_agreed *a, int returned, const char *what, int count
 static int event(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 {
   const stf_agreed *a = user;
+  if (stf_deferred_gate(a->like, a->deferred)) return -1;
   return values(a, a->p->event(t, y, value, a->p->user), "the event function", a->p->events,
                 value);
 }
@@ -155,6 +157,7 @@ static int event(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 static int invariant(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 {
   const stf_agreed *a = user;
+  if (stf_deferred_gate(a->like, a->deferred)) return -1;
   return values(a, a->p->invariant(t, y, value, a->p->user), "the invariant", a->p->invariants,
                 value);
 }
@@ -162,6 +165,7 @@ static int invariant(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 static int ewt(N_Vector y, N_Vector w, void *user)
 {
   const stf_agreed *a = user;
+  if (stf_deferred_gate(a->like, a->deferred)) return -1;
   return stf_agree_returned(a->like, a->ewt(y, w, a->p->user));
 }
 
@@ -337,7 +341,14 @@ int stf_agreed_open(steif_solver *s, int *form)
   s->agreed->ewt = s->options.ewt;
   if (s->options.ewt) s->options.ewt = ewt;
   s->problem = &s->agreed->problem;
+  s->deferred.opening = true;
   return STEIF_OK;
+}
+
+int stf_agreed_gate(steif_solver *s)
+{
+  if (!s->agreed || !stf_deferred_gate(s->options.like, &s->deferred)) return STEIF_OK;
+  return STEIF_FAIL(s->ctx, STEIF_NO_MEMORY, "another rank could not make its solver");
 }
 
 int stf_agreed_end(steif_solver *s, int code)
