@@ -5,9 +5,13 @@ if(MPI_C_FOUND AND TARGET SUNDIALS::nvecparallel)
   add_executable(test_mpi ${sources})
   target_include_directories(test_mpi PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_mpi PRIVATE steif MPI::MPI_C SUNDIALS::nvecparallel steif_settings)
+  if(TARGET SUNDIALS::nvecmpimanyvector)
+    target_link_libraries(test_mpi PRIVATE SUNDIALS::nvecmpimanyvector)
+    target_compile_definitions(test_mpi PRIVATE HAVE_MPIMANYVECTOR)
+  endif()
   foreach(ranks 1 2 3)
     # Ranks that share a core wait for each other by giving it away.
-    foreach(part arrays limits runs reductions memory)
+    foreach(part arrays limits runs reductions memory parts)
       add_test(NAME mpi_${part}_${ranks}
                COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
                        --bind-to none $<TARGET_FILE:test_mpi> ${part})

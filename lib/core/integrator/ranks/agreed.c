@@ -290,13 +290,18 @@ static int refuse(const stf_agreed *a, const steif_options *o)
   return STEIF_OK;
 }
 
+/* Vectors of several parts do not say how many rows are here; they have no array either, so that none of the
+ * caller's is looked at. */
+static bool knows_rows(N_Vector like) { return like->ops->nvgetlocallength != NULL; }
+
 static int check_all(const stf_agreed *a, const steif_options *o)
 {
   STEIF_TRY(same(a, STF_COUNT(problems), problems, a->p));
   STEIF_TRY(same(a, STF_COUNT(options), options, o));
   STEIF_TRY(same_callbacks(a, o));
-  const long long rows = stf_agree_total(a->like, stf_local_length(a->like));
-  STEIF_CHECK(rows == a->p->n, a->ctx, STEIF_BAD_INPUT,
+  const bool known = knows_rows(a->like);
+  const long long rows = stf_agree_total(a->like, known ? stf_local_length(a->like) : a->p->n);
+  STEIF_CHECK(!known || rows == a->p->n, a->ctx, STEIF_BAD_INPUT,
               "the ranks own %lld rows together, problem '%s' has %lld", rows, a->p->name,
               (long long)a->p->n);
   return refuse(a, o);
@@ -331,7 +336,8 @@ int stf_agreed_open(steif_solver *s, int *form)
   const bool spread = like && stf_spread(like);
   STEIF_TRY(stf_agree_check(s->ctx, like));
   const sunindextype all = s->problem ? s->problem->n : 0;
-  int code = check(s, spread ? stf_local_length(like) : all, form);
+  const sunindextype here = spread && knows_rows(like) ? stf_local_length(like) : 0;
+  int code = check(s, spread ? here : all, form);
   if (!spread) return code;
   s->agreed = stf_pool_array(s->pool, 1, sizeof *s->agreed);
   if (!code) code = open(s, s->agreed);
