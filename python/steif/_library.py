@@ -85,6 +85,7 @@ for _row in (
     ("SUNDenseMatrix", POINTER, WHOLE, WHOLE, POINTER),
     ("SUNSparseMatrix", POINTER, WHOLE, WHOLE, WHOLE, INT, POINTER),
     ("SUNSparseMatrix_Data", POINTER, POINTER),
+    ("SUNSparseMatrix_NNZ", WHOLE, POINTER),
     ("SUNSparseMatrix_IndexPointers", POINTER, POINTER),
     ("SUNSparseMatrix_IndexValues", POINTER, POINTER),
     ("SUNMatDestroy", None, POINTER),
@@ -159,6 +160,34 @@ class Struct:
 
     def get(self, member, kind):
         return self._place(member, kind).value
+
+
+def sparse_columns(M, n, name):
+    """A matrix of scipy.sparse, or what NumPy makes one of, by columns: starts, rows, values."""
+    if M.shape != (n, n):
+        raise ValueError("%s has the shape %s, %s is needed" % (name, M.shape, (n, n)))
+    if hasattr(M, "tocsc"):
+        S = M.tocsc()
+        if not S.has_canonical_format:
+            S = S.copy()
+            S.sum_duplicates()
+        return S.indptr, S.indices, np.asarray(S.data, dtype=float)
+    columns, rows = np.nonzero(np.asarray(M).T)
+    return np.searchsorted(columns, np.arange(n + 1)), rows, np.asarray(M, dtype=float)[rows, columns]
+
+
+def fill_sparse(to, columns, name):
+    """Into a sparse matrix of the library, by columns."""
+    start, rows, values = columns
+    room = lib.SUNSparseMatrix_NNZ(to)
+    if values.size > room:
+        raise ValueError("%s has %d entries, at the start it had room for %d: give jac_sparsity with all "
+                         "places where there may be one" % (name, values.size, room))
+    for address, array, kind in ((lib.SUNSparseMatrix_IndexPointers(to), start, WHOLE),
+                                 (lib.SUNSparseMatrix_IndexValues(to), rows, WHOLE),
+                                 (lib.SUNSparseMatrix_Data(to), values, REAL)):
+        array = np.ascontiguousarray(array, dtype=kind)
+        c.memmove(address, array.ctypes.data, array.nbytes)
 
 
 class Context:

@@ -6,7 +6,9 @@ import threading
 
 import numpy as np
 
-from ._library import INT, POINTER, REAL, WHOLE, Context, SteifError, Struct, lib
+from ._library import (INT, POINTER, REAL, WHOLE, Context, SteifError, Struct, fill_sparse, lib,
+                       sparse_columns)
+from ._record import Dense
 
 _RHS = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER)
 _JACOBIAN = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER, POINTER, POINTER, POINTER, POINTER)
@@ -25,36 +27,6 @@ class Result:
 
     def __repr__(self):
         return "\n".join("%10s: %s" % (key, getattr(self, key)) for key in sorted(vars(self)))
-
-
-class Dense:
-    """The solution as a function: s(t) has n values, s([t1, t2, ...]) is n x points."""
-
-    def __init__(self, context, n):
-        self.context, self.n = context, n
-        self.record = lib.steif_record_new(context.pointer, n, 10)  # degree of its polynomials
-        if not self.record:
-            raise context.error()
-
-    def step(self, solver, t, y):
-        if lib.steif_record_step(solver, t, y, self.record):
-            raise self.context.error()
-
-    def __call__(self, t):
-        times = np.asarray(t, dtype=float)
-        y = np.zeros((times.size, self.n))
-        for i, time in enumerate(times.ravel()):
-            if lib.steif_record_at(self.record, time, y[i].ctypes.data, None):
-                raise ValueError("t = %g lies outside of the run" % time)
-        return y[0] if times.ndim == 0 else y.T
-
-    def close(self):
-        if self.record:
-            lib.steif_record_free(c.byref(POINTER(self.record)))
-            self.record = None
-            self.context.close()
-
-    __del__ = close
 
 
 class _Arrays:
@@ -80,6 +52,10 @@ class _Arrays:
 
     def plain(self, address, n):
         return self._view(address, (n,))
+
+
+def _matrix(M):
+    return M if hasattr(M, "tocsc") else np.asarray(M, dtype=float)
 
 
 class _Interrupt:
@@ -109,7 +85,7 @@ class _Run:
     """The problem, the options and the callbacks of one call."""
 
     def __init__(self, n):
-        self.n, self.arrays, self.raised = n, _Arrays(), None
+        self.n, self.arrays, self.raised, self.is_sparse = n, _Arrays(), None, False
         self.problem, self.options = Struct("problem"), Struct("options")
         self.t, self.y, self.names = [], [], None
 
@@ -139,21 +115,34 @@ class _Run:
 
     def jacobian(self, jac, args):
         vector, matrix, n = self.arrays.vector, self.arrays.matrix, self.n
-        constant = None if callable(jac) else np.asarray(jac, dtype=float).reshape(n, n)
 
-        def work(t, y, fy, J, user, a, b, d):
-            matrix(J, n)[:, :] = constant if constant is not None else jac(t, vector(y, n), *args)
+        def value(t, y):
+            return jac(t, y, *args) if callable(jac) else jac
+
+        if self.is_sparse:
+            def work(t, y, fy, J, user, a, b, d):
+                fill_sparse(J, sparse_columns(_matrix(value(t, vector(y, n))), n, "jac"), "jac")
+        else:
+            def work(t, y, fy, J, user, a, b, d):
+                matrix(J, n)[:, :] = value(t, vector(y, n))
 
         self.give("jac", _JACOBIAN, work)
 
     def mass(self, M):
         matrix, n = self.arrays.matrix, self.n
-        M = np.asarray(M.toarray() if hasattr(M, "toarray") else M, dtype=float)
-        if M.shape != (n, n):
-            raise ValueError("mass has the shape %s, %s is needed" % (M.shape, (n, n)))
+        if np.shape(M) != (n, n):
+            raise ValueError("mass has the shape %s, %s is needed" % (np.shape(M), (n, n)))
+        if self.is_sparse:
+            columns = sparse_columns(_matrix(M), n, "mass")
+            self.problem.set("nnz_E", WHOLE, max(columns[2].size, 1))
 
-        def work(t, y, yp, E, user):
-            matrix(E, n)[:, :] = M
+            def work(t, y, yp, E, user):
+                fill_sparse(E, columns, "mass")
+        else:
+            full = np.asarray(M.toarray() if hasattr(M, "toarray") else M, dtype=float)
+
+            def work(t, y, yp, E, user):
+                matrix(E, n)[:, :] = full
 
         self.give("E", _FILL, work)
 
@@ -189,11 +178,18 @@ class _Run:
 
         self.options.set("on_event", POINTER, _ON_EVENT(self.guarded(fired)))
 
-    def sparse(self, pattern):
-        """Entries that df/dy may have: differences by groups of columns, sparse matrices."""
+    def sparse(self, pattern, given):
+        """Entries that df/dy may have: differences by groups of columns where it is not `given`, sparse
+        matrices."""
         if np.shape(pattern) != (self.n, self.n):
             raise ValueError("jac_sparsity has the shape %s, %s is needed"
                              % (np.shape(pattern), (self.n, self.n)))
+        self.is_sparse = True
+        self.problem.set("storage", INT, _SPARSE)
+        if given:
+            self.problem.set("nnz", WHOLE, max(int(pattern.nnz if hasattr(pattern, "nnz")
+                                                   else np.count_nonzero(pattern)), 1))
+            return
         rows, columns = pattern.nonzero() if hasattr(pattern, "nonzero") else np.nonzero(pattern)
         order = np.lexsort((rows, columns))
         start = np.searchsorted(columns[order], np.arange(self.n + 1)).astype(WHOLE)
@@ -201,7 +197,6 @@ class _Run:
         kept.set("column", POINTER, start.ctypes.data)
         kept.set("row", POINTER, rows.ctypes.data)
         self.problem.set("pattern", POINTER, kept.address)
-        self.problem.set("storage", INT, _SPARSE)
         self.problem.kept["pattern"] = kept, start, rows
 
     def observe(self, steps, record):
@@ -322,12 +317,13 @@ def _own(f, t_span, y0, args, jac, jac_sparsity, mass, events):
     run.problem.set("y0", POINTER, start.ctypes.data)
     run.problem.kept["y0"] = start
     run.right_hand_side(f, args)
+    if jac is not None and jac_sparsity is None:
+        first = jac(t0, start.copy(), *args) if callable(jac) else jac
+        jac_sparsity = first if hasattr(first, "tocsc") else None
+    if jac_sparsity is not None:
+        run.sparse(jac_sparsity, jac is not None)
     if jac is not None:
         run.jacobian(jac, args)
-    if jac_sparsity is not None:
-        if jac is not None or mass is not None:
-            raise ValueError("jac_sparsity goes without jac and without mass")
-        run.sparse(jac_sparsity)
     if mass is not None:
         run.mass(mass)
     if events is not None:
@@ -346,8 +342,9 @@ def solve(f, t_span=None, y0=None, *, method="auto", rtol=1e-6, atol=None, t_eva
     atol          a number or one for each component; None: rtol times the scale of the problem (1)
     t_eval        times of the output; None: the steps
     dense_output  True: .sol(t) is the solution at any time of the run
-    jac           jac(t, y) -> n x n, or a constant array; None: differences
-    jac_sparsity  n x n, not 0 where df/dy may have an entry (NumPy or scipy.sparse): for large n
+    jac           jac(t, y) -> n x n, or a constant array, of NumPy or scipy.sparse; None: differences
+    jac_sparsity  n x n, not 0 where df/dy may have an entry (NumPy or scipy.sparse): for large n; beside
+                  a sparse jac only where it may get more entries than it has at the start
     events        g(t, y) or several; .terminal and .direction as in SciPy
     h             a constant step size instead of tolerances
 

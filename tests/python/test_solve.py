@@ -9,9 +9,10 @@ import numpy as np
 import steif
 
 try:
+    from scipy import sparse
     from scipy.integrate import solve_ivp
 except ImportError:
-    solve_ivp = None
+    solve_ivp = sparse = None
 
 
 def vdpol(t, y, mu=100.0):
@@ -101,6 +102,50 @@ class Solve(unittest.TestCase):
         self.assertLess(s.nfev, n)
         with self.assertRaisesRegex(ValueError, "shape"):
             steif.solve(f, (0, 0.1), np.sin(math.pi * x), jac_sparsity=np.eye(3))
+
+    @unittest.skipIf(sparse is None, "no SciPy")
+    def test_sparse_jacobians_as_scipy_takes_them(self):
+        # u' = L u - u^3 on 20 x 20 points, with a mass matrix 2 I over twice the time, and differences
+        m = 20
+        line = sparse.diags([1, -2, 1], [-1, 0, 1], shape=(m, m)) * (m + 1) ** 2
+        L = (sparse.kron(sparse.identity(m), line) + sparse.kron(line, sparse.identity(m))).tocsc()
+        x = np.sin(np.pi * np.arange(1, m + 1) / (m + 1))
+        calls = []
+
+        def f(t, u):
+            return L @ u - u ** 3
+
+        def jac(t, u):
+            calls.append(t)
+            return L + sparse.diags(-3 * u ** 2)
+
+        run = dict(rtol=1e-8, method="radau:s=3")
+        own = steif.solve(f, (0, 0.1), np.outer(x, x).ravel(), jac=jac, **run)
+        self.assertGreater(len(calls), 1)
+        for kind in (sparse.csr_matrix, sparse.coo_matrix):
+            s = steif.solve(f, (0, 0.1), np.outer(x, x).ravel(), jac=lambda t, u: kind(jac(t, u)), **run)
+            np.testing.assert_array_equal(s.y, own.y)
+        for more in (dict(jac=jac), dict(jac_sparsity=L)):
+            s = steif.solve(f, (0, 0.2), np.outer(x, x).ravel(), mass=2 * sparse.identity(m * m), **more, **run)
+            np.testing.assert_allclose(s.y[:, -1], own.y[:, -1], atol=1e-7)
+        s = steif.solve(f, (0, 0.1), np.outer(x, x).ravel(), jac_sparsity=L, **run)
+        self.assertLess(own.nfev, s.nfev)
+        np.testing.assert_allclose(s.y[:, -1], own.y[:, -1], atol=1e-7)
+
+    @unittest.skipIf(sparse is None, "no SciPy")
+    def test_entries_that_come_later_need_a_pattern(self):
+        def jac(t, y):
+            return sparse.csc_matrix([[-1.0, 0], [t, -1]])
+
+        def f(t, y):
+            return [-y[0], t * y[0] - y[1]]
+
+        with self.assertRaisesRegex(ValueError, "give jac_sparsity"):
+            steif.solve(f, (0, 1), [1, 0], jac=jac, method="radau:s=3")
+        s = steif.solve(f, (0, 1), [1, 0], jac=jac, jac_sparsity=np.tril(np.ones((2, 2))), method="radau:s=3",
+                        rtol=1e-9)
+        np.testing.assert_allclose(s.y[:, -1], [math.exp(-1), math.exp(-1) / 2], rtol=1e-7)
+
 
     def test_named_problems(self):
         s = steif.solve("rober", method="radau:s=3", rtol=1e-8)

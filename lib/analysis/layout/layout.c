@@ -20,7 +20,7 @@ static const struct {
 
   SIZE(problem), AT(problem, name), AT(problem, n), AT(problem, t0), AT(problem, t1),
   AT(problem, y0), AT(problem, yp0), AT(problem, f), AT(problem, F), AT(problem, jac),
-  AT(problem, E), AT(problem, A), AT(problem, user), AT(problem, storage), AT(problem, nnz),
+  AT(problem, E), AT(problem, A), AT(problem, user), AT(problem, storage), AT(problem, nnz), AT(problem, nnz_E),
   AT(problem, pattern), AT(problem, index), AT(problem, dae_index), AT(problem, linear),
   AT(problem, names), AT(problem, events), AT(problem, event), AT(problem, event_list),
   AT(problem, parameters),
