@@ -7,7 +7,8 @@ In a chapter, in the order of the text, in a fresh folder, by sh with steif firs
   - a fenced block after a line "`name`:" is written as the file `name`;
   - in a ```console block, lines "$ command" are run, and what follows is their output, standard error included;
     a code that is not 0 is the last line, "[exit 3]";
-  - a ```python block is run by this interpreter, and the ```text block after it is its output;
+  - a ```python block is run by this interpreter, if it has SciPy where that is imported, and the ```text block after it
+    is its output;
   - tables between "<!-- options VERB -->" and "<!-- end -->" are those of `steif VERB --help`.
 
 Without --write every block is compared. Texts must be equal, line breaks and distances apart. Numbers must
@@ -23,6 +24,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from importlib.util import find_spec
 
 NUMBER = re.compile(r"(?<![A-Za-z_0-9.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![A-Za-z_0-9])")
 IGNORED = re.compile(r"(cpu_s|seconds|rounding|estimate|residual\S*|gap|rcond|K_cond|spread|price|per_step"
@@ -160,6 +162,11 @@ def difference(shown, printed):
 
 # ---- chapters ---------------------------------------------------------------------------------------------
 
+def lacking(body):
+    """Does a program use SciPy where there is none? It is left out there."""
+    return any(re.match(r"(import|from) scipy\b", line) for line in body) and not find_spec("scipy")
+
+
 def renewed(lines, blocks, path):
     """(first, last, old, new) of all that is run, in order."""
     with tempfile.TemporaryDirectory() as folder:
@@ -170,7 +177,7 @@ def renewed(lines, blocks, path):
                     file.write("\n".join(body) + "\n")
             elif info == "console":
                 yield first + 1, last, body, console(body, folder, path)
-            elif info == "python":
+            elif info == "python" and not lacking(body):
                 printed = run([sys.executable, "-c", "\n".join(body)], folder, path)
                 if k + 1 < len(blocks) and blocks[k + 1][2] == "text":
                     a, b = blocks[k + 1][:2]

@@ -124,6 +124,22 @@ static void switches_in_loops(void)
   fixture_close(&s);
 }
 
+/* h stands in line 2 as well, where it is no condition. */
+static void are_named_by_what_they_are(void)
+{
+  fixture s;
+  CU_ASSERT_FATAL(!fixture_text(&s,
+                                "state h = 2, v = 0\nh' = v\nv' = -1 + 0*h\n"
+                                "when h < 1: v = v/2\nwhen h < 0: stop \"on the ground\"\n"
+                                "when h < -1: stop\ntime 0 to 9\n",
+                                ""));
+  CHECK(s.p.events == 3);
+  CHECK(!strcmp(s.p.event_list[0].name, "line 4"));
+  CHECK(!strcmp(s.p.event_list[1].name, "on the ground"));
+  CHECK(!strcmp(s.p.event_list[2].name, "line 6"));
+  fixture_close(&s);
+}
+
 CU_TestInfo tests_of_events[] = {
   {"a tank runs empty", a_tank_runs_empty},
   {"kinks", kinks_are_events},
@@ -133,4 +149,5 @@ CU_TestInfo tests_of_events[] = {
   {"events cause events", events_cause_events},
   {"true at the start", a_condition_true_at_the_start_does_not_fire},
   {"switches in loops", switches_in_loops},
+  {"are named by what they are", are_named_by_what_they_are},
   CU_TEST_INFO_NULL};

@@ -185,14 +185,30 @@ static void mark_used(stf_model *m, const stf_block *block, const stf_switch *s)
     m->switch_used[stf_at_pass(&block->box, k, s->a, s->stride) - m->discretes] = 1;
 }
 
-/* "line 9": where a relation stands. */
+/* What `stop` says of the reaction to a condition in this line; NULL: nothing, or there is no stop. */
+static const stf_statement *stop_of(const stf_model *m, int line)
+{
+  for (size_t i = 0; i < m->syntax.statements.count; i++) {
+    const stf_statement *s = stf_statement_at(m, (int32_t)i);
+    if (s->kind != STF_SAY_STOP || !s->strlength) continue;
+    if (s->parent >= 0 && (int)stf_statement_at(m, s->parent)->line == line) return s;
+  }
+  return NULL;
+}
+
+/* "line 9", where a relation stands, or the text of its stop. */
 static int name_events(stf_model *m, const stf_block *block, const stf_switch *s)
 {
-  char *name = stf_pool_array(m->pool, 32, 1);
+  const int line = stf_line_of(&m->syntax.sources, s->at);
+  const stf_statement *stop = stop_of(m, line);
+  const size_t room = stop ? (size_t)stop->strlength + 1 : 32;
+  char *name = stf_pool_array(m->pool, room, 1);
   const int64_t count = stf_passes(&block->box);
   if (!name) return STEIF_NO_MEMORY;
-  snprintf(name, 32, "line %d",
-           stf_line_of(&m->syntax.sources, stf_node_at(&block->graph, s->g)->at));
+  if (stop)
+    memcpy(name, stf_source_at(&m->syntax.sources, stop->string), stop->strlength);
+  else
+    snprintf(name, room, "line %d", line);
   for (int64_t k = 0; k < count; k++)
     m->event_list[stf_at_pass(&block->box, k, s->a, s->stride) - m->discretes].name = name;
   return STEIF_OK;

@@ -60,6 +60,7 @@ typedef struct stf_equation {
 typedef struct stf_switch {
   int32_t g;                    /* node */
   int32_t a, stride[STF_LOOPS]; /* place in memory */
+  uint32_t at; /* place in the text: g may have been computed elsewhere before */
 } stf_switch;
 
 /* The value of a parameter that is given from outside. */

@@ -63,7 +63,7 @@ static int32_t switched(stf_builder *b, int32_t g)
   if (!*known) {
     stf_switch *s = stf_vector_push(m->ctx, &b->block->switches, sizeof *s);
     if (!s || claim(b, s)) return -1;
-    s->g = g;
+    s->g = g, s->at = b->g->at;
     *known = (int32_t)b->block->switches.count;
   }
   const stf_switch *s = STF_AT(b->block->switches, stf_switch, *known - 1);
