@@ -43,9 +43,10 @@ enum steif_convention { STEIF_P, STEIF_R, STEIF_C, STEIF_STAGE };
  * values): 16 times the largest difference between runs on multiples of the data, which decides no
  * verdict. */
 typedef struct steif_weak_row {
-  sunrealtype h, value, error, order; /* log2 of successive errors, NaN in the first row */
-  sunrealtype rounding;               /* level of `error` */
-  int usable; /* rounding <= 0.1 |error|, and h resolves the system, f and g */
+  sunrealtype h, value, error,
+    order; /* log2 of successive errors, NaN in the first row and where a break of f lies inside a step */
+  sunrealtype rounding; /* level of `error` */
+  int usable;           /* rounding <= 0.1 |error|, and h resolves the system, f and g */
 } steif_weak_row;
 
 typedef struct steif_weak_result {

@@ -286,6 +286,7 @@ static void no_order_off_the_mesh(void)
   const steif_weak_result r = measure("be", 2, "0;step(t-0.3)", STEIF_R, 1.0 / 64, row, 5);
   CHECK(r.converges == -1 && strstr(r.verdict, "break of f at 0.3 lies inside a step") != NULL);
   for (int i = 0; i < 5; i++) CLOSE(row[i].error, error[i], 1e-5);
+  for (int i = 0; i < 5; i++) CHECK(isnan(row[i].order));
 }
 
 static void meshes_hold_all_breaks(void)

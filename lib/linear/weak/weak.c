@@ -99,6 +99,7 @@ static int conclude(const stf_measure *w, steif_weak_row *row, steif_weak_result
   if (inside < q->break_count) {
     j.inside = q->breaks[inside];
     j.fitting = stf_break_step(q->break_count, q->breaks, t1, w->h);
+    for (size_t i = 0; i < j.rows; i++) row[i].order = NAN;
   }
   STEIF_TRY(stf_measure_longest(w, &j.longest, &j.fastest));
   STEIF_TRY(look_at_end(w, result->note, sizeof result->note));
