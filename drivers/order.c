@@ -1,5 +1,6 @@
 /* order.c: the observed order of a method.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "answers.h"
 #include "curves.h"
 
 struct answer {
@@ -18,12 +19,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_truth(r, "compensated", a->row[0].compensated);
   report_steps(r, &a->made);
   steif_report_text(r, "start", word_of(call, "--start"));
-  for (size_t i = 0; i < a->count && a->row[i].error >= 0; i++) {
-    steif_report_row(r, "rows");
-    steif_report_real(r, "rows.h", a->row[i].h);
-    steif_report_real(r, "rows.error", a->row[i].error);
-    steif_report_real(r, "rows.order", a->row[i].order);
-  }
+  order_rows(r, a->count, a->row);
 }
 
 static int draw(const struct call *call, const struct answer *a)
@@ -53,6 +49,7 @@ static int run(struct call *call)
   interruption_poll();
   code =
     steif_order_measure(call->ctx, &p, call->word[0], &o, real_of(call, "--h"), a.count, a.row);
+  if (!code) code = steif_order_rounding(call->ctx, &p, call->word[0], &o, a.count, a.row);
   if (code == STEIF_STOPPED && a.row[0].error >= 0) present_rows(call, &p, &a);
   code = code ? fail(call) : present_rows(call, &p, &a);
   steif_problem_clear(call->ctx, &p);

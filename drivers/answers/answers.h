@@ -9,6 +9,9 @@
 /* Rows of the sheet "methods". */
 void report_methods(steif_report *r, const struct call *call);
 
+/* Errors with steps h, h/2, ..., and the orders that rounding leaves. */
+void order_rows(steif_report *r, size_t count, const steif_order_row *row);
+
 struct problem_answer {
   const steif_problem *problem;
   const char *text; /* equations and sources; NULL: none */

@@ -46,11 +46,20 @@ STEIF_EXPORT int steif_spectral_radius(steif_context *ctx, const char *method,
  * STEIF_STOPPED (options.stop): the rows made are there, the others have NaN. */
 typedef struct steif_order_row {
   sunrealtype h, error, order, end;
-  int compensated; /* 1: with compensated sums, see below */
+  int compensated;      /* 1: with compensated sums, see below */
+  sunrealtype rounding; /* level of `error`; NaN: not known */
 } steif_order_row;
 STEIF_EXPORT int steif_order_measure(steif_context *ctx, const steif_problem *problem,
                                      const char *method, const steif_options *options,
                                      sunrealtype h, size_t rows, steif_order_row *row);
+
+/* Fills in `rounding` of such rows: the largest difference between errors of three runs with as many steps, of
+ * lengths h and h (1 +- 2^-40), which change the method's own error by a part of 1e-12 times its order: what
+ * else differs is rounding. An order says something where errors are above 10 times it. Nothing is known
+ * where the problem has a reference at one time only. */
+STEIF_EXPORT int steif_order_rounding(steif_context *ctx, const steif_problem *problem,
+                                      const char *method, const steif_options *options,
+                                      size_t rows, steif_order_row *row);
 
 /* max |y_i(t_k) - known_ki| over the components and the times t_1 < t_2 < ... of a run of the method;
  * known: rows of n values. */

@@ -157,6 +157,54 @@ static void bad_questions_are_rejected(void)
   steif_context_free(&ctx);
 }
 
+static int slow(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  (void)t, (void)user;
+  N_VScale(-1, y, r);
+  return 0;
+}
+
+static int slow_jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector a,
+                    N_Vector b, N_Vector c)
+{
+  (void)t, (void)y, (void)fy, (void)user, (void)a, (void)b, (void)c;
+  SM_ELEMENT_D(J, 0, 0) = SM_ELEMENT_D(J, 1, 1) = -1;
+  return 0;
+}
+
+static int slow_exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  (void)yp, (void)user;
+  N_VConst(exp(-t), y);
+  return 0;
+}
+
+/* x' = -x by RK4: (1 - h + h^2/2 - h^3/6 + h^4/24)^n in more digits tells what a run in double makes of it. */
+static void rounding_is_told(void)
+{
+  static const double y0[] = {1, 1};
+  steif_context *ctx = steif_context_new(NULL);
+  const steif_problem p = {
+    .name = "p", .n = 2, .t1 = 4, .y0 = y0, .f = slow, .jac = slow_jac, .exact = slow_exact};
+  steif_order_row row[4];
+  CHECK(steif_order_measure(ctx, &p, "rk4", NULL, 1. / 8, 4, row) == STEIF_OK);
+  CHECK(isnan(row[0].rounding));
+  CHECK(steif_order_rounding(ctx, &p, "rk4", NULL, 4, row) == STEIF_OK);
+  for (int i = 0; i < 4; i++) {
+    const double h = row[i].h,
+                 e = pow(1 - h + h * h / 2 - h * h * h / 6 + h * h * h * h / 24, 4 / h);
+    CHECK(row[i].rounding < 1e-14 && row[i].error > 1e3 * row[i].rounding);
+    CLOSE(row[i].error, e - exp(-4), 1e-4);
+  }
+  /* (h = 1/4096)^4/30 e^-4 is 2e-18: these errors are rounding alone. */
+  CHECK(steif_order_measure(ctx, &p, "rk4", NULL, 1. / 4096, 2, row) == STEIF_OK);
+  CHECK(steif_order_rounding(ctx, &p, "rk4", NULL, 2, row) == STEIF_OK);
+  for (int i = 0; i < 2; i++)
+    CHECK(row[i].rounding > 0 && row[i].rounding > 0.01 * row[i].error);
+  CHECK(steif_order_rounding(ctx, &p, "rk4", NULL, 2, NULL) == STEIF_BAD_INPUT);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_order[] = {
   {"errors of a stiff pair at t = 4 are the closed ones", errors_of_a_stiff_pair},
   {"a reference value serves as well as a closed solution", reference_serves_as_well},
@@ -164,4 +212,5 @@ CU_TestInfo tests_of_order[] = {
   {"Gauss of order 30 reaches rounding", gauss_of_order_30_reaches_rounding},
   {"steps that do not fit end before t1", steps_that_do_not_fit_end_before},
   {"bad questions are rejected", bad_questions_are_rejected},
+  {"rounding is told", rounding_is_told},
   CU_TEST_INFO_NULL};

@@ -107,11 +107,65 @@ int steif_order_measure(steif_context *ctx, const steif_problem *problem, const 
   char spec[2 * STEIF_SPEC_WORD];
   const char *used = compensated(ctx, problem, method, sizeof spec, spec);
   for (size_t i = 0; i < rows; i++)
-    row[i] = (steif_order_row){ldexp(h, -(int)i), NAN, NAN, o.t1, used != method};
+    row[i] = (steif_order_row){ldexp(h, -(int)i), NAN, NAN, o.t1, used != method, NAN};
   for (size_t i = 0; i < rows; i++) {
     o.h = row[i].h;
     STEIF_TRY(run(ctx, problem, used, &o, &row[i].error));
     if (i > 0) row[i].order = log2(row[i - 1].error / row[i].error);
   }
+  return STEIF_OK;
+}
+
+/* ---- rounding ---- */
+
+/* y - exact at the end of a run. */
+static int error_of(steif_context *ctx, const steif_problem *problem, const char *method,
+                    const steif_options *options, N_Vector *error)
+{
+  steif_solver *s = steif_solver_new(ctx, problem, method, options);
+  if (!s) return steif_status(ctx);
+  int code = steif_solve_to(s, options->t1);
+  if (code == STEIF_OK && !(*error = N_VClone(steif_solution(s))))
+    code = STEIF_FAIL(ctx, STEIF_NO_MEMORY, "no memory for the error");
+  if (code == STEIF_OK) code = at_end(ctx, problem, options->t1, *error);
+  if (code == STEIF_OK) N_VLinearSum(1, steif_solution(s), -1, *error, *error);
+  steif_solver_free(&s);
+  return code;
+}
+
+static int rounding_of(steif_context *ctx, const steif_problem *problem, const char *method,
+                       steif_options *o, steif_order_row *row)
+{
+  enum { RUNS = 3 };
+  N_Vector error[RUNS] = {NULL};
+  const sunrealtype t0 = problem->t0, steps = round((row->end - t0) / row->h);
+  int code = STEIF_OK;
+  sunrealtype most = 0;
+  for (int k = 0; k < RUNS && code == STEIF_OK; k++) {
+    o->h = row->h * (1 + (k == 0 ? 0 : k == 1 ? 1 : -1) * STF_SHAKEN_STEP);
+    o->t1 = t0 + steps * o->h;
+    code = error_of(ctx, problem, method, o, &error[k]);
+    if (code || k == 0) continue;
+    N_VLinearSum(1, error[k], -1, error[0], error[k]);
+    most = fmax(most, N_VMaxNorm(error[k]));
+  }
+  for (int k = 0; k < RUNS; k++)
+    if (error[k]) N_VDestroy(error[k]);
+  if (code == STEIF_OK) row->rounding = most;
+  return code;
+}
+
+int steif_order_rounding(steif_context *ctx, const steif_problem *problem, const char *method,
+                         const steif_options *options, size_t rows, steif_order_row *row)
+{
+  steif_options o = options ? *options : steif_defaults();
+  STEIF_CHECK(problem && method && row, ctx, STEIF_BAD_INPUT,
+              "a problem, a method and its rows are needed");
+  char spec[2 * STEIF_SPEC_WORD];
+  const char *used = compensated(ctx, problem, method, sizeof spec, spec);
+  o.mesh = NULL;
+  o.mesh_size = 0;
+  for (size_t i = 0; i < rows && problem->exact; i++)
+    STEIF_TRY(rounding_of(ctx, problem, used, &o, &row[i]));
   return STEIF_OK;
 }

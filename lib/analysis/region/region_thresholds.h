@@ -18,5 +18,7 @@
 #define STF_ANGLE_WIDTH 1e-13
 /* Relative rounding of a time or of a step size that was made of others. */
 #define STF_TIME_ROUNDING 1e-12
+/* Steps of runs that tell rounding differ by this part: 2^-40. */
+#define STF_SHAKEN_STEP 9.094947017729282e-13
 
 #endif
