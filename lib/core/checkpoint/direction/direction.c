@@ -47,8 +47,9 @@ static int slope_of_start(int k, N_Vector S0, void *user)
     if (code) return code;
     N_VLinearSum(1, S0, d->v[i], d->work, S0);
   }
-  sunrealtype *x = d->u ? N_VGetArrayPointer(S0) : NULL;
-  for (sunindextype i = 0; x && i < d->given->n; i++) x[i] += d->u[i];
+  sunindextype rows = 0;
+  sunrealtype *x = d->u ? stf_own_rows(S0, &rows) : NULL;
+  for (sunindextype i = 0; x && i < rows; i++) x[i] += d->u[i];
   return 0;
 }
 

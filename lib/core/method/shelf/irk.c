@@ -4,9 +4,8 @@
  * the split of B. The polynomial of degree s with y_n at 0 and slopes Y_i' at c_i,
  *   u(t_n + x h) = y_n + sum_j w_j(x) Z_j,   w(x)^T = (int_0^x l_i)_i^T B,
  * gives the end value (w(1) = b^T B), the start of the next iteration and dense output.
- * Error estimate (c_1 > 0): the shifted solve of -F(t_n, y_n, u'(t_n)) with the collocation
- * polynomial through (0, y_n) and all stages; order s (Hairer and Wanner II, IV.8). Where the end is
- * not a stage, of -F(t_n + h, y_{n+1}, u'(t_n + h)): stiff and algebraic components are off there.
+ * Error estimate (c_1 > 0): the shifted solve of -F(t_n, y_n, u'(t_n)); order s (Hairer and Wanner II, IV.8).
+ * Where the end is not a stage, of -F(t_n + h, y_{n+1}, u'(t_n + h)): stiff and algebraic components are off.
  * compensated=1: stages solved until rounding stops it, coefficients in two parts, and the end value
  * a sum that remembers its rounding (E. Hairer, R. I. McLachlan and A. Razakarivony, BIT 48 (2008)).
  *

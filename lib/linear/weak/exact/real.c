@@ -43,13 +43,15 @@ long double stf_real_value(const stf_real *x)
   return x->sign * ldexpl(v, BITS * x->exponent);
 }
 
-/* w = |a| + |b| B^-shift to limbs + 1 digits after one for the carry. */
-static void sum_of(int limbs, const stf_real *a, const stf_real *b, int shift, uint32_t *w)
+/* w = |a| + sign |b| B^-shift to limbs + 1 digits after one for the carry; for sign -1 shift > 0 or |a| >= |b|,
+ * so that it is not negative. */
+static void combine(int limbs, const stf_real *a, const stf_real *b, int shift, int sign,
+                    uint32_t *w)
 {
-  uint64_t carry = 0;
+  int64_t carry = 0;
   for (int i = limbs; i >= shift; i--) {
-    carry +=
-      (uint64_t)(i < limbs ? a->limb[i] : 0) + (i - shift < limbs ? b->limb[i - shift] : 0);
+    const int64_t low = i - shift < limbs ? b->limb[i - shift] : 0;
+    carry += (int64_t)(i < limbs ? a->limb[i] : 0) + sign * low;
     w[i + 1] = (uint32_t)carry;
     carry >>= BITS;
   }
@@ -59,25 +61,6 @@ static void sum_of(int limbs, const stf_real *a, const stf_real *b, int shift, u
     carry >>= BITS;
   }
   w[0] = (uint32_t)carry;
-}
-
-/* w = |a| - |b| B^-shift likewise, where shift > 0 or |a| >= |b|: then it is not negative. */
-static void difference_of(int limbs, const stf_real *a, const stf_real *b, int shift,
-                          uint32_t *w)
-{
-  int64_t carry = 0;
-  for (int i = limbs; i >= shift; i--) {
-    carry +=
-      (int64_t)(i < limbs ? a->limb[i] : 0) - (i - shift < limbs ? b->limb[i - shift] : 0);
-    w[i + 1] = (uint32_t)carry;
-    carry >>= BITS;
-  }
-  for (int i = shift - 1; i >= 0; i--) {
-    carry += a->limb[i];
-    w[i + 1] = (uint32_t)carry;
-    carry >>= BITS;
-  }
-  w[0] = 0;
 }
 
 /* |a| < |b|, of the same exponent. */
@@ -100,7 +83,7 @@ void stf_real_add(int limbs, const stf_real *a, const stf_real *b, stf_real *sum
     if (sum != large) *sum = *large;
     return;
   }
-  (large->sign == small->sign ? sum_of : difference_of)(limbs, large, small, shift, w);
+  combine(limbs, large, small, shift, large->sign * small->sign, w);
   normalise(limbs, large->sign, large->exponent + 1, limbs + 2, w, sum);
 }
 
