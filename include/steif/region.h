@@ -53,10 +53,10 @@ STEIF_EXPORT int steif_order_measure(steif_context *ctx, const steif_problem *pr
                                      const char *method, const steif_options *options,
                                      sunrealtype h, size_t rows, steif_order_row *row);
 
-/* Fills in `rounding` of such rows: the largest difference between errors of three runs with as many steps, of
- * lengths h and h (1 +- 2^-40), which change the method's own error by a part of 1e-12 times its order: what
- * else differs is rounding. An order says something where errors are above 10 times it. Nothing is known
- * where the problem has a reference at one time only. */
+/* Fills in `rounding` of such rows: four times the largest difference between errors of three runs with as many
+ * steps, of lengths h and h (1 +- 2^-40), which change the method's own error by a part of 1e-12 times its
+ * order, so that what else differs is rounding; and eps |y|. An order says something where errors are above 10
+ * times it. Nothing is known where the problem has a reference at one time only. */
 STEIF_EXPORT int steif_order_rounding(steif_context *ctx, const steif_problem *problem,
                                       const char *method, const steif_options *options,
                                       size_t rows, steif_order_row *row);

@@ -118,9 +118,9 @@ int steif_order_measure(steif_context *ctx, const steif_problem *problem, const 
 
 /* ---- rounding ---- */
 
-/* y - exact at the end of a run. */
+/* y - exact at the end of a run, and the largest |exact|. */
 static int error_of(steif_context *ctx, const steif_problem *problem, const char *method,
-                    const steif_options *options, N_Vector *error)
+                    const steif_options *options, N_Vector *error, sunrealtype *size)
 {
   steif_solver *s = steif_solver_new(ctx, problem, method, options);
   if (!s) return steif_status(ctx);
@@ -128,7 +128,10 @@ static int error_of(steif_context *ctx, const steif_problem *problem, const char
   if (code == STEIF_OK && !(*error = N_VClone(steif_solution(s))))
     code = STEIF_FAIL(ctx, STEIF_NO_MEMORY, "no memory for the error");
   if (code == STEIF_OK) code = at_end(ctx, problem, options->t1, *error);
-  if (code == STEIF_OK) N_VLinearSum(1, steif_solution(s), -1, *error, *error);
+  if (code == STEIF_OK) {
+    *size = N_VMaxNorm(*error);
+    N_VLinearSum(1, steif_solution(s), -1, *error, *error);
+  }
   steif_solver_free(&s);
   return code;
 }
@@ -140,18 +143,18 @@ static int rounding_of(steif_context *ctx, const steif_problem *problem, const c
   N_Vector error[RUNS] = {NULL};
   const sunrealtype t0 = problem->t0, steps = round((row->end - t0) / row->h);
   int code = STEIF_OK;
-  sunrealtype most = 0;
+  sunrealtype most = 0, size = 0;
   for (int k = 0; k < RUNS && code == STEIF_OK; k++) {
     o->h = row->h * (1 + (k == 0 ? 0 : k == 1 ? 1 : -1) * STF_SHAKEN_STEP);
     o->t1 = t0 + steps * o->h;
-    code = error_of(ctx, problem, method, o, &error[k]);
+    code = error_of(ctx, problem, method, o, &error[k], &size);
     if (code || k == 0) continue;
     N_VLinearSum(1, error[k], -1, error[0], error[k]);
     most = fmax(most, N_VMaxNorm(error[k]));
   }
   for (int k = 0; k < RUNS; k++)
     if (error[k]) N_VDestroy(error[k]);
-  if (code == STEIF_OK) row->rounding = most;
+  if (code == STEIF_OK) row->rounding = STF_SHAKEN_MORE * most + STF_EPS * size;
   return code;
 }
 

@@ -18,7 +18,9 @@
 #define STF_ANGLE_WIDTH 1e-13
 /* Relative rounding of a time or of a step size that was made of others. */
 #define STF_TIME_ROUNDING 1e-12
-/* Steps of runs that tell rounding differ by this part: 2^-40. */
+/* Steps of runs that tell rounding differ by this part, 2^-40; the largest of two differences is taken so many
+ * times: of 80 errors of four methods on the oscillator, known in 60 digits, none is off by more. */
 #define STF_SHAKEN_STEP 9.094947017729282e-13
+#define STF_SHAKEN_MORE 4
 
 #endif
