@@ -14,7 +14,7 @@ expect(0 -V OUT "^steif [0-9.]+\n$")
 expect(2 help slove ERR "did you mean solve")
 
 # A reader that has gone is said, and no success.
-foreach(words "--help" "solve --help" "list problems")
+foreach(words "--help" "solve --help" "help list")
   execute_process(COMMAND sh -c "sleep 0.3; exec \"$0\" ${words}" ${PROGRAM} COMMAND true
                   RESULTS_VARIABLE codes ERROR_VARIABLE err)
   list(GET codes 0 code)

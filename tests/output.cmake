@@ -108,7 +108,7 @@ endforeach()
 expect(1 solve rober radau:s=3 --max-steps 20 --json ERR "20 steps made")
 member("step limit" status)
 member(20 stats steps)
-expect(1 solve bruss2d:n=32 be --h 1e-6 --max-seconds 1e-9 ERR "max_seconds is 1e-09")
+expect(1 solve bruss2d:n=32 be --h 1e-6 --max-seconds 1e-9 ERR "--max-seconds is 1e-09")
 expect(2 solve rober be --max-seconds 0 ERR "above 0")
 
 # numpy, or else python's zipfile, reads what was written.

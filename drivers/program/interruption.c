@@ -1,5 +1,5 @@
-/* interruption.c: SIGINT, SIGTERM, and SIGPIPE, which a reader that has gone sends: a flag for who polls, else
- * the end with a sentence.
+/* interruption.c: SIGINT, SIGTERM: a flag for who polls, else the end with a sentence; SIGPIPE, which a reader
+ * that has gone sends, where no verb runs: the sentence.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "interruption.h"
 #include <signal.h>
@@ -51,15 +51,18 @@ static void on_signal(int number)
   alarm(LONGEST);
 }
 
+/* Verbs end by SIGPIPE without a word, as filters before head(1) do. */
 void interruption_open(const char *verb)
 {
   static const int numbers[] = {SIGINT, SIGTERM, SIGALRM, SIGPIPE};
+  const struct sigaction usual = {.sa_handler = SIG_DFL};
   const struct sigaction ours = {.sa_handler = on_signal};
   struct sigaction before;
   verb_name = verb;
   for (int i = 0; i < 4; i++) {
     sigaction(numbers[i], NULL, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(numbers[i], &ours, NULL);
+    if (before.sa_handler == SIG_IGN) continue;
+    sigaction(numbers[i], verb && numbers[i] == SIGPIPE ? &usual : &ours, NULL);
   }
 }
 
