@@ -27,6 +27,8 @@ static int run(struct call *call)
     return bad_usage(call,
                      "gradients are by all parameters, at the end: leave --parameters and "
                      "--points out");
+  if (given(call, "--hessian") && !back)
+    return bad_usage(call, "--hessian goes with --adjoint or --end");
   return with_problem(call, back ? gradient_answer : find);
 }
 
@@ -34,6 +36,7 @@ static const struct option options[] = {
   {"--parameters", WORD, "P,...", "names of the parameters, or all", "all"},
   {"--adjoint", FLAG, NULL, "the gradient of --functional by all parameters, going back", NULL},
   {"--end", WORD, "E", "gradient of E at the end, which is added to --functional", NULL},
+  {"--hessian", WORD, "P=V,...", "of a gradient: its derivative along this direction", NULL},
   {"--memory", COUNT, "BYTES", "for gradients (default: 1 GiB)", NULL},
   {"--points", COUNT, "N", "times shown, at equal distances to the end", "1"},
   {"--check", FLAG, NULL, "compare with differences of runs on the same mesh", NULL},

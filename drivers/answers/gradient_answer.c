@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "gradient_answer.h"
 #include "answers.h"
+#include "direction_words.h"
 #include "gradient_terms.h"
 #include "integration.h"
 #include <math.h>
@@ -14,6 +15,7 @@ struct gradient {
   steif_functional functional;
   struct sum integrand, end;
   steif_gradient found;
+  double *v, *product; /* of second derivatives; NULL: not asked for */
   double *mesh;
   size_t times, room;
   bool checked;
@@ -173,6 +175,7 @@ static void rows(steif_report *r, const struct gradient *a)
     steif_report_real(r, "rows.p", q->value[k]);
     steif_report_real(r, "rows.gradient", a->found.dp[k]);
     steif_report_real(r, "rows.scaled", a->found.dp[k] * (typical > 0 ? typical : 1));
+    if (a->product) steif_report_real(r, "rows.product", a->product[k]);
   }
 }
 
@@ -188,10 +191,39 @@ static void fill(steif_report *r, const struct call *call, const void *result)
     steif_report_list(r, "p", (size_t)g->parameters, a->problem->parameters->value);
     steif_report_list(r, "gradient", (size_t)g->parameters, g->dp);
   }
+  if (a->product) {
+    steif_report_list(r, "v", (size_t)g->parameters, a->v);
+    steif_report_list(r, "product", (size_t)g->parameters, a->product);
+  }
   steif_report_list(r, "lambda0", (size_t)g->n, g->dy0);
   rows(r, a);
   costs(r, &g->cost);
   if (a->checked) steif_report_real(r, "disagreement", a->disagreement);
+}
+
+static int differentiate_twice(struct call *call, struct gradient *a)
+{
+  const steif_problem *p = a->problem;
+  const size_t P = p->parameters ? (size_t)p->parameters->count : 0;
+  a->v = calloc(P + 1, sizeof *a->v), a->product = calloc(P + 1, sizeof *a->product);
+  if (!a->v || !a->product) return no_memory(call, "a direction", "leave --hessian out");
+  const int code = direction_read(call, p, "--hessian", a->v);
+  if (code) return code;
+  steif_direction *d = steif_direction_new(call->ctx, p, a->v, NULL);
+  const int found = d ? steif_hessian_product(call->ctx, d, call->word[1], &a->options,
+                                              &a->functional, &a->found, a->product, NULL)
+                      : steif_status(call->ctx);
+  steif_direction_free(&d);
+  return found ? fail(call) : EXIT_OK;
+}
+
+static int find(struct call *call, struct gradient *a)
+{
+  if (given(call, "--hessian")) return differentiate_twice(call, a);
+  return steif_gradient_find(call->ctx, a->problem, call->word[1], &a->options, &a->functional,
+                             &a->found)
+           ? fail(call)
+           : EXIT_OK;
 }
 
 int gradient_answer(struct call *call, const steif_problem *p)
@@ -201,12 +233,10 @@ int gradient_answer(struct call *call, const steif_problem *p)
   a.found.memory = (size_t)whole_or(call, "--memory", 0);
   int code = read_functional(call, &a);
   progress(call, "%s on %s", call->word[1], p->name);
-  if (!code &&
-      steif_gradient_find(call->ctx, p, call->word[1], &a.options, &a.functional, &a.found))
-    code = fail(call);
+  if (!code) code = find(call, &a);
   if (!code && given(call, "--check")) code = check(call, &a);
   if (!code) code = present_result(call, fill, &a);
   steif_gradient_free(call->ctx, &a.found);
-  free(a.mesh);
+  free(a.mesh), free(a.v), free(a.product);
   return code;
 }

@@ -292,6 +292,27 @@ static void bit_for_bit(void)
   steif_context_free(&ctx);
 }
 
+/* One factorisation and one solve of the stages a step more, and one transposed solve. */
+static void cost(void)
+{
+  static const sunrealtype v[] = {1, -1, 2, 0.5};
+  steif_context *ctx = steif_context_new(NULL);
+  const steif_functional J = {.count = 1, .end = distance, .slopes = of_distance};
+  steif_options o = steif_defaults();
+  o.t1 = 2, o.h = 0.125;
+  struct subject s;
+  subject_lotka(&s);
+  steif_gradient one = {0}, with = {0};
+  sunrealtype H[4];
+  CHECK(!steif_gradient_find(ctx, &s.problem, "radau:s=3", &o, &J, &one));
+  product(ctx, &s.problem, "radau:s=3", &o, &J, v, NULL, &with, H, NULL);
+  CHECK(with.cost.factors == one.cost.factors + 16 && with.cost.steps == 16);
+  CHECK(with.cost.solves == one.cost.solves + 16);
+  CHECK(with.cost.transposed_solves == 2 * one.cost.transposed_solves);
+  steif_gradient_free(ctx, &one), steif_gradient_free(ctx, &with);
+  steif_context_free(&ctx);
+}
+
 static void refused(void)
 {
   static const sunrealtype v[] = {1, 1, 1, 1};
@@ -349,6 +370,7 @@ CU_TestInfo tests_of_hessians[] = {
   {"the derivative of the gradient", derivative_of_the_gradient},
   {"what is left to differences", by_differences},
   {"images, or all stages: bit for bit", bit_for_bit},
+  {"cost in factors and solves", cost},
   {"refused with a sentence", refused},
   {"failing requests for memory", failing_requests},
   CU_TEST_INFO_NULL};

@@ -44,7 +44,7 @@ typedef struct stf_adjoint {
   int *pivot;
   bool direct, forward; /* the stages' own matrix is factored; K x = r is being solved */
   N_Vector *residual, *omega, product, total;
-  long solves, factors;
+  long solves, forward_solves, factors;
 } stf_adjoint;
 int stf_adjoint_open(stf_pool *pool, stf_system *system, int m, const steif_table *table,
                      stf_adjoint *a);

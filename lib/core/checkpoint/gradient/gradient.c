@@ -204,6 +204,7 @@ static int results(stf_journey *J)
   for (int k = 0; k < B->P; k++) STEIF_TRY(by_parameter(J, k));
   g->cost.steps = J->steps, g->cost.bytes = J->bytes;
   g->cost.factors = B->adjoint.factors;
+  g->cost.solves += B->adjoint.forward_solves;
   g->cost.transposed_solves = B->adjoint.solves;
   return STEIF_OK;
 }

@@ -107,6 +107,14 @@ int stf_adjoint_factor(stf_adjoint *a, sunrealtype t, sunrealtype h, const sunre
   return a->pencil ? factor_lanes(a) : factor_dense(a, t);
 }
 
+static void count_solve(stf_adjoint *a)
+{
+  if (a->forward)
+    a->forward_solves++;
+  else
+    a->solves++;
+}
+
 static int solve_dense(stf_adjoint *a, N_Vector *r, N_Vector *w)
 {
   const int size = (int)(a->m * a->n), n = (int)a->n, one = 1;
@@ -117,7 +125,7 @@ static int solve_dense(stf_adjoint *a, N_Vector *r, N_Vector *w)
   dgetrs_(a->forward ? "N" : "T", &size, &one, a->K, &size, a->pivot, x, &size, &info, 1);
   for (int j = 0; j < a->m; j++)
     for (int i = 0; i < n; i++) STF_ARRAY(w[j])[i] = x[j * n + i];
-  a->solves++;
+  count_solve(a);
   return STEIF_OK;
 }
 
@@ -212,7 +220,7 @@ static int iterate(stf_adjoint *a, N_Vector *r, N_Vector *w)
   for (int j = 0; j < a->m; j++) stf_copy(a->space, r[j], a->residual[j]);
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     STEIF_TRY(precondition(a, a->residual));
-    a->solves++;
+    count_solve(a);
     const sunrealtype moved = size_of(a, a->residual);
     for (int j = 0; j < a->m; j++) stf_axpy(a->space, 1, a->residual[j], w[j]);
     const sunrealtype size = size_of(a, w);
