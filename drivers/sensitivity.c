@@ -35,7 +35,7 @@ static int run(struct call *call)
 static const struct option options[] = {
   {"--parameters", WORD, "P,...", "names of the parameters, or all", "all"},
   {"--adjoint", FLAG, NULL, "the gradient of --functional by all parameters, going back", NULL},
-  {"--end", WORD, "E", "gradient of E at the end, which is added to --functional", NULL},
+  {"--end", WORD, "E", "gradient of an expression at the end, added to --functional", NULL},
   {"--hessian", WORD, "P=V,...", "of a gradient: its derivative along this direction", NULL},
   {"--memory", COUNT, "BYTES", "for gradients (default: 1 GiB)", NULL},
   {"--points", COUNT, "N", "times shown, at equal distances to the end", "1"},

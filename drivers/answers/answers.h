@@ -60,9 +60,17 @@ enum { SENSITIVITIES = 64 };
 struct functional {
   steif_problem problem, model;
   steif_quadrature quadrature;
+  N_Vector out;
 };
 int functional_open(struct call *call, const steif_problem *p, struct functional *f);
 void functional_close(struct call *call, struct functional *f);
+/* A model with the names of the problem's unknowns and parameters, the slope of whose first unknown is the
+ * expression; its parameters as others are now; and its value with these, `out` for the slopes. */
+int expression_open(struct call *call, const steif_problem *p, const char *expression,
+                    steif_problem *model);
+int expression_follow(const steif_parameters *from, const steif_problem *model);
+int expression_value(const steif_parameters *from, const steif_problem *model, double t,
+                     N_Vector y, N_Vector out, double *value);
 
 struct sensitivity_answer {
   const steif_problem *problem;

@@ -34,37 +34,65 @@ static void name_parameter(const steif_parameters *q, int k, char *room)
     snprintf(room, LINE, "p%d", k + 1);
 }
 
-/* The model as text; to be freed. */
+/* The model as text; to be freed. The expression is the slope of the first unknown. */
 static char *write_model(const steif_problem *p, const char *expression)
 {
   const steif_parameters *q = p->parameters;
-  const size_t lines = (size_t)p->n * 2 + (size_t)q->count + 4;
+  const int P = q ? q->count : 0;
+  const size_t lines = (size_t)p->n * 2 + (size_t)P + 4;
   char *text = malloc(lines * 2 * LINE + strlen(expression)), *at = text, name[LINE];
   if (!text) return NULL;
-  for (int k = 0; k < q->count; k++) {
+  for (int k = 0; k < P; k++) {
     name_parameter(q, k, name);
     at += sprintf(at, "param %s = %.17g\n", name, q->value[k]);
   }
   for (sunindextype i = 0; i < p->n; i++) {
     name_unknown(p, i, name);
-    at += sprintf(at, "state %s = 0\n%s' = 0\n", name, name);
+    at += sprintf(at, "state %s = 0\n%s' = %s\n", name, name, i ? "0" : expression);
   }
-  sprintf(at, "output integrand_ = %s\ntime %.17g to %.17g\n", expression, p->t0, p->t1);
+  sprintf(at, "time %.17g to %.17g\n", p->t0, p->t1);
   return text;
+}
+
+int expression_open(struct call *call, const steif_problem *p, const char *expression,
+                    steif_problem *model)
+{
+  if (p->n > UNKNOWNS)
+    return bad_usage(call, "'%s': expressions are of at most %d unknowns, sums of them of any",
+                     expression, UNKNOWNS);
+  char *text = write_model(p, expression);
+  if (!text) return no_memory(call, "the functional", "leave it out");
+  const int code = steif_model_parse(call->ctx, text, "functional", NULL, model);
+  free(text);
+  return code ? fail(call) : EXIT_OK;
+}
+
+int expression_follow(const steif_parameters *from, const steif_problem *model)
+{
+  const steif_parameters *to = model->parameters;
+  bool moved = false;
+  for (int k = 0; from && k < from->count; k++) {
+    moved = moved || to->value[k] != from->value[k];
+    to->value[k] = from->value[k];
+  }
+  return moved && to->moved(model->user) ? -1 : 0;
+}
+
+int expression_value(const steif_parameters *from, const steif_problem *model, double t,
+                     N_Vector y, N_Vector out, double *value)
+{
+  if (expression_follow(from, model)) return -1;
+  const int code = model->f(t, y, out, model->user);
+  *value = N_VGetArrayPointer(out)[0];
+  return code;
 }
 
 /* With the parameters that the problem has now. */
 static int integrand(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 {
   struct functional *f = user;
-  const steif_parameters *from = f->problem.parameters, *to = f->model.parameters;
-  bool moved = false;
-  for (int k = 0; k < from->count; k++) {
-    moved = moved || to->value[k] != from->value[k];
-    to->value[k] = from->value[k];
-  }
-  if (moved && to->moved(f->model.user)) return -1;
-  return steif_model_outputs(&f->model, t, y, value);
+  if (!f->out && !(f->out = N_VClone(y))) return -1;
+  return expression_value(f->problem.parameters, &f->model, t, y, f->out, value);
 }
 
 int functional_open(struct call *call, const steif_problem *p, struct functional *f)
@@ -72,14 +100,9 @@ int functional_open(struct call *call, const steif_problem *p, struct functional
   const char *expression = word_of(call, "--functional");
   if (strncmp(expression, "int ", 4))
     return bad_usage(call, "--functional is 'int ' and an expression, such as 'int y3^2'");
-  if (!p->parameters || p->n > UNKNOWNS)
-    return bad_usage(
-      call, "--functional needs a problem with parameters and at most %d unknowns", UNKNOWNS);
-  char *text = write_model(p, expression + 4);
-  if (!text) return no_memory(call, "the functional", "leave it out");
-  const int code = steif_model_parse(call->ctx, text, "functional", NULL, &f->model);
-  free(text);
-  if (code) return fail(call);
+  if (!p->parameters) return bad_usage(call, "--functional needs a problem with parameters");
+  const int code = expression_open(call, p, expression + 4, &f->model);
+  if (code) return code;
   f->problem = *p;
   f->quadrature = (steif_quadrature){.count = 1, .value = integrand, .user = f};
   f->problem.quadrature = &f->quadrature;
@@ -89,4 +112,5 @@ int functional_open(struct call *call, const steif_problem *p, struct functional
 void functional_close(struct call *call, struct functional *f)
 {
   if (f->model.user) steif_problem_clear(call->ctx, &f->model);
+  if (f->out) N_VDestroy(f->out);
 }

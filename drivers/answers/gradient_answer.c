@@ -3,7 +3,7 @@
 #include "gradient_answer.h"
 #include "answers.h"
 #include "direction_words.h"
-#include "gradient_terms.h"
+#include "gradient_functional.h"
 #include "integration.h"
 #include <math.h>
 #include <stdlib.h>
@@ -12,8 +12,7 @@
 struct gradient {
   const steif_problem *problem;
   steif_options options;
-  steif_functional functional;
-  struct sum integrand, end;
+  struct gradient_functional functional;
   steif_gradient found;
   double *v, *product; /* of second derivatives; NULL: not asked for */
   double *mesh;
@@ -21,43 +20,6 @@ struct gradient {
   bool checked;
   double disagreement;
 };
-
-/* ---- what is asked ------------------------------------------------------------------------------ */
-
-static int integrand(double t, N_Vector y, double *g, void *user)
-{
-  (void)t;
-  g[0] = sum_at(&((struct gradient *)user)->integrand, N_VGetArrayPointer(y));
-  return 0;
-}
-
-static int end(double t, N_Vector y, double *g, void *user)
-{
-  (void)t;
-  g[0] = sum_at(&((struct gradient *)user)->end, N_VGetArrayPointer(y));
-  return 0;
-}
-
-static int slopes(double t, N_Vector y, int i, int at_end, N_Vector dy, double *dp, void *user)
-{
-  const struct gradient *a = user;
-  (void)t, (void)i, (void)dp;
-  sum_slope(at_end ? &a->end : &a->integrand, N_VGetArrayPointer(y), N_VGetArrayPointer(dy));
-  return 0;
-}
-
-static int read_functional(struct call *call, struct gradient *a)
-{
-  const char *integral = word_of(call, "--functional"), *last = word_of(call, "--end");
-  a->functional = (steif_functional){.count = 1, .slopes = slopes, .user = a};
-  if (integral && strncmp(integral, "int ", 4))
-    return bad_usage(call, "--functional '%s': an integral is written 'int y1'", integral);
-  int code = integral ? sum_read(call, a->problem, integral + 4, &a->integrand) : EXIT_OK;
-  if (!code && last) code = sum_read(call, a->problem, last, &a->end);
-  if (integral) a->functional.integrand = integrand;
-  if (last) a->functional.end = end;
-  return code;
-}
 
 /* ---- differences ---------------------------------------------------------------------------------- */
 
@@ -87,8 +49,8 @@ static int find_mesh(struct call *call, struct gradient *a)
 }
 
 /* The value of a run on the mesh of the problem found once more, p_k moved by d. */
-static int moved(struct call *call, const struct gradient *a, const steif_options *o, int k,
-                 double d, double *value)
+static int moved(struct call *call, struct gradient *a, const steif_options *o, int k, double d,
+                 double *value)
 {
   steif_problem p;
   double old;
@@ -100,8 +62,10 @@ static int moved(struct call *call, const struct gradient *a, const steif_option
             : steif_parameter_set(call->ctx, &p, k, p_k))
     code = fail(call);
   steif_gradient g = {.memory = a->found.memory};
-  if (!code && steif_gradient_find(call->ctx, &p, call->word[1], o, &a->functional, &g))
+  a->functional.now = &p;
+  if (!code && steif_gradient_find(call->ctx, &p, call->word[1], o, &a->functional.of, &g))
     code = fail(call);
+  a->functional.now = a->problem;
   if (!code) *value = g.value[0];
   steif_gradient_free(call->ctx, &g);
   steif_problem_clear(call->ctx, &p);
@@ -143,7 +107,7 @@ static int check(struct call *call, struct gradient *a)
     o.mesh = a->mesh, o.mesh_size = a->times;
   }
   int code = EXIT_OK;
-  if (steif_gradient_find(call->ctx, a->problem, call->word[1], &o, &a->functional, &g))
+  if (steif_gradient_find(call->ctx, a->problem, call->word[1], &o, &a->functional.of, &g))
     code = fail(call);
   if (!code) code = compare(call, a, &o, &g);
   steif_gradient_free(call->ctx, &g);
@@ -211,7 +175,7 @@ static int differentiate_twice(struct call *call, struct gradient *a)
   if (code) return code;
   steif_direction *d = steif_direction_new(call->ctx, p, a->v, NULL);
   const int found = d ? steif_hessian_product(call->ctx, d, call->word[1], &a->options,
-                                              &a->functional, &a->found, a->product, NULL)
+                                              &a->functional.of, &a->found, a->product, NULL)
                       : steif_status(call->ctx);
   steif_direction_free(&d);
   return found ? fail(call) : EXIT_OK;
@@ -220,8 +184,8 @@ static int differentiate_twice(struct call *call, struct gradient *a)
 static int find(struct call *call, struct gradient *a)
 {
   if (given(call, "--hessian")) return differentiate_twice(call, a);
-  return steif_gradient_find(call->ctx, a->problem, call->word[1], &a->options, &a->functional,
-                             &a->found)
+  return steif_gradient_find(call->ctx, a->problem, call->word[1], &a->options,
+                             &a->functional.of, &a->found)
            ? fail(call)
            : EXIT_OK;
 }
@@ -231,12 +195,13 @@ int gradient_answer(struct call *call, const steif_problem *p)
   struct gradient a = {.problem = p, .options = options_of(call)};
   if (a.options.t1 == 0) a.options.t1 = p->t1;
   a.found.memory = (size_t)whole_or(call, "--memory", 0);
-  int code = read_functional(call, &a);
+  int code = gradient_functional_open(call, p, &a.functional);
   progress(call, "%s on %s", call->word[1], p->name);
   if (!code) code = find(call, &a);
   if (!code && given(call, "--check")) code = check(call, &a);
   if (!code) code = present_result(call, fill, &a);
   steif_gradient_free(call->ctx, &a.found);
+  gradient_functional_close(call, &a.functional);
   free(a.mesh), free(a.v), free(a.product);
   return code;
 }

@@ -44,21 +44,12 @@ static bool term(const steif_problem *p, const char **at, struct sum *sum)
   return sum->term[i].component >= 0 && (!*s || *s == '+' || *s == '-');
 }
 
-int sum_read(struct call *call, const steif_problem *p, const char *text, struct sum *sum)
+bool sum_read(const steif_problem *p, const char *text, struct sum *sum)
 {
   sum->count = 0;
-  const char *at = text, *from = text;
-  bool good = *at;
-  while (good && *at) {
-    from = at;
-    good = sum->count < TERMS && term(p, &at, sum);
-  }
-  if (good) return EXIT_OK;
-  return bad_usage(
-    call,
-    "'%s' is no sum of up to %d unknowns of problem '%s' and of their squares, such "
-    "as 0.5*y1^2+y%lld: stopped at '%s'",
-    text, TERMS, call->word[0], (long long)p->n, from);
+  bool good = *text;
+  while (good && *text) good = sum->count < TERMS && term(p, &text, sum);
+  return good;
 }
 
 double sum_at(const struct sum *sum, const double *y)

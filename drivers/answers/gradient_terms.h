@@ -14,8 +14,8 @@ struct sum {
     int power; /* 1 or 2 */
   } term[TERMS];
 };
-/* EXIT_OK, or an exit code after a sentence. */
-int sum_read(struct call *call, const steif_problem *p, const char *text, struct sum *sum);
+/* false: the text is no such sum. */
+bool sum_read(const steif_problem *p, const char *text, struct sum *sum);
 double sum_at(const struct sum *sum, const double *y);
 /* slope += by y. */
 void sum_slope(const struct sum *sum, const double *y, double *slope);

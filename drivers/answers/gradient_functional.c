@@ -1,0 +1,83 @@
+/* gradient_functional.c: functionals of gradients, values and slopes.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "gradient_functional.h"
+#include "answers.h"
+#include <string.h>
+
+static int scratch(struct gradient_functional *f, N_Vector y)
+{
+  if (f->out) return 0;
+  f->first = N_VClone(y), f->none = N_VClone(y), f->out = N_VClone(y);
+  if (!f->first || !f->none || !f->out) return -1;
+  N_VConst(0, f->first), N_VConst(0, f->none);
+  N_VGetArrayPointer(f->first)[0] = 1;
+  return 0;
+}
+
+static int value(struct gradient_functional *f, int at_end, double t, N_Vector y, double *g)
+{
+  const struct asked *a = &f->asked[at_end];
+  if (a->is_sum) {
+    *g = sum_at(&a->sum, N_VGetArrayPointer(y));
+    return 0;
+  }
+  if (scratch(f, y)) return -1;
+  return expression_value(f->now->parameters, &a->model, t, y, f->out, g);
+}
+
+static int integrand(double t, N_Vector y, double *g, void *user)
+{
+  return value(user, 0, t, y, g);
+}
+
+static int end(double t, N_Vector y, double *g, void *user) { return value(user, 1, t, y, g); }
+
+/* Of the model F = y' - f, whose products with the first unit vector are -df_1/dy and -df_1/dp. */
+static int slopes(double t, N_Vector y, int i, int at_end, N_Vector dy, double *dp, void *user)
+{
+  struct gradient_functional *f = user;
+  const struct asked *a = &f->asked[at_end];
+  (void)i;
+  if (a->is_sum) {
+    sum_slope(&a->sum, N_VGetArrayPointer(y), N_VGetArrayPointer(dy));
+    return 0;
+  }
+  if (scratch(f, y) || expression_follow(f->now->parameters, &a->model)) return -1;
+  const int code =
+    steif_model_adjoint(f->ctx, &a->model, t, y, f->none, f->first, dy, NULL, dp);
+  N_VScale(-1, dy, dy);
+  for (int k = 0; dp && k < f->now->parameters->count; k++) dp[k] = -dp[k];
+  return code;
+}
+
+/* What the sum parser takes it takes, the language all else. */
+static int read_asked(struct call *call, const steif_problem *p, const char *text,
+                      struct asked *a)
+{
+  a->is_sum = sum_read(p, text, &a->sum);
+  return a->is_sum ? EXIT_OK : expression_open(call, p, text, &a->model);
+}
+
+int gradient_functional_open(struct call *call, const steif_problem *p,
+                             struct gradient_functional *f)
+{
+  const char *integral = word_of(call, "--functional"), *last = word_of(call, "--end");
+  f->now = p, f->ctx = call->ctx;
+  f->of = (steif_functional){.count = 1, .slopes = slopes, .user = f};
+  if (integral && strncmp(integral, "int ", 4))
+    return bad_usage(call, "--functional '%s': an integral is written 'int y1'", integral);
+  int code = integral ? read_asked(call, p, integral + 4, &f->asked[0]) : EXIT_OK;
+  if (!code && last) code = read_asked(call, p, last, &f->asked[1]);
+  if (integral) f->of.integrand = integrand;
+  if (last) f->of.end = end;
+  return code;
+}
+
+void gradient_functional_close(struct call *call, struct gradient_functional *f)
+{
+  for (int i = 0; i < 2; i++)
+    if (f->asked[i].model.user) steif_problem_clear(call->ctx, &f->asked[i].model);
+  if (f->first) N_VDestroy(f->first);
+  if (f->none) N_VDestroy(f->none);
+  if (f->out) N_VDestroy(f->out);
+}
