@@ -198,7 +198,11 @@ int gradient_answer(struct call *call, const steif_problem *p)
   int code = gradient_functional_open(call, p, &a.functional);
   progress(call, "%s on %s", call->word[1], p->name);
   if (!code) code = find(call, &a);
-  if (!code && given(call, "--check")) code = check(call, &a);
+  if (!code && given(call, "--check"))
+    code =
+      a.found.parameters
+        ? check(call, &a)
+        : bad_usage(call, "--check is by parameters, and problem '%s' has none", call->word[0]);
   if (!code) code = present_result(call, fill, &a);
   steif_gradient_free(call->ctx, &a.found);
   gradient_functional_close(call, &a.functional);

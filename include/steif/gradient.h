@@ -27,6 +27,8 @@
  * 26, 2000), in memory or in files. Repeated steps come to the same bits, which a hash of each step is asked for
  * (STEIF_UNSUPPORTED names the step otherwise): results do not depend on the limit.
  *
+ * Derivatives along a direction, J v: direction.h; those of the gradient, H v: hessian.h.
+ *
  * Served: collocation (gauss, radau, radau1a, lobatto3c), BDF with start=ramp, DIRK; dense, band and sparse
  * matrices, serial vectors, any index that the method integrates. STEIF_UNSUPPORTED: other methods, Krylov
  * storage, breaks, event handlers and terminal events, constraints, options.reinitialise, options.sensitivities,

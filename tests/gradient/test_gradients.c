@@ -2,6 +2,7 @@
  * and transposed sweeps, where two numbers of stages agree in all digits.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "subjects.h"
+#include <steif/data.h>
 
 static int y3(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
@@ -199,11 +200,54 @@ static void brusselator_in_every_storage(void)
   steif_context_free(&ctx);
 }
 
+static int first(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  (void)t, (void)user;
+  g[0] = NV_Ith_S(y, 0);
+  return 0;
+}
+
+static int of_first(sunrealtype t, N_Vector y, int i, int at_end, N_Vector dy, sunrealtype *dp,
+                    void *user)
+{
+  (void)t, (void)y, (void)i, (void)at_end, (void)dp, (void)user;
+  NV_Ith_S(dy, 0) = 1;
+  return 0;
+}
+
+/* Akzo Nobel, index 1, its start a function of Ks: the integral of y1 to 180 by k1, k2, k3, k4, K, klA, Ks, pCO2, H; a
+ * Radau code in 113-bit arithmetic. Radau does not read the algebraic y6 at the start. */
+static void akzo(void)
+{
+  static const sunrealtype dp[] = {-0.4279803827489,  -0.1739629386550,   -0.03014970786549,
+                                   0.5173379340702,   -2.431794541060e-4, -0.8061649757004,
+                                   0.003751738449615, -7.242654559274,    0.008844489963836},
+                           lambda[] = {22.20655203693, -62.69455688606, -2.511446676022,
+                                       91.83653702848, 3.517562488633};
+  const steif_functional J = {.count = 1, .integrand = first, .slopes = of_first};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, "chemakzo", &p));
+  CU_ASSERT_FATAL(p.parameters && p.parameters->count == 9);
+  steif_options o = steif_defaults();
+  steif_gradient g = {0};
+  o.rtol = 1e-10, o.t1 = 180;
+  CU_ASSERT_FATAL(!steif_gradient_find(ctx, &p, "radau:s=5", &o, &J, &g));
+  CLOSE(g.value[0], 31.2642161949441, 1e-9);
+  for (int k = 0; k < 9; k++) CLOSE(g.dp[k], dp[k], 1e-8);
+  for (int k = 0; k < 5; k++) CLOSE(g.dy0[k], lambda[k], 1e-7);
+  CLOSE_FLOOR(g.dy0[5], 0, 1e-12, 1);
+  steif_gradient_free(ctx, &g);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_gradients[] = {
   {"Robertson to eight digits", robertson},
   {"BDF and DIRK", low_orders},
   {"two functionals of Lotka and Volterra", two_functionals_of_lotka},
   {"Van der Pol over two jumps", vanderpol},
   {"pendulum of index 3 as posed", pendulum_of_index_three},
+  {"Akzo Nobel, nine parameters", akzo},
   {"Brusselator, dense, band and sparse", brusselator_in_every_storage},
   CU_TEST_INFO_NULL};
