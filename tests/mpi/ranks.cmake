@@ -24,3 +24,23 @@ else()
            "skipped: no MPI, or SUNDIALS without nvecparallel")
   set_tests_properties(mpi PROPERTIES LABELS mpi SKIP_REGULAR_EXPRESSION "skipped:")
 endif()
+
+# libsteif-mpi: the same environment, 1 to 4 ranks.
+if(steif_mpi)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/ranks/*.c)
+  add_executable(test_ranks ${sources})
+  target_link_libraries(test_ranks PRIVATE steif-mpi steif_settings)
+  foreach(ranks 1 2 3 4)
+    foreach(part solves bad runs)
+      add_test(NAME ranks_${part}_${ranks}
+               COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
+                       --bind-to none $<TARGET_FILE:test_ranks> ${part})
+      set_tests_properties(ranks_${part}_${ranks} PROPERTIES LABELS mpi TIMEOUT 60 RUN_SERIAL ON ENVIRONMENT
+        "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
+    endforeach()
+  endforeach()
+else()
+  add_test(NAME ranks COMMAND ${CMAKE_COMMAND} -E echo
+           "skipped: libsteif-mpi is not built: missing ${steif_mpi_missing}")
+  set_tests_properties(ranks PROPERTIES LABELS mpi SKIP_REGULAR_EXPRESSION "skipped:")
+endif()

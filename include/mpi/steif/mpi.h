@@ -1,0 +1,90 @@
+/* steif/mpi.h: problems whose unknowns are spread over the ranks of MPI; the library steif-mpi.
+ *
+ * A rank owns consecutive rows of y, E and A, the first rank the first ones. The same calls solve the problem as in
+ * one process: a vector of own rows, made by steif_mpi_vector, is options.like; callbacks read and write own rows,
+ * exchange what they need of neighbours, and are called on all ranks at the same places. Numbers such as n, t1,
+ * rtol are the same on all ranks; y0, atols, index and constraint are of own rows.
+ *
+ * Linear systems (c E - A) x = b: steif_mpi_open makes of a problem with A (and E) by rows one that GMRES solves
+ * with a preconditioner made of these rows:
+ *
+ *   "mumps"    factors by MUMPS, real and complex: P = c E - A itself, for each shift; a few iterations, of which
+ *              there is more than one only while factors of an earlier step size or Jacobian serve.
+ *              mumps:order=pord|ptscotch (pord; minimum degree up to 2000 unknowns), memory=MB a rank (as much as it takes), refine=N sweeps (2)
+ *   "amg"      one cycle of BoomerAMG of hypre for the real c E - A, at |c| for both halves of a complex system:
+ *              for elliptic parts; every row needs a diagonal entry.
+ *              amg:strong=X threshold of strong connections (0.25), functions=N interleaved unknowns a point (1)
+ *
+ * P. R. Amestoy, I. S. Duff, J. Koster, J.-Y. L'Excellent, A fully asynchronous multifrontal solver using
+ * distributed dynamic scheduling, SIAM J. Matrix Anal. Appl. 23, 2001; V. E. Henson, U. M. Yang, BoomerAMG, Appl.
+ * Numer. Math. 41, 2002.
+ *
+ * Failures are the same on all ranks, code and sentence, unless said otherwise.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_MPI_H
+#define STEIF_MPI_H
+
+#include <mpi.h>
+#include <nvector/nvector_parallel.h>
+#include <steif/steif.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct steif_mpi steif_mpi;
+
+/* What the linear solves of this rank have cost. */
+typedef struct steif_mpi_stats {
+  long fills;            /* of A by the callback */
+  long analyses, setups; /* of MUMPS; factorisations or AMG hierarchies */
+  long solves;           /* of MUMPS, refinement included, or AMG cycles */
+  long exchanges;        /* of rows with neighbours */
+  long long sent;        /* bytes of them, from this rank */
+  double memory;         /* MB that the factors of MUMPS take on this rank at most */
+  double
+    backward_error; /* the largest |b - M x| / (|M| |x| + |b|), in norms of maxima, after refinement */
+} steif_mpi_stats;
+
+/* A vector of `rows` rows of this rank, 0 or more, zeroed; NULL with the sentence set: rows < 0 on one rank, MPI
+ * is not initialised (then on the rank that asks). N_VDestroy frees it. */
+STEIF_EXPORT N_Vector steif_mpi_vector(steif_context *ctx, MPI_Comm comm, sunindextype rows);
+
+/* The number, from 0, of the first own row. */
+STEIF_EXPORT sunindextype steif_mpi_first(N_Vector v);
+
+/* The problem with one of the solvers above, for vectors like `like`, which is kept until steif_mpi_free; NULL with
+ * the sentence set. problem->A, and E where there is one, fill SUNSparseMatrix(rows, n, nnz, CSR_MAT): index
+ * pointers of own rows, column numbers from 0 to n - 1 in any order, none twice in a row; problem->nnz and nnz_E is
+ * the room on this rank. A = df/dy, or -dF/dy at the (t, y, y') given; E is constant. For constant coefficients
+ * (.linear, or the descriptor form) products come from the rows too, else from .Av or differences of f.
+ * STEIF_BAD_INPUT: rows that do not add up to n, ranks with different problems or specs, columns out of range;
+ * STEIF_UNKNOWN_NAME: no such solver; STEIF_UNSUPPORTED: more rows than the integers of MUMPS or hypre hold. */
+STEIF_EXPORT steif_mpi *steif_mpi_open(steif_context *ctx, const steif_problem *problem,
+                                       const char *spec, N_Vector like);
+/* What steif_solver_new is given instead of `problem`. Storage Krylov; callbacks are those of the problem. */
+STEIF_EXPORT const steif_problem *steif_mpi_problem(const steif_mpi *m);
+STEIF_EXPORT steif_mpi_stats steif_mpi_statistics(const steif_mpi *m);
+/* After the solvers that use it; NULL is accepted. On all ranks, before MPI_Finalize. */
+STEIF_EXPORT void steif_mpi_free(steif_mpi **m);
+
+/* x = (c E - A)^{-1} b, or the transposed (not conjugated) one, by MUMPS, for own rows of x and b and the (t, y, yp)
+ * given; c_im 0: x[1] and b[1] are not read. `spec` must have been "mumps". STEIF_SINGULAR: it is. */
+STEIF_EXPORT int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp,
+                                 sunrealtype c_re, sunrealtype c_im, int transposed,
+                                 N_Vector *b, N_Vector *x);
+
+/* Problems of the collection over ranks: "heat2d:n=32", "heat3d:n=20", "bruss2d:n=32", "bruss3d:n=12"; whole grid
+ * lines or planes to a rank, unknowns of a point together. *like is a vector of own rows. NULL with the sentence
+ * set. The problem must outlive what uses it. */
+STEIF_EXPORT steif_problem *steif_mpi_problem_new(steif_context *ctx, const char *spec,
+                                                  MPI_Comm comm, N_Vector *like);
+/* Frees the vector too. */
+STEIF_EXPORT void steif_mpi_problem_free(steif_context *ctx, steif_problem **problem,
+                                         N_Vector *like);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,34 @@
+/* steif/extension.h: for libraries that stand beside this one, with callbacks and solvers of their own: the
+ * memory and the sentences of a context, and agreement of ranks. Users of problems do not need it.
+ *
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_EXTENSION_H
+#define STEIF_EXTENSION_H
+
+#include <stddef.h>
+#include <steif/base.h>
+#include <sundials/sundials_nvector.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* count * size bytes, zeroed, from the allocator of the context, or NULL with the sentence set. */
+STEIF_EXPORT void *steif_allocate(steif_context *ctx, size_t count, size_t size);
+/* NULL is accepted. */
+STEIF_EXPORT void steif_release(steif_context *ctx, void *block);
+
+/* Leave `code` and a sentence as printf makes it; returns the code. A callback that does so before it
+ * returns a number other than 0 has its sentence shown instead of one about that number. */
+STEIF_EXPORT int steif_fail(steif_context *ctx, int code, const char *format, ...)
+  STEIF_PRINTF(3, 4);
+
+/* The same decision on all ranks that `like` is spread over: 0 where `code` is 0 on all of them, else the code and
+ * the sentence of one that failed. All of them call it at the same place. A vector that is not spread, or NULL:
+ * `code`. The vector must have the operation nvdotprodmultiallreduce. */
+STEIF_EXPORT int steif_agree(steif_context *ctx, N_Vector like, int code);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

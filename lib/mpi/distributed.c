@@ -1,0 +1,299 @@
+/* distributed.c: a problem over ranks with a solver of its linear systems.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "rows.h"
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+struct steif_mpi {
+  steif_problem problem;  /* with our callbacks ... */
+  const steif_problem *p; /* ... around these */
+  rows rows;
+  const back_end *with;
+  void *state;
+  bool constant, filled;
+};
+
+/* -- vectors ---------------------------------------------------------------------------------- */
+
+static int initialised(steif_context *ctx)
+{
+  int on = 0, off = 0;
+  MPI_Initialized(&on), MPI_Finalized(&off);
+  if (on && !off) return STEIF_OK;
+  return steif_fail(ctx, STEIF_BAD_INPUT, "MPI is %s: call %s",
+                    on ? "finalised" : "not initialised",
+                    on ? "steif before MPI_Finalize" : "MPI_Init first");
+}
+
+N_Vector steif_mpi_vector(steif_context *ctx, MPI_Comm comm, sunindextype rows_here)
+{
+  if (!ctx || initialised(ctx)) return NULL;
+  int rank;
+  long long all[2] = {rows_here < 0 ? 0 : rows_here, 0}, wrong[2];
+  MPI_Comm_rank(comm, &rank);
+  MPI_Allreduce(&all[0], &all[1], 1, MPI_LONG_LONG, MPI_SUM, comm);
+  wrong[0] = rows_here < 0 ? rank + 1 : 0;
+  MPI_Allreduce(&wrong[0], &wrong[1], 1, MPI_LONG_LONG, MPI_MAX, comm);
+  if (wrong[1] || all[1] == 0) {
+    steif_fail(ctx, STEIF_BAD_INPUT,
+               wrong[1] ? "rank %lld asks for less than 0 rows"
+                        : "none of the ranks has a row (%lld)",
+               wrong[1] - (wrong[1] > 0));
+    return NULL;
+  }
+  N_Vector v = N_VNew_Parallel(comm, rows_here, (sunindextype)all[1], steif_sundials(ctx));
+  int made = v != NULL;
+  MPI_Allreduce(MPI_IN_PLACE, &made, 1, MPI_INT, MPI_MIN, comm);
+  if (made) {
+    N_VConst(0, v);
+    return v;
+  }
+  if (v) N_VDestroy(v);
+  steif_fail(ctx, STEIF_NO_MEMORY, "no memory for a vector of %lld rows over ranks", all[1]);
+  return NULL;
+}
+
+sunindextype steif_mpi_first(N_Vector v)
+{
+  long long own = NV_LOCLENGTH_P(v), sum = 0;
+  MPI_Scan(&own, &sum, 1, MPI_LONG_LONG, MPI_SUM, NV_COMM_P(v));
+  return (sunindextype)(sum - own);
+}
+
+/* -- callbacks that are passed on ------------------------------------------------------------- */
+
+#define ON(member, ...)                                                                        \
+  const steif_problem *p = ((const steif_mpi *)user)->p;                                       \
+  return p->member(__VA_ARGS__)
+
+static int f(sunrealtype t, N_Vector y, N_Vector out, void *user) { ON(f, t, y, out, p->user); }
+static int kick(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  ON(kick, t, y, out, p->user);
+}
+static int drift(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  ON(drift, t, y, out, p->user);
+}
+static int F(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
+{
+  ON(F, t, y, yp, r, p->user);
+}
+static int g(sunrealtype t, int derivative, N_Vector out, void *user)
+{
+  ON(g, t, derivative, out, p->user);
+}
+static int Ev(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  ON(Ev, t, y, yp, x, out, p->user);
+}
+static int Av(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  ON(Av, t, y, yp, x, out, p->user);
+}
+static int Lv(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  ON(Lv, t, y, yp, x, out, p->user);
+}
+static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  ON(start, t, y, yp, p->user);
+}
+static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  ON(exact, t, y, yp, p->user);
+}
+static int invariant(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
+{
+  ON(invariant, t, y, value, p->user);
+}
+static int event(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
+{
+  ON(event, t, y, value, p->user);
+}
+static int handle_event(sunrealtype t, N_Vector y, const int *fired, void *user)
+{
+  ON(handle_event, t, y, fired, p->user);
+}
+static int begin(sunrealtype t, void *user) { ON(begin, t, p->user); }
+static long save(void *bytes, void *user) { ON(save, bytes, p->user); }
+static int restore(const void *bytes, size_t count, void *user)
+{
+  ON(restore, bytes, count, p->user);
+}
+
+/* -- rows, products, preconditioners ---------------------------------------------------------- */
+
+static int fill(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  if (m->constant && m->filled) return STEIF_OK;
+  MPI_TRY(rows_fill(&m->rows, m->p, t, y, yp));
+  m->filled = true;
+  return m->with->changed(m->state);
+}
+
+static int product(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp, char which, N_Vector x,
+                   N_Vector out)
+{
+  MPI_TRY(fill(m, t, y, yp));
+  rows_product(&m->rows, which == 'E', which == 'A', N_VGetArrayPointer(x),
+               N_VGetArrayPointer(out));
+  return 0;
+}
+
+/* E is constant: it is there after the first fill, whatever A has become. */
+static int rows_E(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  steif_mpi *m = user;
+  if (!m->filled) MPI_TRY(fill(m, t, y, yp));
+  rows_product(&m->rows, 1, 0, N_VGetArrayPointer(x), N_VGetArrayPointer(out));
+  return 0;
+}
+
+static int rows_A(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  return product(user, t, y, yp, 'A', x, out);
+}
+
+static int setup(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, sunrealtype c, void *user)
+{
+  steif_mpi *m = user;
+  (void)r;
+  MPI_TRY(fill(m, t, y, yp));
+  return m->with->setup(m->state, c, 0);
+}
+
+static int solve(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b, N_Vector z,
+                 sunrealtype c, sunrealtype delta, void *user)
+{
+  steif_mpi *m = user;
+  const sunrealtype *from = N_VGetArrayPointer(b);
+  sunrealtype *to = N_VGetArrayPointer(z);
+  (void)t, (void)y, (void)yp, (void)r, (void)delta;
+  return m->with->solve(m->state, c, 0, false, &from, &to);
+}
+
+static int solve_pair(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector *b,
+                      N_Vector *z, sunrealtype c_re, sunrealtype c_im, sunrealtype delta,
+                      void *user)
+{
+  steif_mpi *m = user;
+  const sunrealtype *from[] = {N_VGetArrayPointer(b[0]), N_VGetArrayPointer(b[1])};
+  sunrealtype *to[] = {N_VGetArrayPointer(z[0]), N_VGetArrayPointer(z[1])};
+  (void)t, (void)y, (void)yp, (void)r, (void)delta;
+  return m->with->solve(m->state, c_re, c_im, false, from, to);
+}
+
+int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp, sunrealtype c_re,
+                    sunrealtype c_im, int transposed, N_Vector *b, N_Vector *x)
+{
+  if (m->with != &back_end_mumps)
+    return steif_fail(m->rows.ctx, STEIF_UNSUPPORTED,
+                      "steif_mpi_solve needs the factors of \"mumps\", and there is \"%s\"",
+                      m->with->name);
+  MPI_TRY(fill(m, t, y, yp));
+  MPI_TRY(m->with->setup(m->state, c_re, c_im));
+  const sunrealtype *from[2] = {N_VGetArrayPointer(b[0])};
+  sunrealtype *to[2] = {N_VGetArrayPointer(x[0])};
+  if (c_im != 0) from[1] = N_VGetArrayPointer(b[1]), to[1] = N_VGetArrayPointer(x[1]);
+  return m->with->solve(m->state, c_re, c_im, transposed, from, to);
+}
+
+/* -- opening ---------------------------------------------------------------------------------- */
+
+static void pass_on(steif_mpi *m)
+{
+  const steif_problem *p = m->p;
+  steif_problem *q = &m->problem;
+#define PASS(member) q->member = p->member ? member : NULL
+  PASS(f), PASS(kick), PASS(drift), PASS(F), PASS(g), PASS(Ev), PASS(Av), PASS(Lv);
+  PASS(start), PASS(exact), PASS(invariant), PASS(event), PASS(handle_event), PASS(begin);
+  PASS(save), PASS(restore);
+#undef PASS
+  q->user = m, q->storage = STEIF_KRYLOV, q->pattern = NULL;
+  q->jac = NULL, q->idajac = NULL, q->E = q->A = q->L = NULL;
+  q->parameters = NULL, q->quadrature = NULL, q->build = NULL, q->destroy = NULL;
+  q->precsetup = setup, q->precsolve = solve;
+  q->precsolve_pair = m->with->complex ? solve_pair : NULL;
+  if (p->E && !p->Ev) q->Ev = rows_E;
+  if (m->constant && !p->Av) q->Av = rows_A;
+}
+
+static const back_end *find(const char *name)
+{
+  const back_end *const all[] = {&back_end_amg, &back_end_mumps};
+  for (int i = 0; i < 2; i++)
+    if (!strcmp(all[i]->name, name)) return all[i];
+  return NULL;
+}
+
+/* Ranks that were given different things: equal on all when the least and the greatest are. */
+static int same(steif_mpi *m, const char *spec)
+{
+  uint64_t hash = 14695981039346656037u; /* FNV-1a */
+  char text[256];
+  const steif_problem *p = m->p;
+  snprintf(text, sizeof text, "%s|%s|%lld|%.17g|%.17g|%d%d%d%d", p->name ? p->name : "",
+           spec ? spec : "", (long long)p->n, p->t0, p->t1, p->linear, !!p->E, !!p->f, !!p->F);
+  for (const char *c = text; *c; c++) hash = (hash ^ (unsigned char)*c) * 1099511628211u;
+  uint64_t all[2] = {hash, ~hash};
+  MPI_Allreduce(MPI_IN_PLACE, all, 2, MPI_UINT64_T, MPI_MAX, NV_COMM_P(m->rows.like));
+  if (all[0] == ~all[1]) return STEIF_OK;
+  return steif_fail(m->rows.ctx, STEIF_BAD_INPUT,
+                    "ranks disagree about the problem or the solver: name, n, t0, t1, form and "
+                    "spec must be the same on all of them");
+}
+
+static int prepare(steif_mpi *m, const char *text)
+{
+  steif_spec spec;
+  steif_context *ctx = m->rows.ctx;
+  N_Vector like = m->rows.like;
+  MPI_TRY(same(m, text));
+  int code = steif_spec_parse(ctx, text, &spec);
+  if (!code && !(m->with = find(spec.name)))
+    code = steif_fail(ctx, STEIF_UNKNOWN_NAME,
+                      "no solver \"%s\" over ranks: there are amg and mumps", spec.name);
+  MPI_TRY(steif_agree(ctx, like, code));
+  MPI_TRY(rows_open(&m->rows, ctx, m->p, like));
+  m->constant = m->p->linear || (!m->p->f && !m->p->F);
+  MPI_TRY(steif_agree(ctx, like, m->with->open(&m->rows, &spec, &m->state)));
+  pass_on(m);
+  return STEIF_OK;
+}
+
+steif_mpi *steif_mpi_open(steif_context *ctx, const steif_problem *problem, const char *spec,
+                          N_Vector like)
+{
+  if (!ctx || initialised(ctx)) return NULL;
+  if (!problem || !spec || !like || N_VGetVectorID(like) != SUNDIALS_NVEC_PARALLEL) {
+    steif_fail(ctx, STEIF_BAD_INPUT,
+               "steif_mpi_open needs a problem, a spec and a vector of steif_mpi_vector");
+    return NULL;
+  }
+  steif_mpi *m = steif_allocate(ctx, 1, sizeof *m);
+  if (steif_agree(ctx, like, m ? STEIF_OK : STEIF_NO_MEMORY)) {
+    steif_release(ctx, m);
+    return NULL;
+  }
+  m->problem = *problem, m->p = problem;
+  m->rows.ctx = ctx, m->rows.like = like;
+  if (prepare(m, spec)) steif_mpi_free(&m);
+  return m;
+}
+
+const steif_problem *steif_mpi_problem(const steif_mpi *m) { return &m->problem; }
+
+steif_mpi_stats steif_mpi_statistics(const steif_mpi *m) { return m->rows.stats; }
+
+void steif_mpi_free(steif_mpi **handle)
+{
+  if (!handle || !*handle) return;
+  steif_mpi *m = *handle;
+  steif_context *ctx = m->rows.ctx;
+  if (m->state) m->with->close(m->state);
+  rows_close(&m->rows);
+  steif_release(ctx, m);
+  *handle = NULL;
+}

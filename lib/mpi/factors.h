@@ -1,0 +1,33 @@
+/* factors.h: one factorisation by MUMPS, real or complex, behind the same calls. Numbers are pairs (re, im) where it
+ * is complex, else single.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef STEIF_MPI_FACTORS_H
+#define STEIF_MPI_FACTORS_H
+
+#include "rows.h"
+
+/* What the spec says, and the own entries of the matrix in MUMPS's integers, from 1. */
+typedef struct factors_setting {
+  int order, memory; /* ICNTL(7); MB a rank, 0: as much as it takes */
+  int *row, *column;
+} factors_setting;
+
+/* Answers of MUMPS that decide: INFOG(1), INFOG(2), INFO(2) and so on. */
+typedef struct factors_answer {
+  int code, detail, null_pivots, memory, rows; /* rows of the solution on this rank */
+} factors_answer;
+
+typedef struct factors_calls {
+  bool complex;
+  void *(*open)(rows *r);
+  void (*analyse)(void *m, const rows *r, const factors_setting *set, factors_answer *out);
+  /* values: as many as entries; workspace: per cent beyond the estimate. */
+  void (*factor)(void *m, sunrealtype *values, int workspace, factors_answer *out);
+  /* b: own rows; x and its row numbers from 1 as MUMPS spreads them. */
+  void (*solve)(void *m, bool transposed, sunrealtype *b, int *row_of_b, int count,
+                sunrealtype *x, int *row_of_x, int room, factors_answer *out);
+  void (*close)(void *m, rows *r);
+} factors_calls;
+extern const factors_calls factors_real, factors_complex;
+
+#endif
