@@ -1,7 +1,7 @@
 /* amg.c: one cycle of BoomerAMG for the real matrix c E - A; coarsening HMIS, extended interpolation (H. De Sterck,
  * U. M. Yang, J. J. Heys, SIAM J. Matrix Anal. Appl. 27, 2006), l1 Gauss-Seidel in symmetric order as smoother.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "rows.h"
+#include "own_rows.h"
 #include <HYPRE.h>
 #include <HYPRE_IJ_mv.h>
 #include <HYPRE_parcsr_ls.h>

@@ -1,6 +1,6 @@
 /* distributed.c: a problem over ranks with a solver of its linear systems.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "rows.h"
+#include "own_rows.h"
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>

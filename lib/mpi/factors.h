@@ -4,7 +4,7 @@
 #ifndef STEIF_MPI_FACTORS_H
 #define STEIF_MPI_FACTORS_H
 
-#include "rows.h"
+#include "own_rows.h"
 
 /* What the spec says, and the own entries of the matrix in MUMPS's integers, from 1. */
 typedef struct factors_setting {

@@ -1,7 +1,7 @@
 /* halo.c: entries of neighbours for products by rows; one message for a neighbour and product, both halves of a
  * pair in it.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "rows.h"
+#include "own_rows.h"
 #include <stdlib.h>
 #include <string.h>
 

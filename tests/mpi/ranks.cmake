@@ -39,6 +39,15 @@ if(steif_mpi)
         "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
     endforeach()
   endforeach()
+  add_executable(example_heat3d_ranks ${PROJECT_SOURCE_DIR}/examples/mpi/heat3d_ranks.c)
+  target_link_libraries(example_heat3d_ranks PRIVATE steif-mpi steif_settings)
+  foreach(ranks 1 3)
+    add_test(NAME ranks_example_${ranks}
+             COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
+                     --bind-to none $<TARGET_FILE:example_heat3d_ranks>)
+    set_tests_properties(ranks_example_${ranks} PROPERTIES LABELS mpi TIMEOUT 60 RUN_SERIAL ON ENVIRONMENT
+      "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
+  endforeach()
 else()
   add_test(NAME ranks COMMAND ${CMAKE_COMMAND} -E echo
            "skipped: libsteif-mpi is not built: missing ${steif_mpi_missing}")

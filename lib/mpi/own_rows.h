@@ -1,7 +1,7 @@
-/* rows.h: own rows of c E - A over ranks, with the exchange that products need, and solvers on them.
+/* own_rows.h: own rows of c E - A over ranks, with the exchange that products need, and solvers on them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef STEIF_MPI_ROWS_H
-#define STEIF_MPI_ROWS_H
+#ifndef STEIF_MPI_OWN_ROWS_H
+#define STEIF_MPI_OWN_ROWS_H
 
 #include <steif/extension.h>
 #include <steif/mpi.h>

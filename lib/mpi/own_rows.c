@@ -1,6 +1,6 @@
-/* rows.c: own rows of E and A, filled by callbacks, on the union of their patterns.
+/* own_rows.c: own rows of E and A, filled by callbacks, on the union of their patterns.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "rows.h"
+#include "own_rows.h"
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
