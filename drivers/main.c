@@ -1,6 +1,7 @@
 /* main.c: the program steif: one verb per file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _DEFAULT_SOURCE /* MAP_ANON */
+#include "parallel.h"
 #include "program.h"
 #include "verbs.h"
 #include <stdio.h>
@@ -52,6 +53,7 @@ static int dispatch(struct call *call, int argc, char **argv)
   call->json = call_wants_json(argc - 2, argv + 2);
   call->ctx = steif_context_new(NULL);
   if (!call->ctx) return no_memory(call, "a context", "give the process more");
+  if (parallel_asked(argc, argv)) return parallel_become(call, argv);
   if (!roomy()) return no_memory(call, "the buffers of BLAS, 256 MB", "raise 'ulimit -v'");
   if (name && !call->verb)
     return unknown_name(call, "no verb \"%s\"%s 'steif --help' lists them", name,
