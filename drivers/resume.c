@@ -39,6 +39,7 @@ static const struct option options[] = {
   {"--max-steps", COUNT, "N", "give up after N steps, those before among them", NULL},
   {"--max-seconds", POSITIVE, "S", "give up after S seconds of wall-clock time", NULL},
   {"--npz", OUTPUT, "FILE", "t, y and events as arrays for numpy.load", NULL},
+  {"--h5", OUTPUT, "FILE", "the same as an HDF5 file, where libhdf5 is installed", NULL},
   OPTIONS_END,
 };
 

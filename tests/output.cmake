@@ -114,6 +114,8 @@ expect(2 solve rober be --max-seconds 0 ERR "above 0")
 # numpy, or else python's zipfile, reads what was written.
 expect(0 solve bounce radau:s=3 --points 7 --npz run.npz)
 expect(1 solve bounce radau:s=3 --npz no/such/run.npz ERR "cannot write")
+expect(1 solve bounce radau:s=3 --h5 no/such/run.h5 ERR "cannot write")
+expect(2 list --h5 x.h5 ERR "makes no matrices; leave --h5 out")
 set(script "
 import struct, zipfile
 archive = zipfile.ZipFile('run.npz')

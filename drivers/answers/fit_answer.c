@@ -23,7 +23,7 @@ static void matrices(steif_report *r, const struct call *call, const steif_fit *
   const size_t P = (size_t)f->count;
   steif_report_list(r, "singular", P, f->singular);
   steif_report_matrix(r, "correlation", P, P, f->correlation);
-  if (!call->json && !call->npz && !call->mtx) return;
+  if (!call->json && !call->npz && !call->h5 && !call->mtx) return;
   steif_report_matrix(r, "covariance", P, P, f->covariance);
   steif_report_matrix(r, "direction", P, P, f->direction);
 }

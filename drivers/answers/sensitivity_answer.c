@@ -107,7 +107,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
   steif_report_list(r, "p", (size_t)a->count, p);
-  if ((call->json || call->npz || call->mtx) && a->shown) matrix(r, a);
+  if ((call->json || call->npz || call->h5 || call->mtx) && a->shown) matrix(r, a);
   rows(r, a);
   if (a->problem->quadrature) {
     steif_report_real(r, "integral", a->integral);

@@ -30,13 +30,19 @@ static int write_matrix(const struct call *call, const steif_array *a)
   return EXIT_FAILED;
 }
 
+int save_arrays(const struct call *call, size_t count, const steif_array *array)
+{
+  int code = STEIF_OK;
+  if (call->npz) code = steif_npz_save(call->ctx, call->npz, count, array);
+  if (!code && call->h5) code = steif_h5_save(call->ctx, call->h5, count, array);
+  if (!code) return EXIT_OK;
+  say(call, "%s", steif_message(call->ctx));
+  return EXIT_FAILED;
+}
+
 static int save(const struct call *call, size_t count, const steif_array *array)
 {
-  if (call->npz && steif_npz_save(call->ctx, call->npz, count, array)) {
-    say(call, "%s", steif_message(call->ctx));
-    return EXIT_FAILED;
-  }
-  int code = EXIT_OK;
+  int code = save_arrays(call, count, array);
   for (size_t i = 0; call->mtx && i < count && !code; i++) code = write_matrix(call, array + i);
   return code;
 }
@@ -46,7 +52,7 @@ int save_report_arrays(const struct call *call, const steif_report *report)
   steif_array array[ARRAYS] = {{0}};
   size_t count = 0, rows, columns;
   int code = EXIT_OK;
-  if (!call->verb->matrices || (!call->npz && !call->mtx)) return EXIT_OK;
+  if (!call->verb->matrices || (!call->npz && !call->h5 && !call->mtx)) return EXIT_OK;
   for (const char *name;
        !code && count < ARRAYS &&
        (name = steif_report_array_at(report, count, &rows, &columns, NULL));) {

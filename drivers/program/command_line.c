@@ -10,6 +10,7 @@ const struct option common_options[] = {
   {"--csv", OUTPUT, "FILE", "the rows as comma-separated values", NULL},
   {"--plot", OUTPUT, "FILE", "a picture, .svg or .png", NULL},
   {"--npz", OUTPUT, "FILE", "the matrices and lists as arrays for numpy.load", NULL},
+  {"--h5", OUTPUT, "FILE", "the same as an HDF5 file, where libhdf5 is installed", NULL},
   {"--mtx", WORD, "PREFIX", "each of them as a Matrix Market file PREFIXname.mtx", NULL},
   {"--quiet", FLAG, NULL, "no progress line", NULL},
   {"--help", FLAG, NULL, "this text", NULL},
@@ -54,6 +55,8 @@ static void set_common(struct call *call, const char *name, const char *text)
     call->plot = text;
   else if (!strcmp(name, "--npz"))
     call->npz = text;
+  else if (!strcmp(name, "--h5"))
+    call->h5 = text;
   else if (!strcmp(name, "--mtx"))
     call->mtx = text;
 }
@@ -168,9 +171,12 @@ static int check_words(const struct call *call)
                      verb->name, verb->usage);
   if (call->plot && !verb->picture)
     return bad_usage(call, "%s has no picture; leave --plot out", verb->name);
-  if (!verb->matrices && (call->mtx || (call->npz && !own_option(verb, "--npz"))))
+  const bool arrays = verb->matrices || own_option(verb, "--npz");
+  if ((!verb->matrices && call->mtx) || (!arrays && (call->npz || call->h5)))
     return bad_usage(call, "%s makes no matrices; leave %s out", verb->name,
-                     call->mtx ? "--mtx" : "--npz");
+                     call->mtx   ? "--mtx"
+                     : call->npz ? "--npz"
+                                 : "--h5");
   return EXIT_OK;
 }
 

@@ -56,7 +56,7 @@ struct verb {
   const char *name, *about, *usage; /* usage: the words after the verb */
   int least, most;                  /* how many words */
   bool picture;                     /* can it draw one? */
-  bool matrices;                    /* does it make some, for --npz and --mtx? */
+  bool matrices;                    /* does it make some, for --npz, --h5 and --mtx? */
   const struct option *option;      /* besides the common ones; or NULL */
   const struct rule *rule;          /* or NULL */
   int (*run)(struct call *call);    /* returns an exit code */
@@ -74,7 +74,7 @@ struct call {
     const char *text;
   } given[GIVEN];
   bool json, quiet, help;
-  const char *csv, *plot, *npz, *mtx;
+  const char *csv, *plot, *npz, *h5, *mtx;
   const char *continues; /* the checkpoint that a run goes on from; NULL: it begins */
 };
 

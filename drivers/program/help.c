@@ -42,7 +42,8 @@ static bool shown(const struct verb *verb, size_t i, const struct option *o)
   while (verb->option && verb->option[own].name) own++;
   if (i < own) return true;
   if (!strcmp(o->name, "--plot")) return verb->picture;
-  return verb->matrices || (strcmp(o->name, "--npz") && strcmp(o->name, "--mtx"));
+  return verb->matrices ||
+         (strcmp(o->name, "--npz") && strcmp(o->name, "--h5") && strcmp(o->name, "--mtx"));
 }
 
 void call_help(const struct verb *verb)

@@ -81,8 +81,8 @@ static bool writable(const char *path)
 
 int check_outputs(const struct call *call)
 {
-  const char *const path[] = {call->csv, call->plot, call->npz};
-  for (int i = 0; i < 3; i++)
+  const char *const path[] = {call->csv, call->plot, call->npz, call->h5};
+  for (int i = 0; i < 4; i++)
     if (path[i] && !writable(path[i])) {
       say(call,
           "cannot write \"%s\": %s; name a file in a folder that exists and may be written "

@@ -12,6 +12,8 @@ int check_outputs(const struct call *call);
 /* The report on stdout in the form asked for. */
 int show(const struct call *call, steif_report *report);
 /* --npz and --mtx of a verb that makes matrices: done by show. */
+/* Of --npz and --h5, in those that are given; an exit code. */
+int save_arrays(const struct call *call, size_t count, const steif_array *array);
 int save_report_arrays(const struct call *call, const steif_report *report);
 /* As --csv. */
 int save_csv(const struct call *call, steif_report *report);

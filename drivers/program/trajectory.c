@@ -89,7 +89,7 @@ static int keep(trajectory *tr, steif_solver *s, sunrealtype t, N_Vector y)
   const bool saved = c->continues || given(c, "--checkpoint"); /* which holds the steps alone */
   if (c->plot && !saved && trajectory_draw(tr, s, t, y)) return -1;
   if (tr->asked == 0)
-    return c->csv || c->npz || (c->plot && saved) ? trajectory_keep(tr, t, y) : 0;
+    return c->csv || c->npz || c->h5 || (c->plot && saved) ? trajectory_keep(tr, t, y) : 0;
   for (; tr->next < tr->asked && tr->at[tr->next] <= t; tr->next++) {
     if (row_at(tr, s, t, y) != STEIF_OK) return -1;
     if (trajectory_keep(tr, tr->at[tr->next], tr->between)) return -1;

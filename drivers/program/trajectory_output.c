@@ -39,7 +39,7 @@ void trajectory_fill(steif_report *r, const trajectory *tr)
   for (size_t i = 0; given(tr->call, "--events") && i < tr->events; i++) event_row(r, tr, i);
 }
 
-static int save_arrays(const struct call *call, const trajectory *tr)
+static int all_arrays(const struct call *call, const trajectory *tr)
 {
   steif_array array[6] = {{"t", tr->count, 0, tr->t}, {"y", tr->count, tr->n, tr->y}};
   size_t count = 2;
@@ -50,15 +50,12 @@ static int save_arrays(const struct call *call, const trajectory *tr)
     array[count++] = (steif_array){"event_which", tr->events, 0, tr->event_which};
     array[count++] = (steif_array){"event_direction", tr->events, 0, tr->event_direction};
   }
-  if (!call->npz || steif_npz_save(call->ctx, call->npz, count, array) == STEIF_OK)
-    return EXIT_OK;
-  say(call, "%s", steif_message(call->ctx));
-  return EXIT_FAILED;
+  return save_arrays(call, count, array);
 }
 
 int trajectory_save(const struct call *call, trajectory *tr)
 {
-  const int arrays = save_arrays(call, tr);
+  const int arrays = all_arrays(call, tr);
   trajectory_stream(tr);
   return tr->csv_code ? EXIT_FAILED : arrays;
 }

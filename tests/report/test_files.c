@@ -138,6 +138,41 @@ static void rows_are_there_as_they_come(void)
   steif_context_free(&ctx);
 }
 
+/* The names and, one after the other, the numbers stand in the file, behind the signature of HDF5. */
+static void arrays_as_hdf5(void)
+{
+  enum { ROOM = 20000 };
+  static const double t[] = {0.1, 0.2, 0.7}, y[] = {1.5, -2.25, 3, 4, 1e300, 6};
+  static const steif_array array[] = {{"t", 3, 0, t}, {"solution", 3, 2, y}, {"none", 0, 0, t}};
+  static char file[ROOM];
+  steif_context *ctx = steif_context_new(NULL);
+  enter();
+  const int code = steif_h5_save(ctx, inside("run.h5"), 3, array);
+  if (code == STEIF_UNSUPPORTED) {
+    CHECK(!!strstr(steif_message(ctx), "libhdf5"));
+    CHECK(leave() == 0);
+  } else {
+    CHECK(code == STEIF_OK);
+    FILE *stream = fopen(inside("run.h5"), "rb");
+    CU_ASSERT_FATAL(stream != NULL);
+    const size_t bytes = fread(file, 1, ROOM, stream);
+    fclose(stream);
+    CHECK(bytes > 8 && !memcmp(file, "\211HDF\r\n\032\n", 8));
+    int found[4] = {0};
+    for (size_t i = 0; i + sizeof y <= bytes; i++) {
+      found[0] += !memcmp(file + i, t, sizeof t);
+      found[1] += !memcmp(file + i, y, sizeof y);
+      found[2] += !memcmp(file + i, "solution", sizeof "solution");
+      found[3] += !memcmp(file + i, "none", sizeof "none");
+    }
+    for (int i = 0; i < 4; i++) CHECK(found[i] >= 1);
+    CHECK(steif_h5_save(ctx, inside("no/such/run.h5"), 3, array) == STEIF_IO);
+    CHECK(!!strstr(steif_message(ctx), "no/such/run.h5"));
+    CHECK(leave() == 1);
+  }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_files[] = {
   {"rows are there as they come", rows_are_there_as_they_come},
   {"a saved file is complete and replaces the old one", saved_file_is_complete},
@@ -145,4 +180,5 @@ CU_TestInfo tests_of_files[] = {
   {"a full disk is told, a device stays a device", full_disk_is_told},
   {"a broken report keeps the old file", broken_report_keeps_the_old_file},
   {"a link stays a link, permissions stay", link_stays_a_link},
+  {"arrays as HDF5", arrays_as_hdf5},
   CU_TEST_INFO_NULL};
