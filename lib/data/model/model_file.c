@@ -152,6 +152,7 @@ static int build(stf_model *m, const char *path, const char *text, const steif_s
                  : stf_source_read(&m->syntax.sources, m->pool, path, path));
   STEIF_TRY(stf_parse(&m->syntax, 0));
   STEIF_TRY(stf_complaints(&m->syntax.sources));
+  stf_vector_free(m->ctx, &m->syntax.tokens); /* ten times the bytes of the text */
   STEIF_TRY(lower(m, spec));
   return stf_model_fill(m, p);
 }

@@ -41,7 +41,7 @@ static int widen(stf_formulas *g)
 {
   stf_vector before = g->slots;
   g->slots = (stf_vector){0};
-  const int code = stf_vector_resize(g->ctx, &g->slots, before.count ? 4 * before.count : 64,
+  const int code = stf_vector_resize(g->ctx, &g->slots, before.count ? 2 * before.count : 64,
                                      sizeof(uint64_t));
   if (code) {
     g->slots = before;
