@@ -41,8 +41,9 @@ static int widen(stf_formulas *g)
 {
   stf_vector before = g->slots;
   g->slots = (stf_vector){0};
-  const int code = stf_vector_resize(g->ctx, &g->slots, before.count ? 2 * before.count : 64,
-                                     sizeof(uint64_t));
+  size_t count = before.count ? 2 * before.count : 64;
+  while (count < 2 * (g->nodes.count + 1)) count *= 2; /* they may have been given back */
+  const int code = stf_vector_resize(g->ctx, &g->slots, count, sizeof(uint64_t));
   if (code) {
     g->slots = before;
     return code;

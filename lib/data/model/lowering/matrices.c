@@ -252,6 +252,9 @@ static int finish(stf_model *m, stf_vector *A, stf_vector *E)
     m->form = STEIF_DESCRIPTOR;
     m->why = m->wished ? m->why : "linear with constant coefficients";
   }
+  if (m->form == STEIF_ODE) /* nothing is added to the expressions before the tapes are made */
+    for (size_t i = 0; i < m->blocks.count; i++)
+      stf_vector_free(m->ctx, &(*STF_AT(m->blocks, stf_block *, i))->graph.slots);
   STEIF_TRY(pattern(m, A, &m->A));
   STEIF_TRY(tapes(m, A, &m->A));
   if (m->form == STEIF_ODE) return build_values(m, false);
