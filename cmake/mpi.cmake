@@ -2,6 +2,7 @@
 #   STEIF_MPI  AUTO: built where all of it is found; ON: it must be; OFF: not
 set(STEIF_MPI AUTO CACHE STRING "build libsteif-mpi: AUTO (where MPI, MUMPS and hypre are found), ON or OFF")
 set(steif_mpi FALSE)
+set(steif_mpi_missing "STEIF_MPI=ON")
 if(STEIF_MPI)
   find_package(MPI COMPONENTS C)
   find_library(HYPRE_LIBRARY HYPRE)

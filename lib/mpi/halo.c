@@ -88,7 +88,8 @@ static int ask(rows *r)
   halo *h = &r->halo;
   const owners *o = &r->own;
   int *wanted = steif_allocate(r->ctx, (size_t)h->count + 1, sizeof *wanted);
-  MPI_TRY(steif_agree(r->ctx, r->like, wanted ? STEIF_OK : STEIF_NO_MEMORY));
+  const int code = steif_agree(r->ctx, r->like, wanted ? STEIF_OK : STEIF_NO_MEMORY);
+  if (code) return steif_release(r->ctx, wanted), code;
   for (sunindextype k = 0; k < h->count; k++)
     wanted[k] = (int)(h->column[k] - o->start[rows_owner(o, h->column[k])]);
   MPI_Alltoallv(wanted, h->get, h->get_at, MPI_INT, h->source, h->give, h->give_at, MPI_INT,

@@ -81,11 +81,10 @@ static int start(rows *r, const steif_spec *spec, void **state)
 
 static void drop(mumps *s, slot *t)
 {
-  rows *r = s->r;
-  if (t->m) t->with->close(t->m, r);
+  if (t->m) t->with->close(t->m, s->r);
   void *const all[] = {t->value,  t->x,     t->row_of_x, t->give, t->give_at, t->get,
                        t->get_at, t->order, t->place,    t->out,  t->in};
-  for (size_t i = 0; i < sizeof all / sizeof *all; i++) steif_release(r->ctx, all[i]);
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) steif_release(s->r->ctx, all[i]);
   *t = (slot){0};
 }
 
@@ -287,7 +286,8 @@ static int find_way(mumps *s, slot *t, int count)
 {
   const owners *o = &s->r->own;
   int *wanted = steif_allocate(s->r->ctx, (size_t)count + 1, sizeof *wanted);
-  MPI_TRY(steif_agree(s->r->ctx, s->r->like, wanted ? STEIF_OK : STEIF_NO_MEMORY));
+  const int code = steif_agree(s->r->ctx, s->r->like, wanted ? STEIF_OK : STEIF_NO_MEMORY);
+  if (code) return steif_release(s->r->ctx, wanted), code;
   memset(t->give, 0, (size_t)o->size * sizeof(int));
   for (int k = 0; k < count; k++) t->give[rows_owner(o, t->row_of_x[k] - 1)]++;
   MPI_Alltoall(t->give, 1, MPI_INT, t->get, 1, MPI_INT, o->comm);

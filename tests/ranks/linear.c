@@ -1,5 +1,6 @@
 /* linear.c: solvers over ranks against a product; runs with them against closed solutions and one rank; bad input.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "shortage.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -311,6 +312,17 @@ static void runs(void)
   compare("heat2d:n=12", "amg", "cvode", 0);
 }
 
+static void shortage(const char *spec)
+{
+  int code = 0, found = 1, k = 0;
+  for (; found == 1 && k < 400; k++) {
+    found = shortage_at(spec, k, rank == ranks - 1, &code, same);
+    MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    if (!ALL(found >= 0) && rank == 0) printf("  %s, allocation %d: code %d\n", spec, k, code);
+  }
+  ALL(found == 0 && k > 20); /* to the end */
+}
+
 int main(int argc, char **argv)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -323,6 +335,7 @@ int main(int argc, char **argv)
   const char *part = argc > 1 ? argv[1] : "solves bad runs";
   if (strstr(part, "solves")) solves(60), solves(2), little_memory();
   if (strstr(part, "bad")) bad_input(), sizes();
+  if (strstr(part, "short")) shortage("mumps"), shortage("amg");
   if (strstr(part, "runs")) runs();
   MPI_Finalize();
   return failures != 0;
