@@ -73,6 +73,14 @@ done
 stage "build with AddressSanitizer and UBSan" make "$build/check-sanitize" -DSTEIF_SANITIZE=ON &&
   stage "tests under AddressSanitizer and UBSan" rooms "$build/check-sanitize"
 
+if command -v mpirun >/dev/null 2>&1 && [ -n "$(find /usr/include /usr/local/include -name HYPRE.h 2>/dev/null)" ] &&
+  [ -n "$(find /usr/include /usr/local/include -name dmumps_c.h 2>/dev/null)" ]; then
+  stage "build of libsteif-mpi" make "$build/check-mpi" -DSTEIF_MPI=ON &&
+    stage "tests over ranks" ctest --test-dir "$build/check-mpi" -L mpi --output-on-failure
+else
+  note "skipped  libsteif-mpi: no mpirun, hypre or MUMPS (./bootstrap tools)"
+fi
+
 reference=''
 for folder in /usr/lib/*/blas /usr/lib/*/lapack /usr/lib64/blas /usr/lib64/lapack; do
   if [ -e "$folder/libblas.so.3" ] || [ -e "$folder/liblapack.so.3" ]; then
