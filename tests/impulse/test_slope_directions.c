@@ -34,11 +34,13 @@ static void of_a_model(void)
                                     &b.slope));
     CHECK(b.slope.certified && b.slope.exists == (k < 7));
     if (k < 7) {
-      const double most = fmax(fabs(known[k].v), 1);
-      CLOSE_FLOOR(b.slope.x_plus[0], known[k].v, 1e-9, most);
-      CLOSE_FLOOR(b.slope.x_plus[4], known[k].i, 1e-9, 1e-3);
+      /* The estimate is relative to the norms of both (slopes.h); x(0+) is of size 10. */
+      const double size = fmax(fabs(known[k].v), 10 / b.slope.unit);
+      CHECK(b.slope.estimate < 1e-9);
+      CLOSE_FLOOR(b.slope.x_plus[0], known[k].v, b.slope.estimate, size);
+      CLOSE_FLOOR(b.slope.x_plus[4], known[k].i, b.slope.estimate, size);
+      CLOSE_FLOOR(b.slope.x_plus[3], k == 5, b.slope.estimate, size);
       CLOSE_FLOOR(b.slope.c[4], known[k].c0, 1e-9, 1e-6);
-      CLOSE_FLOOR(b.slope.x_plus[3], k == 5, 1e-9, 1);
     }
     steif_impulse_slope_clear(b.ctx, &b.slope);
     steif_impulse_direction_clear(b.ctx, &b.along);

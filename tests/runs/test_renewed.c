@@ -42,7 +42,7 @@ static double error_most(steif_context *ctx, const steif_linear *l, const double
 }
 
 /* Index 3 and 2, from inconsistent values; errors as multiples of rtol. At 1e-10 a step of
- * bdf cannot be seen to be worse than 3e-12, and 200 of them add. */
+ * bdf cannot be seen to be worse than 3e-12, and 200 of them add: bdf may say so. */
 static void unknowns_of_every_index(void)
 {
   static const struct {
@@ -76,7 +76,8 @@ static void unknowns_of_every_index(void)
     r->n = (size_t)p.n, r->x = malloc(ROWS * r->n * sizeof *r->x);
     CU_ASSERT_FATAL(r->n > 400 && r->x);
     const steif_linear_output out = {.step = keep, .user = r};
-    CHECK(!steif_linear_run(ctx, &l, p.y0, 0, row[i].method, &o, NULL, 0, NULL, &out));
+    const int code = steif_linear_run(ctx, &l, p.y0, 0, row[i].method, &o, NULL, 0, NULL, &out);
+    CHECK(!code || (code == STEIF_NOT_CERTIFIED && row[i].most > 10));
     const double error = error_most(ctx, &l, p.y0, r) / row[i].rtol;
     const bool good = error < row[i].most && r->t[0] > 1e-7 * o.t1;
     CHECK(good);

@@ -103,9 +103,9 @@ int stf_estimate_stiff(stf_step *s, const stf_estimate *e, sunrealtype h,
 {
   const stf_space *space = &s->system.space;
   const sunrealtype rounding = 5e-11, bound = 3 + rounding / s->options->rtol, small = 0.1;
-  const sunrealtype whole = stf_norm(space, s->error, s->weights);
-  if (s->tries >= STUBBORN || s->problem->dae_index > 1 || !(whole <= s->control.tolerance))
-    return STEIF_OK;
+  if (s->tries >= STUBBORN || s->problem->dae_index > 1) return STEIF_OK;
+  const sunrealtype whole = s->error_norm = stf_norm(space, s->error, s->weights);
+  if (!(whole <= s->control.tolerance)) return STEIF_OK;
   int k = 1;
   sunrealtype size = e->s * whole;
   stf_copy(space, s->error, rest);
@@ -119,6 +119,7 @@ int stf_estimate_stiff(stf_step *s, const stf_estimate *e, sunrealtype h,
   if (k == 1 || !(times > 1)) return STEIF_OK;
   const sunrealtype left = fmin(1, pow(size / (e->s * whole), 1.0 / (k - 1)));
   stf_scale(space, times, s->error, s->error);
+  s->error_norm = times * whole;
   s->control.order = e->s + (int)((e->s - 1) * (1 - left));
   return STEIF_OK;
 }

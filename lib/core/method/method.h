@@ -158,7 +158,7 @@ struct stf_step {
   bool restart;           /* the next step follows a discontinuity: no history before t */
   bool end_slope_known;   /* stf_hermite has the slope at the end of the last step */
   sunrealtype h_try;      /* of the trial */
-  sunrealtype error_norm; /* of error; < 0: it may have changed */
+  sunrealtype error_norm; /* of error; < 0: not known. Methods that know it set it */
   N_Vector next, error, weights;
   stf_control control;     /* what the attempt says of `error` */
   long factors, solves;    /* made by a family without the pencil */

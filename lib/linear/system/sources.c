@@ -38,6 +38,7 @@ int stf_sources_force(steif_context *ctx, steif_forcing f, void *user, sunrealty
   steif_forget(ctx);
   for (int j = 0; j <= derivatives; j++) {
     const int code = f(t, j, g, user);
+    if (code < 0 && steif_status(ctx) == STEIF_NO_MEMORY) return STEIF_NO_MEMORY;
     STEIF_CHECK(code >= 0, ctx, STEIF_CALLBACK,
                 "the forcing returned %d for derivative %d at t = %g", code, j, t);
     if (code > 0) return missing(ctx, t, j, derivatives);
