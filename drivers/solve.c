@@ -44,6 +44,7 @@ static const struct option options[] = {
    NULL},
   {"--h", POSITIVE, "H", "constant step size instead of a tolerance", NULL},
   RUN_OPTIONS,
+  ATTRIBUTE_OPTIONS,
   {"--at", TIMES, "T,T,...", "the solution at these ascending times instead of steps", NULL},
   {"--points", COUNT, "N", "the same at N equal distances from the start to the end", NULL},
   {"--events", FLAG, NULL, "a table of the events of the problem", NULL},
@@ -52,8 +53,7 @@ static const struct option options[] = {
   {"--x0", WORD, "X.mtx", "of E x' = A x + f: x(0-), a column of as many rows as E", NULL},
   {"--f", WORD, "TEXT", "f as expressions in t separated by ';' (default: 0)", NULL},
   {"--forcing", WORD, "FILE", "f from a file: an expression per line, or samples (.csv)", NULL},
-  {"--input", WORD, "B.mtx", "B of f = B u: --forcing or --f are u (of a .mat file: its B)",
-   NULL},
+  {"--input", WORD, "B.mtx", "B of f = B u, u by --forcing or --f (.mat: its B)", NULL},
   CHECKPOINT_OPTIONS,
   OPTIONS_END,
 };

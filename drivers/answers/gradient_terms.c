@@ -1,22 +1,10 @@
 /* gradient_terms.c: sums of components and of their squares.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "gradient_terms.h"
+#include "attributes.h"
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* The component of a name, or of y1, x1, ...; -1: there is none. */
-static sunindextype component(const steif_problem *p, const char *name)
-{
-  const char *const *names = p->names ? p->names->unknown : NULL;
-  for (sunindextype i = 0; names && i < p->n; i++)
-    if (!strcmp(names[i], name)) return i;
-  char *end;
-  const long k = (name[0] == 'y' || name[0] == 'x') && isdigit((unsigned char)name[1])
-                   ? strtol(name + 1, &end, 10)
-                   : 0;
-  return k >= 1 && k <= p->n && !*end ? k - 1 : -1;
-}
 
 /* [+-][number*]name[^2], from *at on. */
 static bool term(const steif_problem *p, const char **at, struct sum *sum)
@@ -39,7 +27,7 @@ static bool term(const steif_problem *p, const char **at, struct sum *sum)
   if (square) s += 2;
   const int i = sum->count++;
   sum->term[i].factor = factor, sum->term[i].power = square ? 2 : 1;
-  sum->term[i].component = component(p, name);
+  sum->term[i].component = unknown_of(p, name);
   *at = s;
   return sum->term[i].component >= 0 && (!*s || *s == '+' || *s == '-');
 }

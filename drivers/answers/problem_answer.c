@@ -39,7 +39,7 @@ static void events(steif_report *r, const steif_problem *p)
   }
 }
 
-/* The numbers that :name=value, --vary and --free change. */
+/* The numbers that :name=value and --vary change. */
 static void parameters(steif_report *r, const steif_problem *p)
 {
   const steif_parameters *of = p->parameters;
@@ -61,6 +61,8 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_text(r, "problem", p->name);
   steif_report_text(r, "about", p->about);
   steif_report_whole(r, "n", (long)p->n);
+  if (p->names && p->names->unknown)
+    steif_report_texts(r, "unknowns", (size_t)p->n, p->names->unknown);
   steif_report_text(r, "form", steif_form_name(steif_problem_form(call->ctx, p)));
   report_natural(r, "index", p->dae_index);
   steif_report_list(r, "interval", 2, (const double[]){p->t0, p->t1});

@@ -183,7 +183,9 @@ int trajectory_open(struct call *call, const steif_problem *problem, steif_optio
   options->observer = tr;
   if (given(call, "--events") && problem->events == 0)
     return bad_usage(call, "%s has no events; bounce, rectifier and swing have", call->word[0]);
-  return ask(call, tr);
+  const int code = attributes_of(call, problem, &tr->attributes);
+  options->attributes = tr->attributes;
+  return code ? code : ask(call, tr);
 }
 
 void trajectory_free(trajectory *tr)
@@ -196,6 +198,7 @@ void trajectory_free(trajectory *tr)
   free(tr->drawn.y);
   free(tr->at);
   free(tr->line);
+  free(tr->attributes);
   (void)steif_rows_close(&tr->csv);
   free(tr->event_t);
   free(tr->event_which);

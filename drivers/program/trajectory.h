@@ -4,6 +4,7 @@
 #ifndef TRAJECTORY_H
 #define TRAJECTORY_H
 
+#include "attributes.h"
 #include "program.h"
 
 /* The first components as a picture shows them, between the steps, too. */
@@ -25,6 +26,7 @@ typedef struct trajectory {
   double t0, t1, *t, *y; /* y by rows, n values each */
   size_t asked, next;    /* times asked for, those kept already; 0: every step is kept */
   double *at;
+  int *attributes;  /* of the start values; NULL: those of the problem */
   N_Vector between; /* the solution at one of them */
   size_t events, event_room;
   double *event_t, *event_which,

@@ -50,7 +50,9 @@ static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *att
   sentence[sizeof sentence - 1] = 0;
   char *name = strstr(sentence, " [STEIF_"); /* of the code, which is added again */
   if (name) *name = 0;
-  return STEIF_FAIL(m->ctx, STEIF_BAD_INPUT, "%s: %s", p->name, sentence);
+  return STEIF_FAIL(m->ctx, STEIF_BAD_INPUT,
+                    "%s: %s Values after '=' are fixed: '~' makes one a guess, which may move",
+                    p->name, sentence);
 }
 
 static int index_of_components(stf_model *m, steif_problem *p)
