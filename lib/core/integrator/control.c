@@ -101,14 +101,38 @@ static sunrealtype clamp(sunrealtype x, sunrealtype low, sunrealtype high)
   return x < low ? low : x > high ? high : x;
 }
 
+/* Estimates of unknowns of index 3 answer to a new length a step late, as their errors come from the end of
+ * the step before: a controller without memory makes them swing, and one attempt in three fails. The digital
+ * filter H211b with b = 4 of G. Soederlind, ACM Trans. Math. Softw. 29 (2003) 1-26, damps that. */
+static sunrealtype filtered(const steif_solver *s, sunrealtype h, sunrealtype e)
+{
+  const sunrealtype b = 4, wanted = 0.3, least = 1e-6,
+                    power = 1 / (s->step.control.order + 1.0);
+  const sunrealtype now = wanted / fmax(e, least), before = wanted / fmax(s->error_old, least);
+  return stf_power(now * before, power / b) * stf_power(h / s->h_old, -1 / b);
+}
+
+/* What several refusals have not cured is rounding, which a step of the old length leaves at once. */
+static bool swings(const steif_solver *s)
+{
+  const stf_step *step = &s->step;
+  const sunrealtype rounding = 1e-11;
+  const int patient = 3;
+  return s->problem->dae_index >= 3 && step->control.order > 2 && !step->system.linear &&
+         step->tries < patient && s->options.rtol >= 100 * rounding;
+}
+
 /* Length of the next step after an accepted one with relative error e (1 is the limit). */
 static sunrealtype next_length(const steif_solver *s, sunrealtype h, sunrealtype e)
 {
   const stf_control *c = &s->step.control;
   const sunrealtype power = 1 / (c->order + 1.0);
   if (c->next > 0) return h * c->next;
+  const bool before = s->step.count > 1 && s->h_old > 0;
   sunrealtype factor = c->safety * stf_power(fmax(e, 1e-10), -power);
-  if (s->step.count > 1 && s->h_old > 0)
+  if (before && swings(s))
+    factor = filtered(s, h, e);
+  else if (before)
     factor = fmin(factor, c->safety * h / s->h_old *
                             stf_power(fmax(s->error_old, 1e-2) / (e * e + 1e-20), power));
   factor = clamp(factor, c->shrink, s->after_reject ? 1 : c->grow);
