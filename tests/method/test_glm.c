@@ -114,7 +114,8 @@ static void chosen_steps_meet_tolerances(void)
         steif_solver *s = steif_solver_new(ctx, &p, methods[i], &o);
         const int code = s ? steif_solve_to(s, p.t1) : steif_status(ctx);
         if (code) printf("\n  %s %s: %s", problems[k], methods[i], steif_message(ctx));
-        CHECK(code == STEIF_OK || (code == STEIF_NOT_CERTIFIED && strstr(methods[i], "p=2")));
+        const bool second = strchr(methods[i], '2') != NULL; /* of order 2: may doubt itself */
+        CHECK(code == STEIF_OK || (code == STEIF_NOT_CERTIFIED && second));
         if (s)
           CHECK(steif_problem_digits(ctx, &p, p.t1, steif_solution(s),
                                      p.rtol_scale > 0 ? p.rtol_scale : 1, &scd,
