@@ -27,6 +27,7 @@ static int note(steif_solver *s, double t, N_Vector y, void *user)
 {
   struct gradient *a = user;
   (void)s, (void)y;
+  if (a->times && !(t > a->mesh[a->times - 1])) return 0; /* an event, seen from both sides */
   if (a->times == a->room) {
     double *more = realloc(a->mesh, 2 * (a->room + 64) * sizeof *more);
     if (!more) return 1;
@@ -36,6 +37,18 @@ static int note(steif_solver *s, double t, N_Vector y, void *user)
   return 0;
 }
 
+/* Where an event has ended the run, others may end later: steps of growing length up to t1. */
+static int go_on(struct call *call, struct gradient *a)
+{
+  const double t1 = a->options.t1;
+  double t = a->mesh[a->times - 1], h = a->times > 1 ? t - a->mesh[a->times - 2] : t1 - t;
+  for (; t < t1; h *= 2) {
+    t = t + h < t1 ? t + h : t1;
+    if (note(NULL, t, NULL, a)) return no_memory(call, "the mesh", "leave --check out");
+  }
+  return EXIT_OK;
+}
+
 static int find_mesh(struct call *call, struct gradient *a)
 {
   steif_options o = a->options;
@@ -43,9 +56,10 @@ static int find_mesh(struct call *call, struct gradient *a)
   if (note(NULL, a->problem->t0, NULL, a))
     return no_memory(call, "the mesh", "leave --check out");
   steif_solver *s = steif_solver_new(call->ctx, a->problem, call->word[1], &o);
-  const int code = s && !steif_solve_to(s, a->options.t1) ? EXIT_OK : fail(call);
+  const int done = s ? steif_solve_to(s, a->options.t1) : steif_status(call->ctx);
+  const int code = done && done != STEIF_EVENT ? fail(call) : EXIT_OK;
   steif_solver_free(&s);
-  return code;
+  return code ? code : go_on(call, a);
 }
 
 /* The value of a run on the mesh of the problem found once more, p_k moved by d. */

@@ -27,12 +27,21 @@
  * 26, 2000), in memory or in files. Repeated steps come to the same bits, which a hash of each step is asked for
  * (STEIF_UNSUPPORTED names the step otherwise): results do not depend on the limit.
  *
+ * Events and breaks. With the names of sensitivity.h, sigma = -lambda . (R_y f- + R_t - f+) / (g_y f- + g_t), plus what an
+ * integrand jumps by in place of lambda . (...), an event is gone through by
+ *
+ *     lambda <- R_y^T lambda + sigma g_y^T,   mu <- mu + R_p^T lambda + sigma g_p^T;
+ *
+ * its slopes are found on the way forward, as there, with one direction for each unknown. In a step that it cuts y is that of
+ * dense output, and integrals are those along it. A terminal event (or STEIF_FINISH) ends J at its own time, which
+ * moves: J(tau(p), p) is differentiated, G by t too. Problems that remember something (begin) need save and restore.
+ *
  * Derivatives along a direction, J v: direction.h; those of the gradient, H v: hessian.h.
  *
  * Served: collocation (gauss, radau, radau1a, lobatto3c), BDF with start=ramp, DIRK; dense, band and sparse
  * matrices, serial vectors, any index that the method integrates. STEIF_UNSUPPORTED: other methods, Krylov
- * storage, breaks, event handlers and terminal events, constraints, options.reinitialise, options.sensitivities,
- * starts that had to be repaired, constant steps of BDF that do not end at T.
+ * storage, events that graze, two at once whose times differ for other y or p, reactions without derivatives, constraints,
+ * options.reinitialise, options.sensitivities, starts that had to be repaired, constant steps of BDF that do not end at T.
  *
  * Sources: W. W. Hager, Numer. Math. 87 (2000) 247-282; A. Sandu, Lect. Notes Comput. Sci. 3994 (2006); Y. Cao,
  * S. Li, L. Petzold and R. Serban, SIAM J. Sci. Comput. 24 (2003) 1076-1089.

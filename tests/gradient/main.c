@@ -3,7 +3,8 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_gradients[], tests_of_checkpoints[], tests_of_duality[],
-  tests_of_gradient_input[], tests_of_directions[], tests_of_hessians[], tests_of_forms[];
+  tests_of_gradient_input[], tests_of_directions[], tests_of_hessians[], tests_of_forms[],
+  tests_of_passages[];
 
 SUITE_MAIN({.pName = "gradients", .pTests = tests_of_gradients},
            {.pName = "checkpoints", .pTests = tests_of_checkpoints},
@@ -11,4 +12,5 @@ SUITE_MAIN({.pName = "gradients", .pTests = tests_of_gradients},
            {.pName = "input", .pTests = tests_of_gradient_input},
            {.pName = "directions", .pTests = tests_of_directions},
            {.pName = "hessians", .pTests = tests_of_hessians},
-           {.pName = "forms", .pTests = tests_of_forms})
+           {.pName = "forms", .pTests = tests_of_forms},
+           {.pName = "passages", .pTests = tests_of_passages})

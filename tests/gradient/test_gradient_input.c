@@ -57,9 +57,8 @@ static void refused(void)
   o.sensitivities = 0, s.p[2] = NAN;
   CHECK(refusal(p, "radau:s=3", &o, &J, g, "parameter 3") == STEIF_NOT_FINITE);
   s.p[2] = 3;
-  const sunrealtype breaks[] = {1};
-  s.problem.breaks = breaks, s.problem.break_count = 1;
-  CHECK(refusal(p, "radau:s=3", &o, &J, g, "breaks") == STEIF_UNSUPPORTED);
+  s.parameters.obstacle = "none of its callbacks tells";
+  CHECK(refusal(p, "radau:s=3", &o, &J, g, "none of its") == STEIF_UNSUPPORTED);
   CHECK(steif_gradient_find(NULL, p, "radau:s=3", &o, &J, &(steif_gradient){0}) ==
         STEIF_BAD_INPUT);
 }

@@ -360,7 +360,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 static int trace(const stf_step *s, stf_trace *out)
 {
   state *e = s->state;
-  *out = (stf_trace){.kind = STF_TRACE_BDF, .order = e->last, .alpha = e->alpha, .past = e->y};
+  *out = (stf_trace){
+    .kind = STF_TRACE_BDF, .order = e->last, .alpha = e->alpha, .past = e->y, .t = e->t};
   if (e->halved) out->between = e->other;
   return STEIF_OK;
 }

@@ -95,7 +95,8 @@ typedef struct stf_trace {
   int order;        /* BDF: h y'(t) = sum of alpha_j past_j over j <= order, past_0 = y ... */
   const sunrealtype *alpha;
   N_Vector *past;
-  N_Vector between; /* ... or two halves with this in the middle; NULL: one step */
+  const sunrealtype *t; /* their times */
+  N_Vector between;     /* ... or two halves with this in the middle; NULL: one step */
 } stf_trace;
 
 typedef struct steif_method {

@@ -11,6 +11,7 @@
 #include "direction_inside.h"
 #include "integrator.h"
 #include "stage_polynomial.h"
+#include "transition.h"
 #include <steif/gradient.h>
 
 enum { STF_PAST = 7, STF_HEAD = 12 };
@@ -76,6 +77,18 @@ typedef struct stf_pushed {
   sunrealtype *gp;
 } stf_pushed;
 
+/* What has happened at the end of a step, or with step = -1 at the start. Of a step that was cut y is taken at the part
+ * x of its length, and integrals are those of dense output up to there, by Gauss' formula: at x_i in `inside`, the last
+ * of which is x. weight: BDF, of past values in y. */
+enum { STF_INSIDE = 6 };
+typedef struct stf_passed {
+  long step;
+  bool cut;
+  sunrealtype x[STF_INSIDE + 1], c[STF_INSIDE], weight[STF_INSIDE + 1][STF_PAST];
+  sunrealtype *inside; /* y at x_i, rows of n; NULL: no integrals */
+  stf_transition change;
+} stf_passed;
+
 typedef struct stf_backwards {
   steif_context *ctx;
   const steif_problem *problem;
@@ -102,19 +115,32 @@ typedef struct stf_backwards {
   N_Vector *gy;
   sunrealtype *Fp, *gp, *g, *other, *nu; /* nu: BDF, weights of past values of the integral */
   sunrealtype *value, *mu, *estimate;
+  sunrealtype end[STEIF_STAGES]; /* weights of the stages in y where the step counts up to */
+  const stf_passed *cut;         /* NULL: to its end */
+  N_Vector *
+    extra; /* what integrals up to there add to stages or past values, then to y_n; NULL: none */
 } stf_backwards;
 
 /* functional.c: B->g, B->gy and B->gp of the integrand, or of what is said of the end, at (t, y). */
 int stf_functional_at(stf_backwards *B, int at_end, sunrealtype t, N_Vector y);
+/* to += c g of the integrands; and B->g := derivatives by t of what is said of the end. */
+int stf_functional_add(stf_backwards *B, sunrealtype c, sunrealtype t, N_Vector y,
+                       sunrealtype *to);
+int stf_functional_by_time(stf_backwards *B, sunrealtype t, N_Vector y);
 /* out_k = w . dF/dp_k; and mu of a channel less that. */
 int stf_parameters_times(stf_backwards *B, sunrealtype t, N_Vector Y, N_Vector Yp, N_Vector w,
                          sunrealtype *out);
 int stf_pull_parameters(stf_backwards *B, int i, sunrealtype t, N_Vector Y, N_Vector Yp,
                         N_Vector w);
 
-/* pull.c: lambda and mu through the step of a record. */
+/* pull.c: lambda and mu through the step of a record, as far as B->cut says; through what has come to the slope that a
+ * chain began with at (t, y, yp). */
 int stf_pull(stf_backwards *B, const sunrealtype *record);
 int stf_pull_start(stf_backwards *B, sunrealtype t0, N_Vector y0, N_Vector yp0);
+/* dense_weights.c: B->end, and what B->cut asks of B->extra and of past values. */
+int stf_see_cut(stf_backwards *B, const stf_head *head);
+/* event_passages.c: through an event or a break. */
+int stf_pull_passage(stf_backwards *B, const stf_transition *change);
 /* The matrix of the stages of collocation at the points read. */
 int stf_factor_collocation(stf_backwards *B, const stf_head *head);
 

@@ -72,3 +72,27 @@ int stf_functional_at(stf_backwards *B, int at_end, sunrealtype t, N_Vector y)
   }
   return STEIF_OK;
 }
+
+int stf_functional_add(stf_backwards *B, sunrealtype c, sunrealtype t, N_Vector y,
+                       sunrealtype *to)
+{
+  if (!B->functional->integrand) return STEIF_OK;
+  STEIF_TRY(values(B, 0, t, y, B->g));
+  for (int i = 0; i < B->count; i++) to[i] += c * B->g[i];
+  return STEIF_OK;
+}
+
+/* By central differences of two lengths, extrapolated. */
+int stf_functional_by_time(stf_backwards *B, sunrealtype t, N_Vector y)
+{
+  static const sunrealtype by[] = {1, -1, 2, -2}, weight[] = {8, -8, -1, 1};
+  const sunrealtype d = (B->home->t1 - B->problem->t0) / 4096;
+  for (int i = 0; i < B->count; i++) B->other[B->count + i] = 0;
+  for (int j = 0; B->functional->end && j < 4; j++) {
+    STEIF_TRY(values(B, 1, t + by[j] * d, y, B->other));
+    for (int i = 0; i < B->count; i++)
+      B->other[B->count + i] += weight[j] / (12 * d) * B->other[i];
+  }
+  for (int i = 0; i < B->count; i++) B->g[i] = B->other[B->count + i];
+  return STEIF_OK;
+}

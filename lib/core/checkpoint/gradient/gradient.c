@@ -8,17 +8,19 @@ static const size_t usual = (size_t)1 << 30; /* bytes */
 
 /* ---- what is refused ------------------------------------------------------------------------ */
 
-static int check_problem(steif_context *ctx, const steif_problem *p, const steif_options *o)
+static int check_problem(steif_context *ctx, const steif_problem *p, const steif_options *o,
+                         bool second)
 {
-  bool ends = false;
-  for (int i = 0; p->event_list && i < p->events; i++) ends |= p->event_list[i].terminal != 0;
-  STEIF_CHECK(
-    !(p->events > 0 && p->handle_event) && !ends, ctx, STEIF_UNSUPPORTED,
-    "gradients do not pass event handlers or terminal events such as those of problem "
-    "'%s'",
-    p->name);
-  STEIF_CHECK(p->break_count == 0, ctx, STEIF_UNSUPPORTED,
-              "gradients do not pass breaks such as those of problem '%s'", p->name);
+  STEIF_CHECK(!second ||
+                !(p->event && (p->handle_event || p->event_list || p->break_count > 0)),
+              ctx, STEIF_UNSUPPORTED,
+              "second derivatives do not pass events such as those of problem '%s': take "
+              "differences of gradients",
+              p->name);
+  STEIF_CHECK(!second || p->break_count == 0, ctx, STEIF_UNSUPPORTED,
+              "second derivatives do not pass breaks such as those of problem '%s': take "
+              "differences of gradients",
+              p->name);
   STEIF_CHECK(!p->constraint, ctx, STEIF_UNSUPPORTED,
               "gradients are not served beside the constraints of problem '%s', which move the "
               "solution",
@@ -36,6 +38,8 @@ static int check_parameters(steif_context *ctx, const steif_problem *p)
   STEIF_CHECK(q->count > 0 && q->value, ctx, STEIF_BAD_INPUT,
               "problem '%s' has %d parameters and %s values", p->name, q->count,
               q->value ? "some" : "no");
+  STEIF_CHECK(!q->obstacle, ctx, STEIF_UNSUPPORTED,
+              "gradients of problem '%s' cannot be had: %s", p->name, q->obstacle);
   for (int k = 0; k < q->count; k++)
     STEIF_CHECK(isfinite(q->value[k]), ctx, STEIF_NOT_FINITE,
                 "parameter %d of problem '%s' is %g", k + 1, p->name, q->value[k]);
@@ -147,7 +151,7 @@ int stf_journey_end(stf_journey *J)
   for (int i = 0; i < B->count; i++) B->nu[i] = 1;
   if (!B->functional->end) return STEIF_OK;
   if (B->tangent) STEIF_TRY(bend_end(B, &J->runner->step));
-  STEIF_TRY(stf_functional_at(B, 1, J->runner->step.t, J->runner->step.y));
+  STEIF_TRY(stf_functional_at(B, 1, J->runner->end, stf_last(J->runner)));
   for (int i = 0; i < B->count; i++) {
     B->value[i] = B->g[i];
     stf_copy(&B->space, B->gy[i], B->lambda[i]);
@@ -217,6 +221,7 @@ static int travel(stf_journey *J)
   B->home = J->runner = steif_solver_new(B->ctx, B->problem, J->method, &J->options);
   if (!B->home) return steif_status(B->ctx);
   STEIF_TRY(open_back(J));
+  STEIF_TRY(stf_passages_open(J));
   N_Vector start[] = {stf_pool_vector(B->pool, B->space.like),
                       stf_pool_vector(B->pool, B->space.like)};
   if (!start[0] || !start[1]) return STEIF_NO_MEMORY;
@@ -227,6 +232,7 @@ static int travel(stf_journey *J)
   STEIF_TRY(stf_journey_forward(J));
   J->out->cost.solves = steif_statistics(J->runner)->nsolve;
   STEIF_TRY(stf_journey_back(J));
+  STEIF_TRY(stf_passages_first(J));
   if (J->line) STEIF_TRY(stf_push_start(B, t0, start[0], start[1]));
   STEIF_TRY(stf_pull_start(B, t0, start[0], start[1]));
   return results(J);
@@ -245,7 +251,7 @@ int stf_journey_make(stf_journey *J, const steif_problem *problem,
   steif_context *ctx = J->back.ctx;
   STEIF_TRY(check_call(ctx, problem, functional, g));
   J->out = g, J->limit = g->memory ? g->memory : usual;
-  STEIF_TRY(check_problem(ctx, problem, &J->options));
+  STEIF_TRY(check_problem(ctx, problem, &J->options, J->line != NULL));
   J->options.observe = NULL, J->options.on_event = NULL;
   J->back =
     (stf_backwards){.ctx = ctx, .problem = problem, .functional = functional, .n = problem->n};

@@ -14,7 +14,8 @@ enum { MOST = 1000 }; /* images */
 static void took(stf_journey *J)
 {
   const size_t now = (size_t)J->room * sizeof *J->log +
-                     (size_t)J->window * J->back.width * sizeof *J->record + J->on_images;
+                     (size_t)J->window * J->back.width * sizeof *J->record + J->on_images +
+                     J->on_passages;
   if (now > J->bytes) J->bytes = now;
 }
 
@@ -39,7 +40,7 @@ static void give_up_records(stf_journey *J)
 /* What may still be taken beside a log of so many steps and the images. */
 static size_t rest_of(const stf_journey *J, long log)
 {
-  const size_t others = (size_t)log * sizeof *J->log + J->on_images;
+  const size_t others = (size_t)log * sizeof *J->log + J->on_images + J->on_passages;
   return J->limit > others ? J->limit - others : 0;
 }
 
@@ -87,7 +88,7 @@ static int log_step(stf_journey *J, const steif_solver *s)
 /* Advance the runner by one step, whose record goes to `record` (NULL: nowhere). */
 static int step(stf_journey *J, steif_solver *s, sunrealtype *record)
 {
-  if (record) stf_copy(&J->back.space, s->step.y, J->back.before);
+  if (record) stf_copy(&J->back.space, stf_last(s), J->back.before);
   const long count = s->step.count;
   const int code = steif_solve_step(s);
   if (code && code != STEIF_EVENT) return code;
@@ -98,7 +99,7 @@ static int step(stf_journey *J, steif_solver *s, sunrealtype *record)
 
 static bool finished(const steif_solver *s)
 {
-  return s->step.t >= s->t1 - 4 * STF_EPS * fabs(s->t1);
+  return s->finished || s->end >= s->t1 - 4 * STF_EPS * fabs(s->t1);
 }
 
 static int run(stf_journey *J)
@@ -109,6 +110,7 @@ static int run(stf_journey *J)
     if (J->whole && J->recorded == J->window) STEIF_TRY(grow_records(J));
     STEIF_TRY(step(J, s, J->whole ? J->record + (size_t)J->recorded * J->back.width : NULL));
     if (J->whole) J->recorded++;
+    STEIF_TRY(stf_passages_see(J));
     STEIF_TRY(log_step(J, s));
   }
   took(J);
@@ -221,7 +223,7 @@ static int pull_unit(stf_journey *J, long unit)
     STEIF_TRY(again(J, k, J->record + (size_t)(k - from) * J->back.width));
   if (!J->ended) STEIF_TRY(stf_journey_end(J));
   for (long k = to; k-- > from;)
-    STEIF_TRY(stf_pull(&J->back, J->record + (size_t)(k - from) * J->back.width));
+    STEIF_TRY(stf_passages_pull(J, k, J->record + (size_t)(k - from) * J->back.width));
   return STEIF_OK;
 }
 
@@ -263,7 +265,7 @@ static int plan(stf_journey *J)
   STEIF_TRY(size_of_images(J, &size));
   if (size < J->image[0].count) size = J->image[0].count;
   const size_t unit = J->back.width * sizeof *J->record;
-  const size_t log = (size_t)J->room * sizeof *J->log;
+  const size_t log = (size_t)J->room * sizeof *J->log + J->on_passages;
   const size_t of_image = (J->out->folder ? 0 : size) + bytes_beside(J);
   const size_t unkept = J->line ? unit : 0;
   const size_t least = log + STF_FEWEST * of_image + unit + unkept;
@@ -314,7 +316,7 @@ int stf_journey_back(stf_journey *J)
     STEIF_TRY(stf_push(&J->back, J->record + (size_t)k * J->back.width));
   STEIF_TRY(stf_journey_end(J));
   for (long k = J->recorded; k-- > 0;)
-    STEIF_TRY(stf_pull(&J->back, J->record + (size_t)k * J->back.width));
+    STEIF_TRY(stf_passages_pull(J, k, J->record + (size_t)k * J->back.width));
   return STEIF_OK;
 }
 
@@ -331,6 +333,7 @@ void stf_journey_close(stf_journey *J)
   stf_backwards *B = &J->back;
   while (J->images > 0) drop(J);
   if (J->runner != B->home) steif_solver_free(&J->runner);
+  stf_passages_close(J);
   stf_pool_free(&B->pool);
   steif_solver_free(&B->home);
   stf_release(B->ctx, J->image);

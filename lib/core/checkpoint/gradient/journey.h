@@ -29,6 +29,10 @@ typedef struct stf_journey {
   stf_run_image *image;
   int images, images_most;
   size_t limit, bytes, on_images;
+  stf_transition_keeper keeper;
+  stf_passed *passed; /* events and breaks; `left` of them are still to be gone back through */
+  long passages, passages_most, left;
+  size_t on_passages;
   bool ended;            /* what is asked of the end has been looked at */
   steif_direction *line; /* of second derivatives ... */
   sunrealtype *Hp, *Hy0; /* ... which go there; NULL: first ones only */
@@ -44,5 +48,13 @@ int stf_journey_end(stf_journey *J);
 int stf_journey_forward(stf_journey *J);
 int stf_journey_back(stf_journey *J);
 void stf_journey_close(stf_journey *J);
+
+/* event_passages.c: events and breaks of the run go into J->passed; what has happened in the step just made; back through a
+ * record and what came after its step; through what happened at the start; and J->passed is released. */
+int stf_passages_open(stf_journey *J);
+int stf_passages_see(stf_journey *J);
+int stf_passages_pull(stf_journey *J, long step, const sunrealtype *record);
+int stf_passages_first(stf_journey *J);
+void stf_passages_close(stf_journey *J);
 
 #endif

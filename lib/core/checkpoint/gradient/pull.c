@@ -35,7 +35,7 @@ static int quadrature(stf_backwards *B, const sunrealtype *c, sunrealtype t, int
                       N_Vector *to)
 {
   stf_pushed *D = B->tangent;
-  if (!B->functional->integrand) return STEIF_OK;
+  if (!B->functional->integrand || B->cut) return STEIF_OK;
   if (D) STEIF_TRY(stf_bend_functional(B, 0, t, B->Y[j], D->Y[j]));
   for (int i = 0; D && i < B->count; i++) {
     sunrealtype *mu = B->mu + (B->count + i) * B->P;
@@ -75,8 +75,11 @@ static void right_sides(stf_backwards *B, int i, N_Vector *right)
   for (int j = 0; j < B->table->s; j++) {
     right[j] = B->r[j * B->channels + i];
     stf_axpy(space, 1, right[j], B->lambda[i]);
-    stf_axpy(space, B->u.end[j], B->error, right[j]);
+    stf_axpy(space, B->end[j], B->error, right[j]);
+    if (B->cut && B->extra) stf_axpy(space, 1, B->extra[j * B->count + i], right[j]);
   }
+  if (B->cut && B->extra)
+    stf_axpy(space, 1, B->extra[B->table->s * B->count + i], B->lambda[i]);
 }
 
 static int pull_channel(stf_backwards *B, const stf_head *head, int i, N_Vector *right)
@@ -196,9 +199,13 @@ static int pull_chain(stf_backwards *B, const stf_head *head)
   const stf_space *space = &B->space;
   for (int m = 0; m < T->s; m++)
     for (int i = 0; i < B->channels; i++)
-      stf_scale(space, head->h * T->b[m], B->lambda[i], B->r[m * B->channels + i]);
+      stf_scale(space, head->h * B->end[m], B->lambda[i], B->r[m * B->channels + i]);
   for (int i = 0; i < B->channels; i++)
     stf_axpy(space, 1, B->kappa[i], B->r[(T->s - 1) * B->channels + i]);
+  for (int m = 0; B->cut && B->extra && m <= T->s; m++)
+    for (int i = 0; i < B->count; i++)
+      stf_axpy(space, 1, B->extra[m * B->count + i],
+               m < T->s ? B->r[m * B->channels + i] : B->lambda[i]);
   for (int m = T->s; m-- > 0;) STEIF_TRY(pull_stage(B, head, m));
   for (int i = 0; i < B->channels; i++)
     if (T->A[0] == 0)
@@ -295,6 +302,7 @@ int stf_pull(stf_backwards *B, const sunrealtype *record)
   if (B->tangent) stf_push_read(B, record);
   for (int i = 0; B->adaptive && i < B->count; i++)
     B->estimate[i] += N_VDotProd(B->error, B->lambda[i]);
+  STEIF_TRY(stf_see_cut(B, &head));
   STEIF_TRY(B->kind == STF_TRACE_COLLOCATION ? pull_collocation(B, &head)
             : B->kind == STF_TRACE_CHAIN     ? pull_chain(B, &head)
                                              : pull_bdf(B, &head));
@@ -305,7 +313,8 @@ int stf_pull(stf_backwards *B, const sunrealtype *record)
   return STEIF_OK;
 }
 
-/* A chain that began with the slope f(t0, y0) hands on what has come to that. */
+/* A chain that began with the slope f(t0, y0) hands on what has come to that: at the start, and behind events and
+ * breaks. */
 int stf_pull_start(stf_backwards *B, sunrealtype t0, N_Vector y0, N_Vector yp0)
 {
   stf_pushed *D = B->tangent;
@@ -314,6 +323,7 @@ int stf_pull_start(stf_backwards *B, sunrealtype t0, N_Vector y0, N_Vector yp0)
   for (int i = 0; i < B->channels; i++) {
     stf_adjoint_add(&B->adjoint, 0, 'A', 1, B->kappa[i], B->lambda[i]);
     STEIF_TRY(stf_pull_parameters(B, i, t0, y0, yp0, B->kappa[i]));
+    if (!D) stf_zero(&B->space, B->kappa[i]);
   }
   const N_Vector at[] = {y0, yp0, D ? D->y : NULL, D ? D->kappa : NULL};
   for (int i = 0; D && i < B->count; i++) {

@@ -33,7 +33,7 @@ int stf_saltation_look(steif_solver *s, sunrealtype t)
   w->t = t;
   STEIF_TRY(stf_dense(s, t, w->y));
   STEIF_TRY(slope_at(s, t, w->slope));
-  for (int k = 0; k < T->count; k++)
+  for (int k = 0; k < stf_columns(s); k++)
     if (t != s->step.t)
       STEIF_TRY(T->carrier->dense(T, k, t, w->S[k]));
     else
@@ -41,12 +41,12 @@ int stf_saltation_look(steif_solver *s, sunrealtype t)
   return STEIF_OK;
 }
 
-static int event_values(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
+int stf_saltation_values(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
 {
   return s->problem->event(t, y, stf_array(out), s->problem->user);
 }
 
-static int undifferentiable(steif_solver *s, int i, int code)
+int stf_undifferentiable(steif_solver *s, int i, int code)
 {
   if (code < 0 && code != STEIF_RETRY) return code;
   char name[64];
@@ -69,7 +69,7 @@ static int rate_expected(steif_solver *s, int i, sunrealtype *expected)
   for (int probe = 0; probe < PROBES; probe++) {
     for (sunindextype j = 0; j < s->problem->n; j++)
       v[j] = (stf_random_in(&random, -1, 1) < 0 ? -1 : 1) * (fabs(y[j]) + s->step.system.scale);
-    STEIF_TRY(stf_along(s, event_values, &line, w->g[0], w->g + 1));
+    STEIF_TRY(stf_along(s, stf_saltation_values, &line, w->g[0], w->g + 1));
     const sunrealtype along = stf_array(w->g[0])[i];
     sum += along * along / PROBES;
   }
@@ -88,11 +88,11 @@ static int times_of(steif_solver *s, int i, sunrealtype *tau)
   const stf_carry *T = s->step.carry;
   sunrealtype expected;
   const stf_line ahead = {.dt = 1, .dy = w->slope, .k = -1};
-  int code = stf_along(s, event_values, &ahead, w->g[0], w->g + 1);
-  if (code) return undifferentiable(s, i, code);
+  int code = stf_along(s, stf_saltation_values, &ahead, w->g[0], w->g + 1);
+  if (code) return stf_undifferentiable(s, i, code);
   const sunrealtype rate = stf_array(w->g[0])[i];
   code = rate_expected(s, i, &expected);
-  if (code) return undifferentiable(s, i, code);
+  if (code) return stf_undifferentiable(s, i, code);
   if (!(fabs(rate) >= grazing * expected) || rate == 0) {
     char name[64];
     stf_event_name(s->problem, i, sizeof name, name);
@@ -102,10 +102,10 @@ static int times_of(steif_solver *s, int i, sunrealtype *tau)
       "unit of time, below 1e-6 of %.3g: derivatives of its time grow without bound there",
       name, s->problem->name, w->t, rate, expected);
   }
-  for (int k = 0; k < T->count; k++) {
+  for (int k = 0; k < stf_columns(s); k++) {
     const stf_line line = {.dy = w->S[k], .k = T->parameter[k]};
-    code = stf_along(s, event_values, &line, w->g[0], w->g + 1);
-    if (code) return undifferentiable(s, i, code);
+    code = stf_along(s, stf_saltation_values, &line, w->g[0], w->g + 1);
+    if (code) return stf_undifferentiable(s, i, code);
     tau[k] = -stf_array(w->g[0])[i] / rate;
   }
   return STEIF_OK;
@@ -119,7 +119,7 @@ static int agree(steif_solver *s, int i)
   char name[64];
   STEIF_TRY(times_of(s, i, w->other));
   stf_event_name(s->problem, i, sizeof name, name);
-  for (int k = 0; k < T->count; k++) {
+  for (int k = 0; k < stf_columns(s); k++) {
     const sunrealtype both = fabs(w->tau[k]) + fabs(w->other[k]);
     STEIF_CHECK(
       fabs(w->tau[k] - w->other[k]) <= 1e-6 * both + 1e-9 / T->scale[k], s->ctx,

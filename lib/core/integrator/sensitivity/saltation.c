@@ -1,6 +1,6 @@
 /* saltation.c: S through events and breaks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "saltation.h"
+#include "transition.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,16 +20,22 @@ static int claim_values(steif_solver *s, stf_saltation *w)
   return STEIF_OK;
 }
 
+/* By parameters.reset, where that is the whole of it. */
+static bool by_reset(const steif_solver *s)
+{
+  const steif_parameters *q = s->problem->parameters;
+  return q && q->reset && !s->options.reinitialise;
+}
+
 /* What handle_event does is found out by calling it: what it remembers must be put back. */
-static int check_memory(steif_solver *s, stf_saltation *w)
+int stf_saltation_remember(steif_solver *s, const char *who)
 {
   const steif_problem *p = s->problem;
-  if (!p->handle_event || (p->parameters->reset && !s->options.reinitialise)) return STEIF_OK;
-  if (!p->begin) return STEIF_OK;
+  stf_saltation *w = s->saltation;
+  if (!p->handle_event || !p->begin || w->bytes) return STEIF_OK;
   STEIF_CHECK(p->save && p->restore, s->ctx, STEIF_UNSUPPORTED,
-              "problem '%s' remembers something at its events: sensitivities need "
-              "parameters.reset, or save and restore",
-              p->name);
+              "problem '%s' remembers something at its events: %s save and restore", p->name,
+              who);
   w->size = p->save(NULL, p->user);
   STEIF_CHECK(w->size >= 0, s->ctx, STEIF_CALLBACK, "save of problem '%s' returned %ld",
               p->name, w->size);
@@ -37,27 +43,35 @@ static int check_memory(steif_solver *s, stf_saltation *w)
   return w->bytes ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-int stf_saltation_open(steif_solver *s)
+int stf_saltation_claim(steif_solver *s)
 {
-  s->saltation = NULL;
-  if (!s->step.carry) return STEIF_OK;
-  const steif_problem *p = s->problem;
-  if (!p->event && p->break_count == 0) return STEIF_OK;
-  const int count = s->step.carry->count;
+  const int count = stf_columns(s);
   stf_saltation *w = stf_pool_array(s->pool, 1, sizeof *w);
   if (!w) return STEIF_NO_MEMORY;
   N_Vector *one[] = {&w->y,    &w->slope, &w->after, &w->r[0],     &w->r[1],
                      &w->r[2], &w->r[3],  &w->point, &w->direction};
   for (size_t i = 0; i < sizeof one / sizeof *one; i++)
     if (!(*one[i] = stf_pool_vector(s->pool, s->step.y))) return STEIF_NO_MEMORY;
-  w->S = stf_pool_vectors(s->pool, count, s->step.y);
-  w->jump = stf_pool_vectors(s->pool, count, s->step.y);
-  w->tau = stf_pool_array(s->pool, 2 * (size_t)count, sizeof *w->tau);
-  if (!w->S || !w->jump || !w->tau) return STEIF_NO_MEMORY;
+  w->tau = stf_pool_array(s->pool, 2 * (size_t)count + 1, sizeof *w->tau);
+  if (!w->tau) return STEIF_NO_MEMORY;
+  if (count > 0) {
+    w->S = stf_pool_vectors(s->pool, count, s->step.y);
+    w->jump = stf_pool_vectors(s->pool, count, s->step.y);
+    if (!w->S || !w->jump) return STEIF_NO_MEMORY;
+  }
   w->other = w->tau + count;
   s->saltation = w, w->t = NAN;
-  STEIF_TRY(claim_values(s, w));
-  return check_memory(s, w);
+  return claim_values(s, w);
+}
+
+int stf_saltation_open(steif_solver *s)
+{
+  s->saltation = NULL;
+  if (!s->step.carry) return STEIF_OK;
+  if (!s->problem->event && s->problem->break_count == 0) return STEIF_OK;
+  STEIF_TRY(stf_saltation_claim(s));
+  return by_reset(s) ? STEIF_OK
+                     : stf_saltation_remember(s, "sensitivities need parameters.reset, or");
 }
 
 void stf_saltation_forget(steif_solver *s, sunrealtype t)
@@ -163,18 +177,18 @@ int stf_saltation_before(steif_solver *s, sunrealtype t)
 {
   const steif_problem *p = s->problem;
   stf_saltation *w = s->saltation;
-  const bool callback = p->parameters->reset && !s->options.reinitialise;
+  const bool callback = by_reset(s);
   bool yes = true;
-  if (!callback && w->bytes)
+  if ((!callback || w->keeper) && w->bytes)
     STEIF_CHECK(p->save(w->bytes, p->user) == w->size, s->ctx, STEIF_CALLBACK,
                 "save of problem '%s' changed its length at t = %.12g", p->name, t);
   if (!callback) STEIF_TRY(restarts(s, t, &yes));
-  if (!yes) return STEIF_OK;
+  if (!yes) return w->keeper ? stf_transition_pass(s) : STEIF_OK;
   STEIF_TRY(stf_saltation_times(s, t));
   STEIF_TRY(stf_quadrature_before(s, t, w->y));
-  for (int k = 0; k < s->step.carry->count; k++)
+  for (int k = 0; k < stf_columns(s); k++)
     STEIF_TRY(callback ? by_callback(s, k) : through(s, reaction, k, "handle_event"));
-  return STEIF_OK;
+  return w->keeper ? stf_transition_before(s, reaction) : STEIF_OK;
 }
 
 /* ---- behind it -------------------------------------------------------------------------------- */
@@ -207,9 +221,10 @@ int stf_saltation_after(steif_solver *s, sunrealtype t)
   stf_saltation *w = s->saltation;
   const stf_detector *d = s->events;
   STEIF_TRY(slope_behind(s, t, d->after, d->settled ? d->slope : NULL));
-  for (int k = 0; k < s->step.carry->count; k++)
+  for (int k = 0; k < stf_columns(s); k++)
     stf_axpy(&s->step.system.space, -w->tau[k], w->after, w->jump[k]);
   w->pending = true;
+  if (w->keeper) STEIF_TRY(stf_transition_after(s, d->after));
   return stf_quadrature_after(s, t, d->after, w->tau);
 }
 
@@ -218,7 +233,7 @@ void stf_saltation_renew(steif_solver *s)
   stf_saltation *w = s->saltation;
   const stf_carry *T = s->step.carry;
   if (!w->pending) return;
-  for (int k = 0; k < T->count; k++) stf_copy(&s->step.system.space, w->jump[k], T->S[k]);
+  for (int k = 0; k < stf_columns(s); k++) stf_copy(&s->step.system.space, w->jump[k], T->S[k]);
   w->pending = false;
 }
 
@@ -230,7 +245,7 @@ static int break_times(steif_solver *s, int i)
   const steif_parameters *q = s->problem->parameters;
   const stf_carry *T = s->step.carry;
   stf_saltation *w = s->saltation;
-  for (int k = 0; k < T->count; k++) {
+  for (int k = 0; k < stf_columns(s); k++) {
     w->tau[k] = 0;
     const int returned =
       q->break_slope ? q->break_slope(i, T->parameter[k], w->tau + k, s->problem->user) : 0;
@@ -248,12 +263,13 @@ int stf_saltation_break(steif_solver *s, int i)
   STEIF_TRY(break_times(s, i));
   STEIF_TRY(stf_saltation_look(s, t));
   w->t = nextafter(t, INFINITY);
-  for (int k = 0; k < s->step.carry->count; k++)
+  for (int k = 0; k < stf_columns(s); k++)
     if (s->options.reinitialise)
       STEIF_TRY(through(s, projection, k, "options.reinitialise"));
     else
       N_VLinearSum(1, w->S[k], w->tau[k], w->slope, w->jump[k]);
   w->known = false, w->pending = true;
+  if (w->keeper) STEIF_TRY(stf_transition_break(s, i));
   return stf_quadrature_before(s, t, w->y);
 }
 
@@ -262,10 +278,12 @@ int stf_saltation_broken(steif_solver *s)
   const stf_step *step = &s->step;
   stf_saltation *w = s->saltation;
   bool moves = false;
-  for (int k = 0; k < step->carry->count; k++) moves = moves || w->tau[k] != 0;
+  for (int k = 0; k < stf_columns(s); k++) moves = moves || w->tau[k] != 0;
+  moves = moves || (w->open && w->open->rate != 0);
   if (moves) STEIF_TRY(slope_behind(s, step->t, step->y, step->yp_known ? step->yp : NULL));
-  for (int k = 0; moves && k < step->carry->count; k++)
+  for (int k = 0; moves && k < stf_columns(s); k++)
     stf_axpy(&step->system.space, -w->tau[k], w->after, w->jump[k]);
+  if (w->open) STEIF_TRY(stf_transition_broken(s));
   stf_saltation_renew(s);
   return moves ? stf_quadrature_after(s, step->t, step->y, w->tau) : STEIF_OK;
 }

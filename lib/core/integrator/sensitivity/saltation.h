@@ -15,7 +15,9 @@
 #include "carry.h"
 #include <steif/sensitivity.h>
 
-typedef struct stf_saltation {
+typedef struct stf_transition_keeper stf_transition_keeper;
+
+struct stf_saltation {
   sunrealtype t;             /* of the event */
   N_Vector y, slope;         /* y- and f- */
   N_Vector after;            /* f+ */
@@ -29,11 +31,24 @@ typedef struct stf_saltation {
   bool asked;                /* it was */
   void *bytes;               /* what begin resets, as it was before the event */
   long size;
-} stf_saltation;
+  const stf_transition_keeper *keeper; /* for the way back (transition.h); NULL: nobody */
+  struct stf_transition *open;         /* the transition being looked at */
+};
+
+/* Columns of S: none where a run is watched for the way back only. */
+static inline int stf_columns(const steif_solver *s)
+{
+  return s->step.carry ? s->step.carry->count : 0;
+}
 
 /* event_times.c: y-, f- and S- at t in the last step; tau of the functions that fire at t too. */
 int stf_saltation_look(steif_solver *s, sunrealtype t);
 int stf_saltation_times(steif_solver *s, sunrealtype t);
+int stf_saltation_values(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out);
+int stf_undifferentiable(steif_solver *s, int i, int code);
+/* saltation.c: with no columns where S is not carried; `bytes` where the problem remembers something. */
+int stf_saltation_claim(steif_solver *s);
+int stf_saltation_remember(steif_solver *s, const char *who);
 
 /* start_derivatives.c: T->S of a start that was repaired; or of one with hidden constraints, checked. */
 int stf_start_derivatives(steif_solver *s, stf_carry *T);

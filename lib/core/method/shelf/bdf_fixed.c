@@ -288,7 +288,8 @@ static const stf_carrier carrier = {.check = check_carry,
 static int trace(const stf_step *s, stf_trace *out)
 {
   state *e = s->state;
-  *out = (stf_trace){.kind = STF_TRACE_BDF, .order = e->last, .alpha = e->alpha, .past = e->y};
+  *out = (stf_trace){
+    .kind = STF_TRACE_BDF, .order = e->last, .alpha = e->alpha, .past = e->y, .t = e->t};
   return check_carry(s);
 }
 
