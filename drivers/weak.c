@@ -30,6 +30,10 @@ static const struct option options[] = {
    "times at which f or a derivative of it jumps (default: those of "
    "step, ramp, abs, min and max of what is linear in t)",
    NULL},
+  {"--restart", FLAG, NULL,
+   "restart at each break, with steps near H between breaks (default: where no constant step "
+   "fits them all)",
+   NULL},
   {"--g", WORD, "EXPR[;EXPR..]",
    "test functions: expressions in t, or power:n=, bump:c=,w=, "
    "expcos:a=,b=, hermite:n=,scale=",

@@ -36,6 +36,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
     steif_report_real(r, "spaces.order", s->order);
     steif_report_whole(r, "spaces.converges", s->converges);
   }
+  if (*a->result.mesh) steif_report_text(r, "mesh", a->result.mesh);
   steif_report_text(r, "verdict", a->result.verdict);
 }
 

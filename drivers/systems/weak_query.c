@@ -18,6 +18,7 @@ struct weak weak_asked(const struct call *call)
                              .start = word_of(call, "--start"),
                              .h = real_of(call, "--h"),
                              .exact = given(call, "--exact"),
+                             .restart = given(call, "--restart"),
                              .component = (int)whole_or(call, "--component", 1) - 1}};
   w.query.rows = (size_t)whole_or(call, "--halvings", given(call, "--h") ? 0 : 4) + 1;
   return w;
@@ -61,6 +62,7 @@ void weak_verdict(steif_report *r, const struct weak *w)
 {
   if (w->query.g) steif_report_text(r, "g", w->g.text);
   if (w->query.g) steif_report_real(r, "t1", w->query.g->t1);
+  if (*w->result.mesh) steif_report_text(r, "mesh", w->result.mesh);
   if (*w->result.note) steif_report_text(r, "note", w->result.note);
   steif_report_text(r, "verdict", w->result.verdict);
 }

@@ -66,6 +66,7 @@ typedef struct steif_weak_result {
   char source[160];     /* how exact was found */
   int index;            /* of the system */
   char note[160]; /* on the test function, where it does not end smoothly at t1; else empty */
+  char mesh[160]; /* the first row's steps, where runs restart at breaks of f; else empty */
 } steif_weak_result;
 
 /* The convention of the program, of a method from a starting procedure (NULL: its own). */
@@ -99,7 +100,7 @@ typedef struct steif_weak_query {
   const char *start; /* starting procedure, NULL: the method's */
   sunrealtype
     h; /* first step; the runs make as many as reach t1. 0: t1 / 64, or a step near it that puts
-                    all breaks on the meshes */
+                    all breaks on the meshes, or steps that end at the breaks */
   size_t rows;         /* at least 3 for a verdict */
   int component;       /* STEIF_ALL: values and errors are 2-norms over the components */
   sunrealtype *values; /* rows x n and n: of all of them by themselves; NULL: not wanted */
@@ -113,6 +114,12 @@ typedef struct steif_weak_query {
   size_t break_count; /* where f or a derivative of it jumps, ascending, of `linear` only: */
   const sunrealtype *breaks; /* impulses there are part of the exact distribution */
   int cells; /* norms only: B-splines on so many equal cells beside them; 0: none */
+  /* 1: runs restart at every break of f, with a constant step near h of its own in each part between breaks
+   * (rows show the longest). One-step methods change nothing but the step; convolution quadrature has the
+   * source E x(t-) / h there, Gregory's weights of f from the right, and the same weights at the end of its
+   * comb before a break. 0: where h = 0 and no constant step fits all breaks; convolution quadrature always,
+   * if breaks are on its mesh. */
+  int restart;
 } steif_weak_query;
 STEIF_EXPORT int steif_weak_measure(steif_context *ctx, const steif_weak_query *query,
                                     steif_weak_row *row, steif_weak_result *result);
@@ -142,7 +149,8 @@ typedef struct steif_weak_ball {
   int index, m, count;
   steif_ball_space space[STEIF_SPACES]; /* m = k - 1 .. k + p + 1, p the order of the method */
   char verdict[256];
-  int converges; /* for every smooth g: 1, 0, or -1: undecided */
+  int converges;  /* for every smooth g: 1, 0, or -1: undecided */
+  char mesh[160]; /* as in steif_weak_result */
 } steif_weak_ball;
 /* Rows of H^-m (m = 0: k + p - 1) as the query asks for, and orders in all spaces. Of its g only t1
  * counts. For be, bdf and Runge-Kutta methods with regular A. */

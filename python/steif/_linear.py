@@ -229,22 +229,23 @@ def _weak_result(context, query, rows, n):
     r.exact = exacts if n else result.get("exact", REAL)
     r.converges = {1: True, 0: False}.get(result.get("converges", INT))
     r.index, r.message = result.get("index", INT), result.text("verdict")
-    r.source, r.note = result.text("source"), result.text("note")
+    r.source, r.note, r.mesh = result.text("source"), result.text("note"), result.text("mesh")
     return code, r
 
 
 def weak(method, E, F=None, x0=None, f=None, *, h=None, halvings=4, component=None, convention=None,
-         start=None, breaks=()):
+         start=None, breaks=(), restart=False):
     """Does a method converge weakly (as a distribution, impulses included) on E x' + F x = f from x(0-) = x0?
 
     weak("be", E, F, x0, f) with matrices and f as for `impulse`, or weak("be", "jordan:k=3,case=H-inc") with a
     linear problem of the collection in the place of E. The method runs with steps h, h/2, ... on [0, 1], and
     <x_h, g> is compared with <x, g>, g = (1 - t)^8. component: counted from 0; None: all (of the collection:
     the first). convention: "P", "R", "C" or "stage"; None: the usual one of the method. breaks: times where
-    f or a derivative of it jumps; a text f declares its own.
+    f or a derivative of it jumps; a text f declares its own. restart: at each break, with steps near h
+    between breaks, which otherwise happens only where no constant step fits them all (Result.mesh tells).
 
     Returns a Result: converges (True, False, or None: undecided), message, and arrays h, value, error, order,
-    rounding, usable over the runs, exact, index, convention, source, note.
+    rounding, usable over the runs, exact, index, convention, source, note, mesh.
     """
     if not 2 <= halvings <= 20:
         raise ValueError("halvings must lie within 2 and 20, not %s: three runs give a verdict" % halvings)
@@ -270,6 +271,7 @@ def weak(method, E, F=None, x0=None, f=None, *, h=None, halvings=4, component=No
             query.set("x0", POINTER, values.ctypes.data)
             query.set("break_count", c.c_size_t, times.size)
             query.set("breaks", POINTER, times.ctypes.data)
+            query.set("restart", INT, int(restart))
             code, r = _weak_result(system.context, query, halvings + 1,
                                    system.n if component is None else 0)
             system.check(code)

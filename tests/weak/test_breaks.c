@@ -1,49 +1,15 @@
 /* test_breaks.c: f with jumps and kinks: impulses at its breaks, limits of a step, meshes.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "weak/broken.h"
 #include "subject.h"
-#include "suite.h"
 #include "base/failing.h"
-#include <steif/input.h>
-#include <string.h>
-#include <sunmatrix/sunmatrix_dense.h>
-
-enum { MOST = 4 };
-
-/* N x' + x = f of index n from 0, or the circuit below. */
-typedef struct system_of {
-  steif_context *ctx;
-  steif_linear linear;
-  steif_function *function;
-  sunrealtype x0[MOST], breaks[MOST];
-  size_t count;
-} system_of;
-
-static void open_system(system_of *s, int n, const char *f)
-{
-  *s = (system_of){.ctx = steif_context_new(NULL)};
-  s->linear.E = SUNDenseMatrix(n, n, steif_sundials(s->ctx));
-  s->linear.F = SUNDenseMatrix(n, n, steif_sundials(s->ctx));
-  for (int i = 0; i < n; i++) SM_ELEMENT_D(s->linear.F, i, i) = 1;
-  for (int i = 0; i + 1 < n; i++) SM_ELEMENT_D(s->linear.E, i, i + 1) = 1;
-  s->function = steif_function_parse(s->ctx, f, n, NULL);
-  CU_ASSERT_FATAL(s->function != NULL);
-  s->linear.f = steif_function_value, s->linear.user = s->function;
-  s->count = steif_function_breaks(s->function, 0, 1, MOST, s->breaks);
-}
-
-static void close_system(system_of *s)
-{
-  SUNMatDestroy(s->linear.E), SUNMatDestroy(s->linear.F);
-  steif_function_free(&s->function);
-  steif_context_free(&s->ctx);
-}
 
 /* Capacitor 1/2 across a source e = 2 step(t - 0.3), series R, L, C of 1 beside it: C v' = i_L,
  * L i_L' + v + R i_L = e, i = e'/2 + i_L; unknowns v, i_L, e, i, index 2. */
-static void open_circuit(system_of *s)
+static void open_circuit(broken_system *s)
 {
   static const double F[4][4] = {{0, -1, 0, 0}, {1, 1, -1, 0}, {0, 0, 1, 0}, {0, 1, 0, -1}};
-  open_system(s, 4, "0;0;2*step(t-0.3);0");
+  broken_open(s, 4, "0;0;2*step(t-0.3);0");
   SUNMatZero(s->linear.E);
   SM_ELEMENT_D(s->linear.E, 0, 0) = SM_ELEMENT_D(s->linear.E, 1, 1) = 1;
   SM_ELEMENT_D(s->linear.E, 3, 2) = 0.5;
@@ -59,10 +25,10 @@ static double tail(double a, int q)
   return value;
 }
 
-static void expect(system_of *s, int n, const double *value, double tolerance)
+static void expect(broken_system *s, int n, const double *value, double tolerance)
 {
   stf_subject subject;
-  double found[MOST], accuracy;
+  double found[BROKEN_MOST], accuracy;
   char how[160];
   CU_ASSERT_FATAL(!stf_subject_open(s->ctx, NULL, &s->linear, s->x0, &subject));
   subject.sides.count = s->count, subject.sides.breaks = s->breaks;
@@ -70,22 +36,22 @@ static void expect(system_of *s, int n, const double *value, double tolerance)
   CHECK(subject.jumps == s->count && accuracy < 1e-12);
   for (int m = 0; m < n; m++) CLOSE_FLOOR(found[m], value[m], tolerance, 1e-3);
   stf_subject_close(&subject);
-  close_system(s);
+  broken_close(s);
 }
 
 static void impulses_at_breaks_are_paired(void)
 {
-  system_of s;
-  open_system(&s, 2, "0;step(t-0.3)"); /* x1 = -delta, x2 = step */
+  broken_system s;
+  broken_open(&s, 2, "0;step(t-0.3)"); /* x1 = -delta, x2 = step */
   expect(&s, 2, (double[]){-pow(0.7, 8), tail(0.3, 0)}, 1e-13);
-  open_system(&s, 3, "0;ramp(t-1/4);step(t-1/2)"); /* x2 = ramp - delta, x1 = delta' - step */
+  broken_open(&s, 3, "0;ramp(t-1/4);step(t-1/2)"); /* x2 = ramp - delta, x1 = delta' - step */
   expect(&s, 3,
          (double[]){8 * pow(0.5, 7) - tail(0.25, 0), tail(0.25, 1) - pow(0.5, 8), tail(0.5, 0)},
          1e-13);
-  open_system(&s, 3, "0;0;ramp(t-0.3)"); /* a kink is an impulse of index 3 */
+  broken_open(&s, 3, "0;0;ramp(t-0.3)"); /* a kink is an impulse of index 3 */
   expect(&s, 3, (double[]){pow(0.7, 8), -tail(0.3, 0), tail(0.3, 1)}, 1e-13);
   /* 2 ramp(t - 0.3) + 0.6 - t: x3(0+) = 0.6 and x2(0+) = 1 are jumps, too */
-  open_system(&s, 3, "0;0;abs(t-0.3)+min(t,0.3)+max(0,0.3-t)");
+  broken_open(&s, 3, "0;0;abs(t-0.3)+min(t,0.3)+max(0,0.3-t)");
   CHECK(s.count == 1);
   expect(&s, 3,
          (double[]){0.6 * 8 + 2 * pow(0.7, 8) - 1, 1. / 9 - 2 * tail(0.3, 0) - 0.6,
@@ -96,7 +62,7 @@ static void impulses_at_breaks_are_paired(void)
 /* 40-digit quadrature of the closed solution. */
 static void a_circuit_with_a_switched_source(void)
 {
-  system_of s;
+  broken_system s;
   open_circuit(&s);
   expect(&s, 4,
          (double[]){3.762179308764653e-5, 5.878959908535827e-4, 0.008967468222222222,
@@ -106,7 +72,7 @@ static void a_circuit_with_a_switched_source(void)
 
 /* ---- norms ------------------------------------------------------------------------------------ */
 
-static int norms(system_of *s, const char *method, enum steif_convention convention, int m,
+static int norms(broken_system *s, const char *method, enum steif_convention convention, int m,
                  int component, sunrealtype h, steif_ball_row *row, size_t rows,
                  steif_weak_ball *result)
 {
@@ -138,8 +104,8 @@ static void norms_at_breaks_by_hand(void)
   for (int i = 0; i < 4; i++) {
     steif_ball_row row[5];
     steif_weak_ball result;
-    system_of s;
-    open_system(&s, known[i].n, known[i].f);
+    broken_system s;
+    broken_open(&s, known[i].n, known[i].f);
     CHECK(!norms(&s, "be", STEIF_R, known[i].m, 0, 0, row, 5, &result));
     CHECK(result.converges == 1 && row[4].usable);
     for (int j = 0; j < 5; j++) {
@@ -148,7 +114,7 @@ static void norms_at_breaks_by_hand(void)
       CHECK(row[j].splines <= row[j].norm * (1 + 1e-14));
     }
     CHECK(fabs(row[4].order - (i == 0 || i == 3 ? 0.5 : 1)) < 0.01);
-    close_system(&s);
+    broken_close(&s);
   }
 }
 
@@ -157,8 +123,8 @@ static void norms_with_breaks_inside_steps(void)
 {
   steif_ball_row row[4];
   steif_weak_ball result;
-  system_of s;
-  open_system(&s, 2, "0;step(t-0.3)");
+  broken_system s;
+  broken_open(&s, 2, "0;step(t-0.3)");
   CHECK(!norms(&s, "be", STEIF_R, 1, 0, 1.0 / 64, row, 4, &result));
   for (int j = 0; j < 4; j++) {
     const double h = row[j].h, p = 0.3 / h - floor(0.3 / h);
@@ -166,7 +132,7 @@ static void norms_with_breaks_inside_steps(void)
     CHECK(isnan(row[j].order));
   }
   CHECK(result.converges == -1 && strstr(result.verdict, "lies inside a step") != NULL);
-  close_system(&s);
+  broken_close(&s);
 }
 
 /* Jumps, kinks and a circuit with states: |<x_h - x, g>| <= norm |g|_m, g = (1 - t)^8. */
@@ -180,11 +146,11 @@ static void no_function_beats_norms_with_breaks(void)
     steif_weak_ball norm;
     steif_weak_row row[3];
     steif_weak_result weak;
-    system_of s;
+    broken_system s;
     if (i < 4)
       open_circuit(&s);
     else
-      open_system(&s, 3,
+      broken_open(&s, 3,
                   i < 8 ? "0;ramp(t-1/4);step(t-1/2)" : "1;exp(t);abs(t-0.3)+step(t-0.6)");
     const int component = i < 4 ? 3 : 0;
     const steif_weak_query query = {.method = method[i % 4],
@@ -203,7 +169,7 @@ static void no_function_beats_norms_with_breaks(void)
       CHECK(fabs(row[j].error) <= ball[j].norm * size * (1 + 1e-9) + row[j].rounding);
     for (int j = 0; j + 1 < norm.count; j++)
       CHECK(norm.space[j + 1].order > norm.space[j].order - 0.1);
-    close_system(&s);
+    broken_close(&s);
   }
 }
 
@@ -216,8 +182,8 @@ static void memory_of_norms_may_fail(void)
     const steif_setup setup = failing_setup(&f);
     steif_ball_row row[1];
     steif_weak_ball result;
-    system_of s;
-    open_system(&s, 2, "0;step(t-0.3)");
+    broken_system s;
+    broken_open(&s, 2, "0;step(t-0.3)");
     steif_context *ctx = s.ctx;
     s.ctx = steif_context_new(&setup);
     f.refuse_at = f.served + at;
@@ -227,7 +193,7 @@ static void memory_of_norms_may_fail(void)
     steif_context_free(&s.ctx);
     CHECK(f.alive == 0);
     s.ctx = ctx;
-    close_system(&s);
+    broken_close(&s);
   }
   CHECK(!code && failed > 10);
 }
@@ -237,9 +203,9 @@ static steif_weak_result measure(const char *method, int n, const char *f,
                                  enum steif_convention convention, sunrealtype h,
                                  steif_weak_row *row, size_t rows)
 {
-  system_of s;
+  broken_system s;
   steif_weak_result result;
-  open_system(&s, n, f);
+  broken_open(&s, n, f);
   const steif_weak_query query = {.method = method,
                                   .linear = &s.linear,
                                   .x0 = s.x0,
@@ -249,7 +215,7 @@ static steif_weak_result measure(const char *method, int n, const char *f,
                                   .break_count = s.count,
                                   .breaks = s.breaks};
   CHECK(!steif_weak_measure(s.ctx, &query, row, &result));
-  close_system(&s);
+  broken_close(&s);
   return result;
 }
 
@@ -307,8 +273,8 @@ static int undeclared(const char *f, int n, char *text, size_t room)
 {
   steif_weak_row row[4];
   steif_weak_result result;
-  system_of s;
-  open_system(&s, n, f);
+  broken_system s;
+  broken_open(&s, n, f);
   const steif_weak_query query = {.method = "be",
                                   .linear = &s.linear,
                                   .x0 = s.x0,
@@ -317,7 +283,7 @@ static int undeclared(const char *f, int n, char *text, size_t room)
                                   .rows = 4};
   const int code = steif_weak_measure(s.ctx, &query, row, &result);
   snprintf(text, room, "%s", code ? steif_message(s.ctx) : result.verdict);
-  close_system(&s);
+  broken_close(&s);
   return code;
 }
 

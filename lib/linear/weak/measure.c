@@ -16,7 +16,7 @@ static sunrealtype first_step(const steif_weak_query *q)
   const sunrealtype t1 = q->g ? q->g->t1 : 1, h = t1 / STEPS;
   if (q->h != 0) return q->h;
   const sunrealtype fitting = stf_break_step(q->break_count, q->breaks, t1, h);
-  return isfinite(fitting) ? fitting : h;
+  return isfinite(fitting) && !q->restart ? fitting : h;
 }
 
 static int check_steps(steif_context *ctx, const steif_weak_query *q, sunrealtype t1)
@@ -111,7 +111,7 @@ int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_meas
   const size_t n = (size_t)s->n;
   if (s->linear.E) STEIF_TRY(stf_longer_serves(ctx, query->method, s->n, &w->longer));
   w->exact = stf_allocate(ctx, 4 * n, sizeof *w->exact);
-  w->sum = stf_allocate(ctx, 4 * n, sizeof *w->sum);
+  w->sum = stf_allocate(ctx, 5 * n, sizeof *w->sum);
   if (!w->exact || !w->sum) return STEIF_NO_MEMORY;
   w->value = w->exact + n, w->level = w->value + n, w->away = w->level + n;
   if (query->exact && s->apart.linear.E) STEIF_TRY(is_exact(s, &w->as_given));
@@ -130,6 +130,7 @@ int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_meas
   }
   w->room = N_VNew_Serial(s->n, steif_sundials(ctx));
   STEIF_CHECK(w->room, ctx, STEIF_NO_MEMORY, "no memory for a vector");
+  STEIF_TRY(stf_mesh_open(w));
   return stf_forcing_rate(w);
 }
 
@@ -140,5 +141,6 @@ void stf_measure_close(stf_measure *w)
   stf_spline_close(w->ctx, &w->smooth);
   stf_release(w->ctx, w->exact);
   stf_release(w->ctx, w->sum);
+  stf_release(w->ctx, w->mesh.segment);
   stf_subject_close(&w->subject);
 }

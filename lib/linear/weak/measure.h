@@ -8,17 +8,28 @@
 #include "turned.h"
 #include "spline.h"
 
+/* The steps of the first row: from break to break where a run begins anew at the breaks of f, else one
+ * segment. Row i has 2^i times as many. */
+typedef struct stf_mesh {
+  size_t count;
+  stf_segment *segment; /* allocated */
+  bool able, anew;      /* it can; it does */
+  int ends; /* order of Gregory's weights at breaks, for convolution quadrature; 0: none */
+} stf_mesh;
+
 typedef struct stf_measure {
   steif_context *ctx;
   const steif_weak_query *query;
   stf_subject subject;
   sunrealtype *exact, *value, *level,
     *away;            /* n each: of every component; of the last run; its rounding; work */
-  long double *sum;   /* 4 x n: work, in the coordinates of runs */
+  long double *sum;   /* 5 x n: work, in the coordinates of runs; the last: x at breaks */
   N_Vector room;      /* n */
   stf_events *events; /* 3: of the run in double, in long double, shaken; NULL: not wanted */
-  sunrealtype h;      /* first step */
-  sunrealtype rate;   /* at which f changes, 1/time */
+  stf_mesh mesh;
+  sunrealtype h;                /* first step, the longest */
+  int halvings;                 /* of the row that is made */
+  sunrealtype rate;             /* at which f changes, 1/time */
   stf_turned turned[STF_TURNS]; /* where the run has coordinates of its own */
   stf_spline smooth;            /* the test function, where it is given */
   int first, count;             /* components paired */
@@ -37,8 +48,16 @@ int stf_measure_components(stf_measure *measure);
 int stf_measure_longest(const stf_measure *measure, sunrealtype *longest, const char **fastest);
 /* The rate of f; bad input where f or a derivative that counts jumps at no break. */
 int stf_forcing_rate(stf_measure *measure);
-/* A run with so many steps h: value and level. */
-int stf_measure_run(stf_measure *measure, sunrealtype h, size_t steps);
+/* The run of row `row`: value and level. */
+int stf_measure_run(stf_measure *measure, size_t row);
+/* Segments of the mesh, and in the row that is made: one of them, its longest step, and its steps on the
+ * interval of the test function if all were as long. */
+int stf_mesh_open(stf_measure *measure);
+stf_segment stf_measure_segment(const stf_measure *measure, size_t i);
+sunrealtype stf_measure_step(const stf_measure *measure);
+size_t stf_measure_steps(const stf_measure *measure);
+/* The steps of the first row in words, where a run begins anew at breaks. */
+void stf_mesh_say(const stf_mesh *mesh, char *text, size_t room);
 
 /* Where a run is made: the system, coordinates of it (NULL: its own), its unknowns in another order. */
 typedef struct stf_frame {
@@ -52,11 +71,11 @@ stf_frame stf_measure_turn(const stf_measure *measure, int i);
 /* x_m of z. */
 long double stf_frame_component(const stf_frame *frame, int m, const long double *z);
 /* The run there, without its pairing. */
-stf_longer stf_measure_longer(const stf_measure *measure, const stf_frame *frame, sunrealtype h,
-                              size_t steps, bool shaken);
+stf_longer stf_measure_longer(const stf_measure *measure, const stf_frame *frame, bool shaken);
+/* Segment i of it; the first begins at x(0-). */
+void stf_longer_segment(stf_longer *run, const stf_segment *part, size_t i);
 /* The same in many digits: a row of sums, and the defect of the test function. */
-int stf_exact_sums(stf_measure *measure, const stf_frame *frame, sunrealtype h, size_t steps,
-                   bool shaken, int row);
+int stf_exact_sums(stf_measure *measure, const stf_frame *frame, bool shaken, int row);
 
 /* Looks at impulses of every order, and at the smooth part, by themselves: takes a verdict back that they
  * contradict, and lowers its order to theirs. */

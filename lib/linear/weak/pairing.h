@@ -34,17 +34,30 @@ int stf_weight_scale(const stf_weight *g, long double *most, long double *rate);
 typedef struct stf_events {
   size_t count, room;
   bool masses;
-  long double *at;    /* of masses: in steps */
+  long double *at;    /* in units of the pairing: of masses, or where a density ends */
   long double *value; /* densities, or masses */
 } stf_events;
 
-/* Of values x_i at i h and stages. */
+/* Equal steps from one time to another. */
+typedef struct stf_segment {
+  long double from, to, h;
+  size_t steps;
+} stf_segment;
+
+/* Gregory's weights w_0, w_1, ... of order p, then 1: sum_i w_i F(i h) h is the integral from 0 on, to order
+ * p. */
+enum { STF_GREGORY = 5 };
+long double stf_gregory(int p, size_t i);
+
+/* Of values x_i at from + i h and stages. */
 typedef struct stf_pairing {
   const stf_weight *g;
   enum steif_convention convention;
   bool solved; /* x_0 is a value of the run, not x(0-): the comb has it */
+  int ends;    /* order of Gregory's weights of a comb at the end of the segment; 0: none */
   size_t steps;
-  long double h;
+  long double from, h;
+  long double unit; /* of times of events; the first segment starts at 0 */
   int n;
   stf_events *events; /* all of it, too; NULL: not wanted */
   long double *sum;   /* n */

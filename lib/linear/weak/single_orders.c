@@ -30,15 +30,21 @@ typedef struct parts {
   part bad;    /* the last of those that do not; converges = 0: there is one */
 } parts;
 
-/* The largest |c_q| / t1^(q + 1) of the components measured. */
+static sunrealtype largest(const stf_measure *w, const sunrealtype *c, int q)
+{
+  sunrealtype most = 0;
+  for (int m = w->first; m < w->first + w->count; m++)
+    most = fmax(most, fabs(c[(size_t)q * (size_t)w->subject.n + (size_t)m]));
+  return most;
+}
+
+/* The largest |c_q| / t1^(q + 1) of the components measured, at 0 and where the run begins anew. */
 static sunrealtype size_of(const stf_measure *w, int q)
 {
   const stf_subject *s = &w->subject;
-  const size_t n = (size_t)s->n;
-  const sunrealtype *c = s->block.k ? s->block.c : s->impulse.c;
-  sunrealtype most = 0;
-  for (int m = w->first; m < w->first + w->count; m++)
-    most = fmax(most, fabs(c[(size_t)q * n + (size_t)m]));
+  sunrealtype most = largest(w, s->block.k ? s->block.c : s->impulse.c, q);
+  for (size_t b = 0; b < s->jumps && w->mesh.anew; b++)
+    if (q < s->jump[b].at.count) most = fmax(most, largest(w, s->jump[b].at.c, q));
   return most / pow((sunrealtype)s->weight.t1, q + 1);
 }
 
@@ -63,7 +69,7 @@ static int generic_taylor(long double t, int order, long double *c, void *user)
 static int ask_exactly(const stf_measure *w, const steif_weight *g, steif_weak_query *query)
 {
   int stages;
-  query->component = 0, query->break_count = 0;
+  query->component = 0, query->break_count = 0, query->restart = 0;
   STEIF_TRY(stf_recurrence_of(w->ctx, query->method, &stages));
   if (!stages) return STEIF_OK;
   query->exact = 1;
@@ -80,7 +86,7 @@ static int ask(const stf_measure *w, const steif_linear *linear, const sunrealty
   steif_weak_query query = *w->query;
   steif_weak_result result;
   query.problem = NULL, query.linear = linear, query.x0 = x0;
-  query.values = query.exacts = NULL, query.h = w->h;
+  query.values = query.exacts = NULL, query.h = w->h, query.restart = w->mesh.anew;
   generic power = {(sunrealtype)w->subject.weight.t1, p->q + SMOOTHER};
   const steif_weight g = {generic_taylor, &power, power.t1, 0};
   if (block) STEIF_TRY(ask_exactly(w, &g, &query));

@@ -79,6 +79,8 @@ int stf_trace_run(steif_context *ctx, const steif_problem *problem, const char *
     STEIF_TRY(stf_apart_problem(trace->apart, problem, &apart));
     problem = &apart;
   }
+  steif_problem from = *problem;
+  if (trace->continued) from.y0 = trace->state;
   options.h = h;
   options.t1 = problem->t0 + h * (sunrealtype)trace->steps;
   options.start = start;
@@ -86,8 +88,11 @@ int stf_trace_run(steif_context *ctx, const steif_problem *problem, const char *
   long double *room = stf_allocate(ctx, (size_t)problem->n, sizeof *room);
   if (!room) return STEIF_NO_MEMORY;
   if (trace->sides) stf_sides_step(trace->sides, problem->t0, problem->t0 + h, STF_STEP_END);
-  steif_solver *s = steif_solver_new(ctx, problem, method, &options);
+  steif_solver *s = steif_solver_new(ctx, &from, method, &options);
   const int code = s ? follow(ctx, s, method, h, trace, room) : steif_status(ctx);
+  if (!code && trace->state)
+    memcpy(trace->state, N_VGetArrayPointer(steif_solution(s)),
+           (size_t)problem->n * sizeof *trace->state);
   if (trace->sides) stf_sides_step(trace->sides, 0, 0, 0);
   steif_solver_free(&s);
   stf_release(ctx, room);

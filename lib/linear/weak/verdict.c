@@ -113,6 +113,21 @@ static int too_few(const stf_judged *j, size_t from, size_t usable, steif_weak_r
     j->decidable ? " or --exact" : "");
 }
 
+void stf_say_inside(const stf_judged *j, const char *what, char *text, size_t room)
+{
+  const int used = snprintf(text, room,
+                            "undecided: the break of f at %.6g lies inside a step, %s "
+                            "depend on where and have no order",
+                            j->inside, what);
+  char *more = text + used;
+  if (isfinite(j->fitting))
+    snprintf(more, room - (size_t)used, "; --h %.17g puts it on the mesh", j->fitting);
+  else
+    snprintf(more, room - (size_t)used, "; %s (--restart)",
+             j->able ? "let steps end there"
+                     : "one-step methods and --start cq can restart there");
+}
+
 void stf_weak_judge(const stf_judged *j, steif_weak_result *r)
 {
   size_t from = 0, usable = 0;
@@ -122,12 +137,7 @@ void stf_weak_judge(const stf_judged *j, steif_weak_result *r)
   const size_t room = sizeof r->verdict;
   if (isfinite(j->inside)) {
     undecided(r);
-    const int used = snprintf(text, room,
-                              "undecided: the break of f at %.6g lies inside a step, errors "
-                              "depend on where and have no order",
-                              j->inside);
-    if (isfinite(j->fitting))
-      snprintf(text + used, room - (size_t)used, "; --h %.17g puts it on the mesh", j->fitting);
+    stf_say_inside(j, "errors", text, room);
     return;
   }
   if (usable < LEAST)

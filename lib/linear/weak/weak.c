@@ -20,10 +20,10 @@ static int fill_row(stf_measure *w, size_t i, const steif_weak_result *result,
                     steif_weak_row *row)
 {
   const steif_weak_query *q = w->query;
-  const sunrealtype h = ldexp(w->h, -(int)i), t1 = (sunrealtype)w->subject.weight.t1;
+  const sunrealtype h = ldexp(w->h, -(int)i);
   const bool all = q->component == STEIF_ALL;
   sunrealtype value = 0, error = 0, level = 0;
-  STEIF_TRY(stf_measure_run(w, h, (size_t)ceil(t1 / h * (1 - 1e-9))));
+  STEIF_TRY(stf_measure_run(w, i));
   for (int m = w->first; m < w->first + w->count; m++) {
     const sunrealtype v = w->value[m];
     if (all && q->values) q->values[i * (size_t)w->subject.n + (size_t)m] = v;
@@ -96,8 +96,8 @@ static int conclude(const stf_measure *w, steif_weak_row *row, steif_weak_result
   const steif_weak_query *q = w->query;
   const sunrealtype t1 = (sunrealtype)s->weight.t1;
   const size_t inside = stf_break_inside(q->break_count, q->breaks, t1, w->h);
-  if (inside < q->break_count) {
-    j.inside = q->breaks[inside];
+  if (inside < q->break_count && !w->mesh.anew) {
+    j.inside = q->breaks[inside], j.able = w->mesh.able;
     j.fitting = stf_break_step(q->break_count, q->breaks, t1, w->h);
     for (size_t i = 0; i < j.rows; i++) row[i].order = NAN;
   }
@@ -135,6 +135,7 @@ static int find_exact(stf_measure *w, steif_weak_result *result)
   const steif_weak_query *q = w->query;
   const bool all = q->component == STEIF_ALL;
   result->index = w->subject.index;
+  stf_mesh_say(&w->mesh, result->mesh, sizeof result->mesh);
   STEIF_TRY(stf_subject_pair(&w->subject, w->exact, &result->accuracy, result->source,
                              sizeof result->source));
   result->exact = 0;

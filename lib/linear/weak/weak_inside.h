@@ -49,6 +49,8 @@ typedef struct stf_trace {
   stf_pairing *pairing; /* is told of nodes and stages, in the coordinates of the run; NULL */
   stf_sides *sides;     /* of f; NULL: it has no breaks */
   stf_apart *apart;     /* run in its coordinates; NULL: in those of the problem */
+  sunrealtype *state;   /* x at the end of the run, in its coordinates; NULL: not wanted */
+  bool continued;       /* it begins there, not at the start of the problem */
 } stf_trace;
 
 /* Run `steps` equal steps h of the method; t and x are the caller's. */
@@ -72,9 +74,12 @@ typedef struct stf_judged {
   const char *fastest; /* what asks for it */
   int blind;           /* order of impulses that g does not see; -1: it sees all */
   sunrealtype inside;  /* a break of f that lies inside a step; NaN: none does */
-  sunrealtype fitting; /* a first step that puts the breaks on the meshes */
+  sunrealtype fitting; /* a first step that puts the breaks on the meshes; NaN: none */
+  bool able;           /* the run can begin anew at breaks */
   bool decidable;      /* a run in many digits would see what rounding hides */
 } stf_judged;
+/* That a break lies inside a step, and the remedy: `what` depends on where. */
+void stf_say_inside(const stf_judged *judged, const char *what, char *text, size_t room);
 /* Fills in verdict and converges. */
 void stf_weak_judge(const stf_judged *judged, steif_weak_result *result);
 

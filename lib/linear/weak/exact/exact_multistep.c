@@ -4,7 +4,7 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
-enum { HIGHEST = 6, PAST = HIGHEST + 1, CORRECTED = 5 };
+enum { HIGHEST = 6, PAST = HIGHEST + 1 };
 
 typedef struct multistep {
   stf_exact_run *run;
@@ -32,10 +32,10 @@ static void coefficients(multistep *m, int p)
 }
 
 /* The first weights of convolution quadrature of order p, then 1: numerators over one denominator. */
-static void gregory(multistep *m)
+stf_real stf_exact_gregory(int limbs, int p, size_t i)
 {
   static const struct {
-    long of, w[CORRECTED];
+    long of, w[STF_GREGORY];
   } known[PAST] = {{1, {1, 1, 1, 1, 1}},
                    {1, {0, 1, 1, 1, 1}},
                    {2, {1, 2, 2, 2, 2}},
@@ -43,8 +43,13 @@ static void gregory(multistep *m)
                    {24, {9, 28, 23, 24, 24}},
                    {720, {251, 897, 633, 739, 720}},
                    {1440, {475, 1902, 1104, 1586, 1413}}};
-  for (int i = 0; i < CORRECTED; i++)
-    m->weight[i] = stf_real_ratio(m->run->limbs, known[m->p].w[i], known[m->p].of);
+  return stf_real_ratio(limbs, known[p].w[i], known[p].of);
+}
+
+static void gregory(multistep *m)
+{
+  for (size_t i = 0; i < STF_GREGORY; i++)
+    m->weight[i] = stf_exact_gregory(m->run->limbs, m->p, i);
 }
 
 static int factor(multistep *m, int order)
@@ -82,7 +87,7 @@ static int solve(multistep *m, size_t i, const stf_real *weight)
 static int closed(multistep *m, size_t i)
 {
   stf_longer *l = &m->run->of;
-  const sunrealtype t = (sunrealtype)((long double)i * l->h);
+  const sunrealtype t = (sunrealtype)(l->from + (long double)i * l->h);
   STEIF_CHECK(!l->closed->exact(t, l->value, NULL, l->closed->user), l->ctx, STEIF_CALLBACK,
               "the closed solution of '%s' failed at t = %g", l->closed->name, t);
   const sunrealtype *x = N_VGetArrayPointer(l->value);
@@ -118,9 +123,10 @@ static int follow(multistep *m, const char *start)
   const bool cq = !strcmp(start, "cq"), exact = !strcmp(start, "exact"),
              constant = !strcmp(start, "constant");
   const size_t p = (size_t)m->p;
-  for (int j = 0; j < PAST; j++)
-    for (int k = 0; k < r->of.n; k++)
-      m->past[j][k] = constant || j == 0 ? stf_real_of(r->of.x0[k]) : (stf_real){0};
+  for (int j = 0; j < PAST; j++) {
+    stf_exact_begin(r, m->past[j]);
+    if (j > 0 && !constant) memset(m->past[j], 0, (size_t)r->of.n * sizeof **m->past);
+  }
   if (cq) STEIF_TRY(first(m));
   stf_exact_node(r, 0, m->past[0]);
   for (size_t i = 1; i <= r->of.steps; i++) {
@@ -129,10 +135,11 @@ static int follow(multistep *m, const char *start)
       STEIF_TRY(closed(m, i));
     else {
       STEIF_TRY(factor(m, cq || constant || i > p ? m->p : (int)i));
-      STEIF_TRY(solve(m, i, cq && i < CORRECTED ? m->weight + i : NULL));
+      STEIF_TRY(solve(m, i, cq && i < STF_GREGORY ? m->weight + i : NULL));
     }
     stf_exact_node(r, i, m->past[0]);
   }
+  stf_exact_end(r, m->past[0]);
   return STEIF_OK;
 }
 

@@ -34,6 +34,7 @@ static void box(stf_exact_run *r, size_t i, stf_real *weight)
   const stf_real steps = stf_real_of((long double)i);
   stf_real t, upto;
   stf_real_multiply(r->limbs, &r->h, &steps, &t);
+  stf_real_add(r->limbs, &t, &r->from, &t);
   stf_spline_integral(r->g, r->limbs, &t, &upto);
   stf_real_subtract(r->limbs, &upto, &r->before, weight);
   r->before = upto;
@@ -50,8 +51,13 @@ void stf_exact_node(stf_exact_run *r, size_t i, const stf_real *x)
   case STEIF_R: box(r, i, &w); break;
   case STEIF_C:
     stf_real_multiply(r->limbs, &r->h, &at, &t);
+    stf_real_add(r->limbs, &t, &r->from, &t);
     if (i > 0 || r->solved) stf_spline_at(r->g, r->limbs, &t, &w);
     stf_real_multiply(r->limbs, &w, &r->h, &w);
+    if (r->ends && r->of.steps - i < STF_GREGORY) {
+      const stf_real end = stf_exact_gregory(r->limbs, r->ends, r->of.steps - i);
+      stf_real_multiply(r->limbs, &w, &end, &w);
+    }
     break;
   default: return;
   }
@@ -65,10 +71,22 @@ void stf_exact_stage(stf_exact_run *r, size_t i, const stf_real *c, const stf_re
   if (r->convention != STEIF_STAGE) return;
   stf_real_add(r->limbs, &t, c, &t);
   stf_real_multiply(r->limbs, &t, &r->h, &t);
+  stf_real_add(r->limbs, &t, &r->from, &t);
   stf_spline_at(r->g, r->limbs, &t, &w);
   stf_real_multiply(r->limbs, &w, &r->h, &w);
   stf_real_multiply(r->limbs, &w, b, &w);
   add(r, &w, X);
+}
+
+void stf_exact_begin(const stf_exact_run *r, stf_real *x)
+{
+  for (int k = 0; k < r->of.n; k++)
+    x[k] = r->of.continued ? r->state[k] : stf_real_of(r->of.x0[k]);
+}
+
+void stf_exact_end(stf_exact_run *r, const stf_real *x)
+{
+  if (r->state) memcpy(r->state, x, (size_t)r->of.n * sizeof *x);
 }
 
 static int dispatch(stf_exact_run *r)
@@ -103,10 +121,9 @@ static int claim(stf_exact_run *r)
 int stf_exact_run_make(stf_exact_run *r)
 {
   stf_longer *l = &r->of;
-  l->random.state = 1;
-  r->h = stf_real_of(l->h);
-  r->before = (stf_real){0};
-  memset(r->sum, 0, (size_t)l->n * sizeof *r->sum);
+  if (l->random.state == 0) l->random.state = 1;
+  r->from = stf_real_of(l->from);
+  stf_spline_integral(r->g, r->limbs, &r->from, &r->before);
   int code = claim(r);
   if (!code) code = dispatch(r);
   if (l->value) N_VDestroy(l->value);

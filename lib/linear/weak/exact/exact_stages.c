@@ -75,9 +75,10 @@ static int follow(stages *g)
 {
   stf_exact_run *r = g->run;
   STEIF_TRY(factor(g));
-  for (int k = 0; k < r->of.n; k++) g->x[k] = stf_real_of(r->of.x0[k]);
+  stf_exact_begin(r, g->x);
   stf_exact_node(r, 0, g->x);
   for (size_t i = 0; i < r->of.steps; i++) STEIF_TRY(step(g, i));
+  stf_exact_end(r, g->x);
   return STEIF_OK;
 }
 

@@ -4,13 +4,15 @@
 #include "exact_run.h"
 #include "measure.h"
 #include <math.h>
+#include <string.h>
 
 /* Limbs that a shaken run goes without; products of limbs that take minutes. */
 enum { FEWER = 2 };
 #define MOST_PRODUCTS 1e11
 
-static int check(const stf_measure *w, size_t steps)
+static int check(const stf_measure *w)
 {
+  const size_t steps = stf_measure_steps(w);
   const double n = w->subject.n;
   int stages;
   STEIF_TRY(stf_recurrence_of(w->ctx, w->query->method, &stages));
@@ -27,35 +29,56 @@ static int check(const stf_measure *w, size_t steps)
   return STEIF_OK;
 }
 
-static int run(stf_measure *w, const stf_frame *frame, sunrealtype h, size_t steps, bool shaken,
-               const stf_spline *g, long double *out)
+/* Segments one after another, in r->of. */
+static int follow(const stf_measure *w, stf_exact_run *r)
 {
-  const int limbs = stf_exact_limbs(w->subject.index, steps);
-  stf_real *sum = stf_allocate(w->ctx, (size_t)w->subject.n, sizeof *sum);
+  for (size_t i = 0; i < w->mesh.count; i++) {
+    const stf_segment part = stf_measure_segment(w, i);
+    const stf_real from = stf_real_of(part.from), to = stf_real_of(part.to),
+                   count = stf_real_of((long double)part.steps);
+    stf_longer_segment(&r->of, &part, i);
+    r->ends = i + 1 < w->mesh.count ? w->mesh.ends : 0;
+    r->h = stf_real_of(part.h);
+    if (w->mesh.count > 1) {
+      stf_real_subtract(r->limbs, &to, &from, &r->h);
+      stf_real_divide(r->limbs, &r->h, &count, &r->h);
+    }
+    STEIF_TRY(stf_exact_run_make(r));
+  }
+  return STEIF_OK;
+}
+
+static int run(stf_measure *w, const stf_frame *frame, bool shaken, const stf_spline *g,
+               long double *out)
+{
+  const size_t n = (size_t)w->subject.n;
+  const int limbs = stf_exact_limbs(w->subject.index, stf_measure_steps(w));
+  stf_real *sum = stf_allocate(w->ctx, 2 * n, sizeof *sum);
   if (!sum) return STEIF_NO_MEMORY;
-  stf_exact_run r = {.of = stf_measure_longer(w, frame, h, steps, shaken),
+  stf_exact_run r = {.of = stf_measure_longer(w, frame, shaken),
                      .limbs = shaken ? limbs - FEWER : limbs,
                      .g = g,
                      .convention = w->query->convention,
                      .solved = w->cq,
-                     .sum = sum};
-  const int code = stf_exact_run_make(&r);
-  for (int m = 0; m < w->subject.n; m++) out[m] = stf_real_value(sum + m);
+                     .sum = sum,
+                     .state = sum + n};
+  memset(sum, 0, n * sizeof *sum);
+  const int code = follow(w, &r);
+  for (size_t m = 0; m < n; m++) out[m] = stf_real_value(sum + m);
   stf_release(w->ctx, sum);
   return code;
 }
 
-int stf_exact_sums(stf_measure *w, const stf_frame *frame, sunrealtype h, size_t steps,
-                   bool shaken, int row)
+int stf_exact_sums(stf_measure *w, const stf_frame *frame, bool shaken, int row)
 {
   stf_spline g = {0};
   const stf_subject *s = &w->subject;
-  STEIF_TRY(check(w, steps));
+  STEIF_TRY(check(w));
   stf_weight given = s->weight;
   given.smooth = NULL;
-  int code =
-    stf_spline_open(&given, stf_smooth(s->index), stf_exact_limbs(s->index, steps), false, &g);
-  if (!code) code = run(w, frame, h, steps, shaken, &g, w->sum + row * s->n);
+  int code = stf_spline_open(&given, stf_smooth(s->index),
+                             stf_exact_limbs(s->index, stf_measure_steps(w)), false, &g);
+  if (!code) code = run(w, frame, shaken, &g, w->sum + row * s->n);
   stf_spline_close(w->ctx, &g);
   return code;
 }

@@ -30,19 +30,6 @@ static void coefficients(int p, long double *alpha)
   }
 }
 
-static long double gregory(int p, size_t i)
-{
-  static const long double w[PAST][5] = {
-    {1, 1, 1, 1, 1},
-    {0, 1, 1, 1, 1},
-    {1.L / 2, 1, 1, 1, 1},
-    {5.L / 12, 13.L / 12, 1, 1, 1},
-    {3.L / 8, 7.L / 6, 23.L / 24, 1, 1},
-    {251.L / 720, 299.L / 240, 211.L / 240, 739.L / 720, 1},
-    {95.L / 288, 317.L / 240, 23.L / 30, 793.L / 720, 157.L / 160}};
-  return i < 5 ? w[p][i] : 1;
-}
-
 static int factor(multistep *m, int order)
 {
   const stf_longer *r = m->run;
@@ -72,7 +59,7 @@ static int solve(multistep *m, size_t i, long double weight)
 static int closed(multistep *m, size_t i)
 {
   stf_longer *r = m->run;
-  const sunrealtype t = (sunrealtype)((long double)i * r->h);
+  const sunrealtype t = (sunrealtype)(r->from + (long double)i * r->h);
   STEIF_CHECK(!r->closed->exact(t, r->value, NULL, r->closed->user), r->ctx, STEIF_CALLBACK,
               "the closed solution of '%s' failed at t = %g", r->closed->name, t);
   const sunrealtype *x = N_VGetArrayPointer(r->value);
@@ -91,13 +78,16 @@ static int begin(multistep *m, bool cq, bool constant)
 {
   stf_longer *r = m->run;
   for (int j = 0; j < PAST; j++)
-    for (int k = 0; k < r->n; k++) m->past[j][k] = constant || j == 0 ? r->x0[k] : 0;
+    for (int k = 0; k < r->n; k++)
+      m->past[j][k] = j > 0 && !constant ? 0
+                      : r->continued     ? r->state[k]
+                                         : (long double)r->x0[k];
   if (cq) {
     STEIF_TRY(factor(m, m->p));
-    for (int k = 0; k < r->n; k++) m->past[1][k] = r->x0[k];
+    memcpy(m->past[1], m->past[0], (size_t)r->n * sizeof **m->past);
     const long double kept = m->alpha[1];
     m->alpha[1] = -1, m->order = 1; /* the source E x(0-) / h */
-    STEIF_TRY(solve(m, 0, gregory(m->p, 0)));
+    STEIF_TRY(solve(m, 0, stf_gregory(m->p, 0)));
     m->alpha[1] = kept, m->order = m->p;
     memset(m->past[1], 0, (size_t)r->n * sizeof **m->past);
   }
@@ -117,10 +107,11 @@ static int follow(multistep *m, const char *start)
       STEIF_TRY(closed(m, i));
     else {
       STEIF_TRY(factor(m, cq || constant || i > p ? m->p : (int)i));
-      STEIF_TRY(solve(m, i, cq ? gregory(m->p, i) : 1));
+      STEIF_TRY(solve(m, i, cq ? stf_gregory(m->p, i) : 1));
     }
     STEIF_TRY(stf_pairing_node(r->pairing, i, m->past[0]));
   }
+  if (r->state) memcpy(r->state, m->past[0], (size_t)r->n * sizeof *r->state);
   return STEIF_OK;
 }
 

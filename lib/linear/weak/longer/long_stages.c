@@ -131,9 +131,10 @@ static int follow(stages *g, const steif_table *table)
   stf_longer *r = g->run;
   STEIF_TRY(coefficients(g, table));
   STEIF_TRY(factor(g));
-  for (int k = 0; k < r->n; k++) g->x[k] = r->x0[k];
+  for (int k = 0; k < r->n; k++) g->x[k] = r->continued ? r->state[k] : (long double)r->x0[k];
   STEIF_TRY(stf_pairing_node(r->pairing, 0, g->x));
   for (size_t i = 0; i < r->steps; i++) STEIF_TRY(step(g, i));
+  if (r->state) memcpy(r->state, g->x, (size_t)r->n * sizeof *r->state);
   return STEIF_OK;
 }
 

@@ -58,13 +58,14 @@ long double stf_longer_shake(stf_longer *run)
 
 int stf_longer_force(stf_longer *run, size_t i, long double c, long double *out)
 {
-  const sunrealtype t = (sunrealtype)(((long double)i + c) * run->h * stf_longer_shake(run));
+  const sunrealtype t =
+    (sunrealtype)((run->from + ((long double)i + c) * run->h) * stf_longer_shake(run));
   const steif_linear *l = run->linear;
   memset(out, 0, (size_t)run->n * sizeof *out);
   if (!l->f) return STEIF_OK;
   if (run->sides)
-    stf_sides_step(run->sides, (sunrealtype)((long double)i * run->h),
-                   (sunrealtype)((long double)(i + 1) * run->h), STF_STEP_END);
+    stf_sides_step(run->sides, (sunrealtype)(run->from + (long double)i * run->h),
+                   (sunrealtype)(run->from + (long double)(i + 1) * run->h), STF_STEP_END);
   const int code = l->f(t, 0, run->value, l->user);
   if (run->sides) stf_sides_step(run->sides, 0, 0, 0);
   STEIF_CHECK(!code, run->ctx, STEIF_CALLBACK, "the forcing returned %d at t = %g", code, t);
@@ -86,7 +87,7 @@ static int dispatch(stf_longer *run)
 int stf_longer_run(stf_longer *run)
 {
   const size_t n = (size_t)run->n;
-  run->random.state = 1;
+  if (run->random.state == 0) run->random.state = 1;
   run->value = N_VNew_Serial(run->n, steif_sundials(run->ctx));
   run->E = stf_allocate(run->ctx, 2 * n * n, sizeof *run->E);
   int code = STEIF_OK;

@@ -38,9 +38,11 @@ typedef struct stf_longer {
   const char *method, *start;
   const sunrealtype *x0;
   int n;
-  long double h;
+  long double from, h;
   size_t steps;
   bool shaken;
+  long double *state;   /* n: x at the end of the run; NULL: not wanted */
+  bool continued;       /* it begins there, not at x0 */
   stf_pairing *pairing; /* is told of every node and stage */
   /* --- from here on its own --- */
   stf_random random;
@@ -52,7 +54,7 @@ typedef struct stf_longer {
 int stf_longer_serves(steif_context *ctx, const char *method, int n, bool *serves);
 /* The stages of be, bdf or a table with regular A, whatever the arithmetic; 0 for other methods. */
 int stf_recurrence_of(steif_context *ctx, const char *method, int *stages);
-/* The run; the pairing has its sums. */
+/* The run; the pairing has its sums. `random` is all zero before the first segment. */
 int stf_longer_run(stf_longer *run);
 
 /* f at a node or stage at t = (i + c) h of step i + 1 (c = 0: node i from the right) into out. */

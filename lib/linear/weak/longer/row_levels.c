@@ -37,14 +37,13 @@ long double stf_frame_component(const stf_frame *frame, int m, const long double
   return sum;
 }
 
-static stf_pairing pairing_of(stf_measure *w, long double h, size_t steps, int which)
+static stf_pairing pairing_of(stf_measure *w, int which)
 {
   const size_t n = (size_t)w->subject.n;
   stf_pairing p = {.g = &w->subject.weight,
                    .convention = w->query->convention,
                    .solved = w->cq,
-                   .steps = steps,
-                   .h = h,
+                   .unit = stf_measure_step(w),
                    .n = w->subject.n,
                    .sum = w->sum + (size_t)which * n};
   memset(p.sum, 0, n * sizeof *p.sum);
@@ -52,18 +51,38 @@ static stf_pairing pairing_of(stf_measure *w, long double h, size_t steps, int w
   return p;
 }
 
-static int in_double(stf_measure *w, const steif_problem *problem, stf_apart *apart,
-                     sunrealtype h, size_t steps, int which)
+/* Segment i of the run: its steps, and Gregory's weights where another one follows. */
+static stf_segment go_on(const stf_measure *w, size_t i, stf_pairing *p)
 {
-  const steif_weak_query *q = w->query;
-  stf_pairing p = pairing_of(w, h, steps, which);
-  stf_trace trace = {.steps = steps, .apart = apart, .pairing = &p};
-  if (w->subject.sides.count) trace.sides = &w->subject.sides;
-  return stf_trace_run(w->ctx, problem, q->method, q->start, h, &trace);
+  const stf_segment part = stf_measure_segment(w, i);
+  p->from = part.from, p->h = part.h, p->steps = part.steps;
+  p->ends = i + 1 < w->mesh.count ? w->mesh.ends : 0;
+  return part;
 }
 
-stf_longer stf_measure_longer(const stf_measure *w, const stf_frame *frame, sunrealtype h,
-                              size_t steps, bool shaken)
+static int in_double(stf_measure *w, const steif_problem *problem, stf_apart *apart, int which)
+{
+  const steif_weak_query *q = w->query;
+  stf_pairing p = pairing_of(w, which);
+  for (size_t i = 0; i < w->mesh.count; i++) {
+    const stf_segment part = go_on(w, i, &p);
+    steif_problem from = *problem;
+    stf_trace trace = {
+      .steps = part.steps, .apart = apart, .pairing = &p, .state = w->away, .continued = i > 0};
+    from.t0 = (sunrealtype)part.from;
+    if (w->subject.sides.count) trace.sides = &w->subject.sides;
+    STEIF_TRY(stf_trace_run(w->ctx, &from, q->method, q->start, (sunrealtype)part.h, &trace));
+  }
+  return STEIF_OK;
+}
+
+void stf_longer_segment(stf_longer *run, const stf_segment *part, size_t i)
+{
+  run->from = part->from, run->h = part->h, run->steps = part->steps;
+  run->continued = i > 0;
+}
+
+stf_longer stf_measure_longer(const stf_measure *w, const stf_frame *frame, bool shaken)
 {
   const stf_subject *s = &w->subject;
   return (stf_longer){.ctx = w->ctx,
@@ -74,23 +93,25 @@ stf_longer stf_measure_longer(const stf_measure *w, const stf_frame *frame, sunr
                       .start = w->query->start,
                       .x0 = frame->x0,
                       .n = s->n,
-                      .h = h,
-                      .steps = steps,
                       .shaken = shaken};
 }
 
-static int in_long_double(stf_measure *w, const stf_frame *frame, sunrealtype h, size_t steps,
-                          bool shaken, int which)
+static int in_long_double(stf_measure *w, const stf_frame *frame, bool shaken, int which)
 {
-  stf_pairing p = pairing_of(w, h, steps, which);
-  stf_longer run = stf_measure_longer(w, frame, h, steps, shaken);
-  run.pairing = &p;
+  stf_pairing p = pairing_of(w, which);
+  stf_longer run = stf_measure_longer(w, frame, shaken);
+  run.pairing = &p, run.state = w->sum + 4 * w->subject.n;
   if (which == 1) {
     p.square = w->sum + 3 * w->subject.n;
     memset(p.square, 0, (size_t)w->subject.n * sizeof *p.square);
   }
   if (frame->turned) p.events = NULL;
-  return stf_longer_run(&run);
+  for (size_t i = 0; i < w->mesh.count; i++) {
+    const stf_segment part = go_on(w, i, &p);
+    stf_longer_segment(&run, &part, i);
+    STEIF_TRY(stf_longer_run(&run));
+  }
+  return STEIF_OK;
 }
 
 /* ---- multiples of the data --------------------------------------------------------------------- */
@@ -109,8 +130,7 @@ static int multiplied(sunrealtype t, int derivative, N_Vector g, void *user)
 }
 
 /* The run on factor times x(0-) and f, divided by it, added to the levels where it differs more. */
-static int again(stf_measure *w, const stf_frame *frame, sunrealtype h, size_t steps,
-                 sunrealtype factor)
+static int again(stf_measure *w, const stf_frame *frame, sunrealtype factor)
 {
   stf_subject *s = &w->subject;
   stf_apart *apart = frame->apart ? &s->apart : NULL;
@@ -123,7 +143,7 @@ static int again(stf_measure *w, const stf_frame *frame, sunrealtype h, size_t s
   for (int i = 0; i < s->n; i++) x0[i] = factor * s->problem.y0[i];
   if (apart) apart->from = &scaled;
   int code = steif_linear_problem(w->ctx, &scaled, x0, 0, 1, &problem);
-  if (!code) code = in_double(w, &problem, apart, h, steps, 1);
+  if (!code) code = in_double(w, &problem, apart, 1);
   if (apart) apart->from = kept;
   stf_release(w->ctx, x0);
   for (int i = 0; !code && i < s->n; i++) {
@@ -133,13 +153,11 @@ static int again(stf_measure *w, const stf_frame *frame, sunrealtype h, size_t s
   return code;
 }
 
-static int level_by_multiples(stf_measure *w, const stf_frame *frame, sunrealtype h,
-                              size_t steps)
+static int level_by_multiples(stf_measure *w, const stf_frame *frame)
 {
   static const sunrealtype factor[] = {1.0 / 3, 0.7, 1.3};
   memset(w->level, 0, (size_t)w->subject.n * sizeof *w->level);
-  for (int i = 0; w->subject.linear.E && i < 3; i++)
-    STEIF_TRY(again(w, frame, h, steps, factor[i]));
+  for (int i = 0; w->subject.linear.E && i < 3; i++) STEIF_TRY(again(w, frame, factor[i]));
   return STEIF_OK;
 }
 
@@ -160,12 +178,12 @@ static void differ(stf_measure *w, const stf_frame *frame, const stf_frame *othe
 }
 
 /* `run` of every turn into row 2. */
-static int turns(stf_measure *w, const stf_frame *frame, sunrealtype h, size_t steps, int base)
+static int turns(stf_measure *w, const stf_frame *frame, int base)
 {
   for (int i = 0; i < STF_TURNS && frame->apart && w->turned[i].apart.linear.E; i++) {
     const stf_frame turn = stf_measure_turn(w, i);
-    STEIF_TRY(w->query->exact ? stf_exact_sums(w, &turn, h, steps, false, 2)
-                              : in_long_double(w, &turn, h, steps, false, 2));
+    STEIF_TRY(w->query->exact ? stf_exact_sums(w, &turn, false, 2)
+                              : in_long_double(w, &turn, false, 2));
     differ(w, frame, &turn, 2, base, TURNED);
   }
   return STEIF_OK;
@@ -191,14 +209,14 @@ static long double weight_noise(const stf_measure *w, const stf_frame *frame, in
   return sum;
 }
 
-static int level_by_longer(stf_measure *w, const stf_frame *frame, sunrealtype h, size_t steps)
+static int level_by_longer(stf_measure *w, const stf_frame *frame)
 {
   const size_t n = (size_t)w->subject.n;
   memset(w->away, 0, n * sizeof *w->away);
-  STEIF_TRY(in_long_double(w, frame, h, steps, false, 1));
-  STEIF_TRY(in_long_double(w, frame, h, steps, true, 2));
+  STEIF_TRY(in_long_double(w, frame, false, 1));
+  STEIF_TRY(in_long_double(w, frame, true, 2));
   differ(w, frame, frame, 2, 1, 2);
-  STEIF_TRY(turns(w, frame, h, steps, 1));
+  STEIF_TRY(turns(w, frame, 1));
   for (int m = 0; m < w->subject.n; m++) {
     const long double v = stf_frame_component(frame, m, w->sum + n);
     w->level[m] = (sunrealtype)(fabsl(w->value[m] - v) + weight_noise(w, frame, m)) +
@@ -209,14 +227,14 @@ static int level_by_longer(stf_measure *w, const stf_frame *frame, sunrealtype h
 }
 
 /* Rounding is that of f, and of what else is known to double only. */
-static int in_many_digits(stf_measure *w, const stf_frame *frame, sunrealtype h, size_t steps)
+static int in_many_digits(stf_measure *w, const stf_frame *frame)
 {
   const stf_subject *s = &w->subject;
   memset(w->away, 0, (size_t)s->n * sizeof *w->away);
-  STEIF_TRY(stf_exact_sums(w, frame, h, steps, false, 0));
-  STEIF_TRY(stf_exact_sums(w, frame, h, steps, true, 1));
+  STEIF_TRY(stf_exact_sums(w, frame, false, 0));
+  STEIF_TRY(stf_exact_sums(w, frame, true, 1));
   differ(w, frame, frame, 1, 0, 2);
-  STEIF_TRY(turns(w, frame, h, steps, 0));
+  STEIF_TRY(turns(w, frame, 0));
   for (int m = 0; m < s->n; m++) {
     w->value[m] = (sunrealtype)stf_frame_component(frame, m, w->sum);
     w->level[m] = w->away[m] + defect(w);
@@ -239,20 +257,21 @@ static int leave(const stf_measure *w, const stf_frame *frame, const stf_events 
   return STEIF_OK;
 }
 
-int stf_measure_run(stf_measure *w, sunrealtype h, size_t steps)
+int stf_measure_run(stf_measure *w, size_t row)
 {
   stf_subject *s = &w->subject;
+  w->halvings = (int)row;
+  const sunrealtype h = stf_measure_step(w);
   if (stf_is_cobb(w->query->method)) return stf_cobb_run(w, h);
   const stf_frame frame = stf_measure_frame(w);
   if (frame.apart) stf_apart_enter(frame.apart, s->n, s->problem.y0, s->apart.z0);
-  if (w->query->exact) return in_many_digits(w, &frame, h, steps);
+  if (w->query->exact) return in_many_digits(w, &frame);
   if (w->query->convention == STEIF_P || w->query->convention == STEIF_R)
     STEIF_TRY(stf_weight_resolve(&s->weight, h));
-  STEIF_TRY(in_double(w, &s->problem, frame.apart ? &s->apart : NULL, h, steps, 0));
+  STEIF_TRY(in_double(w, &s->problem, frame.apart ? &s->apart : NULL, 0));
   for (int m = 0; m < s->n; m++)
     w->value[m] = (sunrealtype)stf_frame_component(&frame, m, w->sum);
-  STEIF_TRY(w->longer ? level_by_longer(w, &frame, h, steps)
-                      : level_by_multiples(w, &frame, h, steps));
+  STEIF_TRY(w->longer ? level_by_longer(w, &frame) : level_by_multiples(w, &frame));
   for (int i = 0; w->events && frame.apart && i < EVENTS; i++)
     STEIF_TRY(leave(w, &frame, w->events + i));
   return STEIF_OK;

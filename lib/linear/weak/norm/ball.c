@@ -45,8 +45,10 @@ typedef struct ball {
 static int claim(ball *b)
 {
   stf_measure *w = &b->measure;
-  const size_t n = (size_t)w->subject.n, rows = b->steps * (b->masses ? b->masses : 1) + 1,
-               jumps = w->subject.jumps, panels = b->steps + jumps,
+  size_t rows = 1;
+  for (size_t i = 0; i < w->mesh.count; i++)
+    rows += stf_measure_segment(w, i).steps * (b->masses ? b->masses : 1) + 1;
+  const size_t n = (size_t)w->subject.n, jumps = w->subject.jumps, panels = b->steps + jumps,
                nodes = panels * STF_NODES + jumps + 1;
   STEIF_CHECK(rows * n <= LARGEST && nodes * n <= LARGEST, w->ctx, STEIF_BAD_INPUT,
               "%zu steps of %zu unknowns are too many for a norm: ask for fewer rows", b->steps,
@@ -166,7 +168,7 @@ static int measure_row(ball *b, sunrealtype h, steif_ball_row *row)
   const sunrealtype known =
     stf_subject_rounding(s) * (sunrealtype)t1 * (sunrealtype)(s->jumps + 1);
   w->events = b->events;
-  STEIF_TRY(stf_measure_run(w, h, b->steps));
+  STEIF_TRY(stf_measure_run(w, (size_t)w->halvings));
   STEIF_TRY(truth(b, h));
   norms(b, b->events, b->panel, h, cells.count ? &cells : NULL, error);
   norms(b, b->events, NULL, h, NULL, size);
@@ -259,16 +261,11 @@ static void say_long(steif_weak_ball *r, sunrealtype h, sunrealtype longest,
 static void say_inside(ball *b)
 {
   steif_weak_ball *r = b->result;
-  const size_t room = sizeof r->verdict;
+  const stf_judged j = {
+    .inside = b->inside, .fitting = b->fitting, .able = b->measure.mesh.able};
   for (int i = 0; i < r->count; i++) r->space[i].converges = -1, r->space[i].order = NAN;
   r->converges = -1;
-  const int used = snprintf(r->verdict, room,
-                            "undecided: the break of f at %.6g lies inside a step, norms "
-                            "depend on where and have no order",
-                            b->inside);
-  if (isfinite(b->fitting))
-    snprintf(r->verdict + used, room - (size_t)used, "; --h %.17g puts it on the mesh",
-             b->fitting);
+  stf_say_inside(&j, "norms", r->verdict, sizeof r->verdict);
 }
 
 /* ---- the measure ------------------------------------------------------------------------------ */
@@ -304,8 +301,9 @@ static int measure(ball *b, steif_ball_row *row)
     return STEIF_NO_MEMORY;
   int code = STEIF_OK;
   for (size_t i = 0; i < q->rows && !code; i++) {
-    const sunrealtype h = ldexp(w->h, -(int)i), t1 = (sunrealtype)w->subject.weight.t1;
-    b->steps = (size_t)ceil(t1 / h * (1 - 1e-9));
+    w->halvings = (int)i;
+    const sunrealtype h = stf_measure_step(w);
+    b->steps = stf_measure_steps(w);
     code = claim(b);
     if (!code) code = measure_row(b, h, all);
     release(b);
@@ -338,7 +336,7 @@ static int find_breaks(ball *b)
   if (!q->break_count) return STEIF_OK;
   STEIF_TRY(stf_subject_pair(&w->subject, w->exact, &accuracy, how, sizeof how));
   const size_t inside = stf_break_inside(q->break_count, q->breaks, t1, w->h);
-  if (inside == q->break_count) return STEIF_OK;
+  if (inside == q->break_count || w->mesh.anew) return STEIF_OK;
   b->inside = q->breaks[inside];
   b->fitting = stf_break_step(q->break_count, q->breaks, t1, w->h);
   return STEIF_OK;
@@ -355,6 +353,7 @@ static int open(ball *b, int m)
   b->masses =
     w->query->convention == STEIF_STAGE ? (size_t)info.stages : w->query->convention == STEIF_C;
   r->index = k;
+  stf_mesh_say(&w->mesh, r->mesh, sizeof r->mesh);
   r->m = m ? m : (int)fmin(fmax(k + info.order - 1, least), STF_SPACES);
   b->most = (int)fmin(fmax(k + info.order + 1, r->m), STF_SPACES);
   r->count = b->most - least + 1;

@@ -135,7 +135,7 @@ void stf_dual_norm(const stf_events *events, int n, int j, const stf_panel *pane
   if (panel) enter(&w, panel);
   for (size_t e = 0; e < events->count; e++) {
     const long double value = events->value[e * w.n + w.j];
-    go(&w, events->masses ? events->at[e] : (long double)e + 1, events->masses ? 0 : value);
+    go(&w, events->at[e], events->masses ? 0 : value);
     if (events->masses) w.z[1] += value;
   }
   go(&w, w.end, 0);

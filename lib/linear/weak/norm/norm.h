@@ -25,7 +25,7 @@ typedef struct stf_cells {
 } stf_cells;
 
 /* T^(1/2 - m) || I^m e ||_L2(0, T) of component `j` of events less panels (NULL: nothing), for
- * m = 1 .. most into norm[m - 1]; run in steps h. cells NULL: no B-splines. */
+ * m = 1 .. most into norm[m - 1]; h: the unit of times. cells NULL: no B-splines. */
 void stf_dual_norm(const stf_events *events, int n, int j, const stf_panel *panel,
                    long double h, size_t steps, long double t1, int most, stf_cells *cells,
                    long double *norm);
