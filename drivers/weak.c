@@ -48,11 +48,8 @@ static const struct option options[] = {
   START_OPTIONS,
   OPTIONS_END,
 };
-static const struct rule rules[] = {{"--halvings", AT_MOST, "39"},
-                                    {"--ball", EXCLUDES, "--g"},
-                                    {"--exact", EXCLUDES, "--ball"},
-                                    START_RULES,
-                                    RULES_END};
+static const struct rule rules[] = {
+  {"--halvings", AT_MOST, "39"}, {"--ball", EXCLUDES, "--g"}, START_RULES, RULES_END};
 
 const struct verb verb_weak = {
   .name = "weak",

@@ -109,7 +109,7 @@ typedef struct steif_weak_query {
   const sunrealtype *x0;      /* from x(0-) = x0 */
   const steif_weight *g;      /* test function; NULL: (1 - t)_+^8 */
   int
-    exact; /* 1: the runs are made and paired in many-digit arithmetic, f alone in double, so that
+    exact; /* 1: the runs are made and paired (for norms: integrated) in many-digit arithmetic, f alone in double, so that
                 rounding decides nothing; for be, bdf and Runge-Kutta methods with regular A */
   size_t break_count; /* where f or a derivative of it jumps, ascending, of `linear` only: */
   const sunrealtype *breaks; /* impulses there are part of the exact distribution */

@@ -76,6 +76,8 @@ stf_longer stf_measure_longer(const stf_measure *measure, const stf_frame *frame
 void stf_longer_segment(stf_longer *run, const stf_segment *part, size_t i);
 /* The same in many digits: a row of sums, and the defect of the test function. */
 int stf_exact_sums(stf_measure *measure, const stf_frame *frame, bool shaken, int row);
+/* The run in many digits as events with their integrals, not paired. */
+int stf_exact_events(stf_measure *measure, bool shaken, stf_events *events);
 
 /* Looks at impulses of every order, and at the smooth part, by themselves: takes a verdict back that they
  * contradict, and lowers its order to theirs. */

@@ -36,6 +36,8 @@ typedef struct stf_events {
   bool masses;
   long double *at;    /* in units of the pairing: of masses, or where a density ends */
   long double *value; /* densities, or masses */
+  int most;           /* I^j of the run behind each, j = 1 .. most, as rows of `state`: */
+  long double *state; /* rows of n x most; NULL: not known to more digits than values tell */
 } stf_events;
 
 /* Equal steps from one time to another. */

@@ -28,54 +28,66 @@ static void add(stf_exact_run *r, const stf_real *weight, const stf_real *x)
     stf_real_gather(r->limbs, 1, weight, x + m, r->sum + m);
 }
 
-/* Where values on steps are paired: int g over the step that ends at node i, or begins there. */
-static void box(stf_exact_run *r, size_t i, stf_real *weight)
+/* from + (i + c) h, c NULL: 0. */
+static stf_real time_of(const stf_exact_run *r, size_t i, const stf_real *c)
 {
-  const stf_real steps = stf_real_of((long double)i);
-  stf_real t, upto;
-  stf_real_multiply(r->limbs, &r->h, &steps, &t);
+  stf_real t = stf_real_of((long double)i);
+  if (c) stf_real_add(r->limbs, &t, c, &t);
+  stf_real_multiply(r->limbs, &r->h, &t, &t);
   stf_real_add(r->limbs, &t, &r->from, &t);
+  return t;
+}
+
+/* x is the density on the step that ends at node i. */
+static void box(stf_exact_run *r, size_t i, const stf_real *x)
+{
+  const stf_real t = time_of(r, i, NULL);
+  stf_real upto, weight;
+  if (r->integrals) stf_integrals_density(r->integrals, &t, x);
+  if (!r->g) return;
   stf_spline_integral(r->g, r->limbs, &t, &upto);
-  stf_real_subtract(r->limbs, &upto, &r->before, weight);
+  stf_real_subtract(r->limbs, &upto, &r->before, &weight);
   r->before = upto;
+  add(r, &weight, x);
+}
+
+/* There is the mass weight x at t. */
+static void mass(stf_exact_run *r, const stf_real *t, const stf_real *weight, const stf_real *x)
+{
+  stf_real g;
+  if (r->integrals) stf_integrals_mass(r->integrals, t, weight, x);
+  if (!r->g) return;
+  stf_spline_at(r->g, r->limbs, t, &g);
+  stf_real_multiply(r->limbs, &g, weight, &g);
+  add(r, &g, x);
+}
+
+static void comb(stf_exact_run *r, size_t i, const stf_real *x)
+{
+  const stf_real t = time_of(r, i, NULL);
+  stf_real w = r->h;
+  if (r->ends && r->of.steps - i < STF_GREGORY) {
+    const stf_real end = stf_exact_gregory(r->limbs, r->ends, r->of.steps - i);
+    stf_real_multiply(r->limbs, &w, &end, &w);
+  }
+  mass(r, &t, &w, x);
 }
 
 void stf_exact_node(stf_exact_run *r, size_t i, const stf_real *x)
 {
-  stf_real w = {0}, t;
-  const stf_real at = stf_real_of((long double)i);
-  switch (r->convention) {
-  case STEIF_P:
-    if (i < r->of.steps) box(r, i + 1, &w);
-    break;
-  case STEIF_R: box(r, i, &w); break;
-  case STEIF_C:
-    stf_real_multiply(r->limbs, &r->h, &at, &t);
-    stf_real_add(r->limbs, &t, &r->from, &t);
-    if (i > 0 || r->solved) stf_spline_at(r->g, r->limbs, &t, &w);
-    stf_real_multiply(r->limbs, &w, &r->h, &w);
-    if (r->ends && r->of.steps - i < STF_GREGORY) {
-      const stf_real end = stf_exact_gregory(r->limbs, r->ends, r->of.steps - i);
-      stf_real_multiply(r->limbs, &w, &end, &w);
-    }
-    break;
-  default: return;
-  }
-  add(r, &w, x);
+  if (r->convention == STEIF_P && i < r->of.steps) box(r, i + 1, x);
+  if (r->convention == STEIF_R && i > 0) box(r, i, x);
+  if (r->convention == STEIF_C && (i > 0 || r->solved)) comb(r, i, x);
 }
 
 void stf_exact_stage(stf_exact_run *r, size_t i, const stf_real *c, const stf_real *b,
                      const stf_real *X)
 {
-  stf_real t = stf_real_of((long double)i), w;
+  const stf_real t = time_of(r, i, c);
+  stf_real w;
   if (r->convention != STEIF_STAGE) return;
-  stf_real_add(r->limbs, &t, c, &t);
-  stf_real_multiply(r->limbs, &t, &r->h, &t);
-  stf_real_add(r->limbs, &t, &r->from, &t);
-  stf_spline_at(r->g, r->limbs, &t, &w);
-  stf_real_multiply(r->limbs, &w, &r->h, &w);
-  stf_real_multiply(r->limbs, &w, b, &w);
-  add(r, &w, X);
+  stf_real_multiply(r->limbs, &r->h, b, &w);
+  mass(r, &t, &w, X);
 }
 
 void stf_exact_begin(const stf_exact_run *r, stf_real *x)
@@ -123,7 +135,7 @@ int stf_exact_run_make(stf_exact_run *r)
   stf_longer *l = &r->of;
   if (l->random.state == 0) l->random.state = 1;
   r->from = stf_real_of(l->from);
-  stf_spline_integral(r->g, r->limbs, &r->from, &r->before);
+  if (r->g) stf_spline_integral(r->g, r->limbs, &r->from, &r->before);
   int code = claim(r);
   if (!code) code = dispatch(r);
   if (l->value) N_VDestroy(l->value);

@@ -6,13 +6,15 @@
 #ifndef STF_EXACT_RUN_H
 #define STF_EXACT_RUN_H
 
+#include "integrals.h"
 #include "longer.h"
 #include "spline.h"
 
 typedef struct stf_exact_run {
   stf_longer of; /* what is run, and its values of f; of.pairing is not used */
   int limbs;
-  const stf_spline *g;
+  const stf_spline *g;      /* NULL: nothing is paired */
+  stf_integrals *integrals; /* NULL: not wanted */
   enum steif_convention convention;
   bool solved; /* as in stf_pairing */
   int ends;    /* as in stf_pairing */

@@ -10,8 +10,9 @@ typedef struct stages {
   stf_real_table table;
   stf_real over_h[STEIF_STAGES]; /* row sums of omega / h */
   long double c[STEIF_STAGES];
-  stf_real_matrix matrix; /* of order s n */
-  stf_real *x, *X;        /* n, s n */
+  int order[STEIF_STAGES]; /* of stages by their times */
+  stf_real_matrix matrix;  /* of order s n */
+  stf_real *x, *X;         /* n, s n */
 } stages;
 
 static int factor(stages *g)
@@ -64,8 +65,10 @@ static int step(stages *g, size_t i)
     stf_real_apply(r->limbs, r->of.n, r->E, g->over_h + k, g->x, g->X + (size_t)k * n);
   }
   stf_real_solve(r->limbs, &g->matrix, g->X);
-  for (int k = 0; k < g->table.s; k++)
+  for (int j = 0; j < g->table.s; j++) {
+    const int k = g->order[j];
     stf_exact_stage(r, i, g->table.c + k, g->table.b + k, g->X + (size_t)k * n);
+  }
   advance(g);
   stf_exact_node(r, i + 1, g->x);
   return STEIF_OK;
@@ -79,6 +82,26 @@ static int follow(stages *g)
   stf_exact_node(r, 0, g->x);
   for (size_t i = 0; i < r->of.steps; i++) STEIF_TRY(step(g, i));
   stf_exact_end(r, g->x);
+  return STEIF_OK;
+}
+
+/* Masses are taken in the order of time. */
+static int put_in_order(stages *g)
+{
+  const stf_exact_run *r = g->run;
+  const stf_real *c = g->table.c;
+  const int s = g->table.s;
+  for (int i = 0, k; i < s; i++) {
+    for (k = i; k > 0 && stf_real_compare(r->limbs, c + g->order[k - 1], c + i) > 0; k--)
+      g->order[k] = g->order[k - 1];
+    g->order[k] = i;
+  }
+  const bool within =
+    stf_real_value(c + g->order[0]) >= 0 && stf_real_value(c + g->order[s - 1]) <= 1;
+  STEIF_CHECK(within || !r->integrals, r->of.ctx, STEIF_UNSUPPORTED,
+              "nodes of '%s' lie outside of the step, so norms are not known in many digits: "
+              "leave --exact out",
+              r->of.method);
   return STEIF_OK;
 }
 
@@ -106,6 +129,7 @@ int stf_exact_stages(stf_exact_run *run)
   g->run = run;
   int code = stf_real_table_open(ctx, run->of.method, run->limbs,
                                  run->of.shaken ? &run->of.random : NULL, &g->table);
+  if (!code) code = put_in_order(g);
   if (!code) code = open(g);
   if (!code) code = follow(g);
   stf_release(ctx, g->matrix.a);

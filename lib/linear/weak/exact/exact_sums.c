@@ -29,6 +29,11 @@ static int check(const stf_measure *w)
   return STEIF_OK;
 }
 
+static int limbs_of(const stf_measure *w, bool shaken)
+{
+  return stf_exact_limbs(w->subject.index, stf_measure_steps(w)) - (shaken ? FEWER : 0);
+}
+
 /* Segments one after another, in r->of. */
 static int follow(const stf_measure *w, stf_exact_run *r)
 {
@@ -48,24 +53,43 @@ static int follow(const stf_measure *w, stf_exact_run *r)
   return STEIF_OK;
 }
 
+/* Paired with g into `out`, or as integrals: one of them is NULL. */
 static int run(stf_measure *w, const stf_frame *frame, bool shaken, const stf_spline *g,
-               long double *out)
+               stf_integrals *integrals, long double *out)
 {
   const size_t n = (size_t)w->subject.n;
-  const int limbs = stf_exact_limbs(w->subject.index, stf_measure_steps(w));
   stf_real *sum = stf_allocate(w->ctx, 2 * n, sizeof *sum);
   if (!sum) return STEIF_NO_MEMORY;
   stf_exact_run r = {.of = stf_measure_longer(w, frame, shaken),
-                     .limbs = shaken ? limbs - FEWER : limbs,
+                     .limbs = limbs_of(w, shaken),
                      .g = g,
+                     .integrals = integrals,
                      .convention = w->query->convention,
                      .solved = w->cq,
                      .sum = sum,
                      .state = sum + n};
   memset(sum, 0, n * sizeof *sum);
   const int code = follow(w, &r);
-  for (size_t m = 0; m < n; m++) out[m] = stf_real_value(sum + m);
+  for (size_t m = 0; out && m < n; m++) out[m] = stf_real_value(sum + m);
   stf_release(w->ctx, sum);
+  return code;
+}
+
+int stf_exact_events(stf_measure *w, bool shaken, stf_events *events)
+{
+  const stf_frame frame = stf_measure_frame(w);
+  stf_integrals s = {.limbs = limbs_of(w, shaken),
+                     .n = w->subject.n,
+                     .first = w->first,
+                     .count = w->count,
+                     .most = events->most,
+                     .unit = stf_measure_step(w),
+                     .events = events};
+  events->count = 0;
+  STEIF_TRY(check(w));
+  STEIF_TRY(stf_integrals_open(w->ctx, &s));
+  const int code = run(w, &frame, shaken, NULL, &s, NULL);
+  stf_integrals_close(w->ctx, &s);
   return code;
 }
 
@@ -78,7 +102,7 @@ int stf_exact_sums(stf_measure *w, const stf_frame *frame, bool shaken, int row)
   given.smooth = NULL;
   int code = stf_spline_open(&given, stf_smooth(s->index),
                              stf_exact_limbs(s->index, stf_measure_steps(w)), false, &g);
-  if (!code) code = run(w, frame, shaken, &g, w->sum + row * s->n);
+  if (!code) code = run(w, frame, shaken, &g, NULL, w->sum + row * s->n);
   stf_spline_close(w->ctx, &g);
   return code;
 }

@@ -12,17 +12,10 @@
 #include <stdio.h>
 
 #define USABLE 0.1 /* of a norm, the most that rounding may be */
-/* Orders are multiples of 1/2 in the limit: AGREED apart they are one, beyond NEAR their distance from
- * it must not grow. Smooth values have errors of TRUTH of the size of the run. */
-#define AGREED 0.25
-#define NEAR 0.03
+/* Smooth values have errors of TRUTH of the size of the run. */
 #define TRUTH 1e-15
 #define MESHED 1e-9 /* of a break, its distance from a mesh that counts as none */
-enum {
-  LARGEST = 1 << 24,
-  LEAST = 3,
-  CELLS = 1 << 20
-}; /* numbers of an array; rows; B-splines */
+enum { LARGEST = 1 << 24, CELLS = 1 << 20 }; /* numbers of an array; B-splines */
 
 typedef struct ball {
   stf_measure measure;
@@ -42,6 +35,24 @@ typedef struct ball {
 
 /* ---- room ------------------------------------------------------------------------------------- */
 
+/* Integrals of runs in many digits. */
+static int claim_states(ball *b, size_t values)
+{
+  stf_measure *w = &b->measure;
+  const size_t most = (size_t)b->most;
+  if (!w->query->exact) return STEIF_OK;
+  STEIF_CHECK(
+    values * most <= LARGEST, w->ctx, STEIF_BAD_INPUT,
+    "%zu values in %d spaces are too many for norms in many digits: ask for fewer rows", values,
+    b->most);
+  for (int i = 0; i < 2; i++) {
+    b->events[i].most = b->most;
+    b->events[i].state = stf_allocate(w->ctx, values * most, sizeof(long double));
+    if (!b->events[i].state) return STEIF_NO_MEMORY;
+  }
+  return STEIF_OK;
+}
+
 static int claim(ball *b)
 {
   stf_measure *w = &b->measure;
@@ -59,6 +70,7 @@ static int claim(ball *b)
     if (!b->events[i].at) return STEIF_NO_MEMORY;
     b->events[i].value = b->events[i].at + rows;
   }
+  STEIF_TRY(claim_states(b, rows * n));
   b->t = stf_allocate(w->ctx, nodes * (n + 1), sizeof *b->t);
   b->panel = stf_allocate(w->ctx, panels + 1, sizeof *b->panel);
   if (!b->t || !b->panel) return STEIF_NO_MEMORY;
@@ -68,7 +80,11 @@ static int claim(ball *b)
 
 static void release(ball *b)
 {
-  for (int i = 0; i < 3; i++) stf_release(b->measure.ctx, b->events[i].at);
+  for (int i = 0; i < 3; i++) {
+    stf_release(b->measure.ctx, b->events[i].at);
+    stf_release(b->measure.ctx, b->events[i].state);
+    b->events[i].at = b->events[i].state = NULL;
+  }
   stf_release(b->measure.ctx, b->t);
   stf_release(b->measure.ctx, b->panel);
   b->t = NULL, b->panel = NULL;
@@ -123,7 +139,9 @@ static int truth(ball *b, sunrealtype h)
 /* a -= b */
 static void subtract(const stf_events *a, const stf_events *b, int n)
 {
-  for (size_t i = 0; i < a->count * (size_t)n; i++) a->value[i] -= b->value[i];
+  const size_t values = a->count * (size_t)n;
+  for (size_t i = 0; i < values; i++) a->value[i] -= b->value[i];
+  for (size_t i = 0; a->state && i < values * (size_t)a->most; i++) a->state[i] -= b->state[i];
 }
 
 /* Norms of all components together. */
@@ -158,27 +176,46 @@ static int impulses_of(const ball *b)
   return most;
 }
 
+/* The run, and what tells its rounding: in double, long double and shaken, or twice in many digits. */
+static int make_runs(ball *b)
+{
+  stf_measure *w = &b->measure;
+  if (!w->query->exact) return stf_measure_run(w, (size_t)w->halvings);
+  STEIF_TRY(stf_exact_events(w, false, b->events));
+  return stf_exact_events(w, true, b->events + 1);
+}
+
+/* Norms of differences of the runs: made + 2 shaken. */
+static void roundings(ball *b, sunrealtype h, long double *level)
+{
+  const int n = b->measure.subject.n;
+  long double shaken[STF_SPACES];
+  const bool exact = b->measure.query->exact;
+  if (!exact) subtract(b->events + 2, b->events + 1, n);
+  subtract(b->events + 1, b->events, n);
+  norms(b, b->events + 1, NULL, h, NULL, level);
+  if (!exact) norms(b, b->events + 2, NULL, h, NULL, shaken);
+  for (int m = 0; m < b->most; m++) level[m] = exact ? 2 * level[m] : level[m] + 2 * shaken[m];
+}
+
 static int measure_row(ball *b, sunrealtype h, steif_ball_row *row)
 {
   stf_measure *w = &b->measure;
   const stf_subject *s = &w->subject;
   const long double t1 = s->weight.t1;
-  long double error[STF_SPACES], made[STF_SPACES], shaken[STF_SPACES], size[STF_SPACES];
+  long double error[STF_SPACES], made[STF_SPACES], size[STF_SPACES];
   stf_cells cells = {.m = b->result->m, .count = w->query->cells};
   const sunrealtype known =
     stf_subject_rounding(s) * (sunrealtype)t1 * (sunrealtype)(s->jumps + 1);
   w->events = b->events;
-  STEIF_TRY(stf_measure_run(w, (size_t)w->halvings));
+  STEIF_TRY(make_runs(b));
   STEIF_TRY(truth(b, h));
   norms(b, b->events, b->panel, h, cells.count ? &cells : NULL, error);
   norms(b, b->events, NULL, h, NULL, size);
-  subtract(b->events + 2, b->events + 1, s->n);
-  subtract(b->events + 1, b->events, s->n);
-  norms(b, b->events + 1, NULL, h, NULL, made);
-  norms(b, b->events + 2, NULL, h, NULL, shaken);
+  roundings(b, h, made);
   for (int m = 0; m < b->most; m++) {
     const long double level =
-      made[m] + 2 * shaken[m] + TRUTH * size[m] + known * impulses_norm(impulses_of(b), m + 1);
+      made[m] + TRUTH * size[m] + known * impulses_norm(impulses_of(b), m + 1);
     row[m] = (steif_ball_row){h, (sunrealtype)error[m], (sunrealtype)level, NAN, 0, NAN};
     row[m].usable = isfinite(error[m]) && level <= USABLE * error[m];
   }
@@ -188,64 +225,6 @@ static int measure_row(ball *b, sunrealtype h, steif_ball_row *row)
 }
 
 /* ---- verdicts --------------------------------------------------------------------------------- */
-
-/* By rows h, h/2, ... of one m: order and converges of its space. */
-static void judge_space(const steif_ball_row *row, size_t rows, size_t stride,
-                        sunrealtype longest, steif_ball_space *space)
-{
-  size_t from = 0, usable = 0;
-  space->converges = -1, space->order = NAN, space->norm = NAN;
-  while (from < rows && row[from * stride].h > longest) from++;
-  while (from + usable < rows && row[(from + usable) * stride].usable) usable++;
-  if (usable == 0) return;
-  const steif_ball_row *last = row + (from + usable - 1) * stride;
-  space->norm = last->norm;
-  if (usable < LEAST) return;
-  const sunrealtype order = last->order, before = (last - stride)->order,
-                    near = round(2 * order) / 2, away = fabs(order - near);
-  space->order = order;
-  if (fabs(order - before) > AGREED || (away > NEAR && away > fabs(before - near))) return;
-  space->converges = near > 0;
-}
-
-/* Spaces grow with m: what does not converge in H^-m does so in none before it, and what converges in one
- * does so in all after it, else rows do not show the limit yet. Two in a row show it, rounding may hide
- * the others. The first of them; count: none. */
-static int first_good(const steif_weak_ball *r)
-{
-  int first = r->count;
-  for (int i = r->count - 1; i >= 0 && r->space[i].converges != 0; i--) {
-    const bool next = i + 1 == r->count || r->space[i + 1].converges == 1;
-    if (r->space[i].converges == 1 && next) first = i;
-  }
-  return first;
-}
-
-static void say(steif_weak_ball *r)
-{
-  char *text = r->verdict;
-  const size_t room = sizeof r->verdict;
-  steif_ball_space *last = r->space + r->count - 1;
-  const steif_ball_space *first = r->space + first_good(r), *asked = NULL;
-  for (int i = 0; i < r->count && last->converges == 0; i++) r->space[i].converges = 0;
-  for (int i = 0; i < r->count; i++)
-    if (r->space[i].m == r->m) asked = r->space + i;
-  r->converges = first <= last ? 1 : last->converges;
-  if (asked && asked >= first && asked->converges == 1)
-    snprintf(text, room, "converges weakly in H^-%d, order %.2f: for every smooth g", r->m,
-             asked->order);
-  else if (first <= last)
-    snprintf(text, room,
-             "converges weakly for every smooth g: in H^-%d, order %.2f; in H^-%d undecided",
-             first->m, first->order, r->m);
-  else if (last->converges == 0)
-    snprintf(text, room, "does not converge in any H^-m up to %d: norm %.3g, order %.2f there",
-             last->m, last->norm, last->order);
-  else
-    snprintf(text, room,
-             "undecided: fewer than three norms above rounding, or their orders differ; take "
-             "larger steps or more rows");
-}
 
 /* The last row is too long: for what. */
 static void say_long(steif_weak_ball *r, sunrealtype h, sunrealtype longest,
@@ -279,6 +258,9 @@ static int check(const stf_measure *w, int m)
     "norms take a second run in long double, which there is of be, bdf and Runge-Kutta "
     "methods with regular A and at most 400 stage values, not of '%s' with %d unknowns",
     q->method, w->subject.n);
+  STEIF_CHECK(!q->exact || !w->subject.apart.linear.E || w->as_given, w->ctx, STEIF_UNSUPPORTED,
+              "E and F have this index to rounding only, not to the last bit: a run in many "
+              "digits would be one on another system; leave --exact out");
   STEIF_CHECK(q->cells >= 0 && q->cells <= CELLS, w->ctx, STEIF_BAD_INPUT,
               "%d cells of B-splines were asked for: 1 to %d, or 0 for none", q->cells, CELLS);
   STEIF_CHECK(m == 0 || (m >= 1 && m >= k - 1 && m <= STF_SPACES), w->ctx, STEIF_BAD_INPUT,
@@ -315,8 +297,8 @@ static int measure(ball *b, steif_ball_row *row)
     }
   }
   for (int j = 0; j < r->count && !code; j++)
-    judge_space(rows + r->space[j].m - 1, q->rows, STF_SPACES, longest, r->space + j);
-  if (!code && isnan(b->inside)) say(r);
+    stf_ball_judge(rows + r->space[j].m - 1, q->rows, STF_SPACES, longest, r->space + j);
+  if (!code && isnan(b->inside)) stf_ball_say(r, !q->exact);
   const sunrealtype last = ldexp(w->h, 1 - (int)q->rows);
   if (!code && last > longest) say_long(r, last, longest, fastest);
   if (!code && !isnan(b->inside)) say_inside(b);

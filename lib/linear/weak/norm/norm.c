@@ -19,9 +19,11 @@ enum { DEGREE = STF_NODES + STF_SPACES, SQUARES = DEGREE + 1 };
 
 typedef struct walk {
   int most;
+  bool known;                         /* z of the run, behind each event */
   size_t n, j;                        /* component j of n */
   long double t1, h, end;             /* end of all, like `at` in steps */
-  long double at, z[STF_SPACES + 1];  /* z_1, ... there */
+  long double at, z[STF_SPACES + 1];  /* z_1, ... there, */
+  long double less[STF_SPACES + 1];   /* and the part of panels alone */
   long double square[STF_SPACES + 1]; /* integrals so far */
   const stf_panel *panel;
   long double node[STF_NODES],
@@ -74,12 +76,26 @@ static void local(const walk *w, long double from, long double to, long double *
   }
 }
 
+/* z_1, ... from the values at the beginning, with a density given in powers of u, to the end. */
+static void pass(int most, long double length, long double *c, long double *z)
+{
+  for (int m = 1, degree = STF_NODES - 1; m <= most; m++) {
+    for (int q = degree++; q >= 0; q--) c[q + 1] = length * c[q] / (q + 1);
+    c[0] = z[m];
+    z[m] = evaluate(c, degree, 1);
+  }
+}
+
 /* Over a part of a panel and of a cell, of this length, with a constant density. */
 static void part(walk *w, long double to, long double density)
 {
-  long double c[DEGREE + 1] = {0};
+  long double c[DEGREE + 1] = {0}, alone[DEGREE + 1];
   const long double length = (to - w->at) * w->h;
   if (w->panel && w->panel->x) local(w, w->at, to, c);
+  if (w->known) {
+    memcpy(alone, c, sizeof c);
+    pass(w->most, length, alone, w->less);
+  }
   c[0] += density;
   for (int m = 1, degree = STF_NODES - 1; m <= w->most; m++) {
     for (int q = degree++; q >= 0; q--) c[q + 1] = length * c[q] / (q + 1);
@@ -98,8 +114,10 @@ static void part(walk *w, long double to, long double density)
 static void enter(walk *w, const stf_panel *panel)
 {
   w->panel = panel;
-  for (int i = 0; i < panel->impulses && i < w->most; i++)
+  for (int i = 0; i < panel->impulses && i < w->most; i++) {
     w->z[i + 1] -= panel->c[(size_t)i * w->n + w->j];
+    w->less[i + 1] -= panel->c[(size_t)i * w->n + w->j];
+  }
   for (size_t k = 0; k < STF_NODES; k++) w->value[k] = panel->x[k * w->n + w->j];
 }
 
@@ -125,11 +143,20 @@ static void go(walk *w, long double to, long double density)
   }
 }
 
+/* z behind event e: what the run has there, known to more digits than its terms, less the panels. */
+static void recall(walk *w, const stf_events *events, size_t e)
+{
+  const size_t most = (size_t)events->most;
+  for (int m = 1; m <= w->most; m++)
+    w->z[m] = events->state[(e * w->n + w->j) * most + (size_t)m - 1] + w->less[m];
+}
+
 void stf_dual_norm(const stf_events *events, int n, int j, const stf_panel *panel,
                    long double h, size_t steps, long double t1, int most, stf_cells *cells,
                    long double *norm)
 {
   walk w = {.most = most, .n = (size_t)n, .j = (size_t)j, .t1 = t1, .h = h, .cells = cells};
+  w.known = events->state != NULL;
   w.end = fminl(t1 / h, (long double)steps);
   prepare(&w);
   if (panel) enter(&w, panel);
@@ -137,6 +164,7 @@ void stf_dual_norm(const stf_events *events, int n, int j, const stf_panel *pane
     const long double value = events->value[e * w.n + w.j];
     go(&w, events->at[e], events->masses ? 0 : value);
     if (events->masses) w.z[1] += value;
+    if (w.known) recall(&w, events, e);
   }
   go(&w, w.end, 0);
   if (cells && w.cell < cells->count) leave_cell(&w);

@@ -30,4 +30,10 @@ void stf_dual_norm(const stf_events *events, int n, int j, const stf_panel *pane
                    long double h, size_t steps, long double t1, int most, stf_cells *cells,
                    long double *norm);
 
+/* By rows h, h/2, ... of one m, `stride` apart: order and converges of its space. */
+void stf_ball_judge(const steif_ball_row *row, size_t rows, size_t stride, sunrealtype longest,
+                    steif_ball_space *space);
+/* The verdict by all spaces; decidable: runs in many digits would see what rounding hides. */
+void stf_ball_say(steif_weak_ball *ball, bool decidable);
+
 #endif
