@@ -691,9 +691,16 @@ expect(2 weak be --index 3 --t1 0.01 --h 0.02 ERR "h = 0.02 must lie in .0, 0.01
 expect(2 weak be --index 3 --h 1e-12 ERR "take h above 1.5e-08")
 expect(2 weak be ${turns} ERR "name its breaks")
 expect(2 weak be ${turns} --breaks 0.2379547392877548 ERR "near t = 0.58")
-# No steps of a sensible length have all three on their mesh.
-expect(5 weak be ${turns}
-       --breaks 0.2379547392877548,0.5870205896866207,0.9360864400854866)
+# No constant step of a sensible length has all three on its mesh: the run restarts at each.
+set(three --breaks 0.2379547392877548,0.5870205896866207,0.9360864400854866)
+expect(0 weak be ${turns} ${three} --json)
+string(JSON mesh GET "${out}" mesh)
+if(NOT mesh MATCHES "^restarts at each break: 16 steps")
+  message(SEND_ERROR "weak be at three breaks: ${mesh}")
+endif()
+expect(0 weak be ${turns} ${three} --h 0.015625 --halvings 4 --restart)
+expect(5 weak be ${turns} ${three} --h 0.015625 --halvings 4 ERR "inside a step.*--restart")
+expect(1 weak bdf:p=2 ${turns} ${three} --restart ERR "--start cq")
 expect(2 layer be ${jump} --h 0.1 --steps 4 ERR "f breaks at t = 0.3")
 expect(2 weak be ut5 --index 3 ERR "name a Jordan block")
 expect(2 weak be ut5 --component 6 ERR "component 6 is not one of the 5")
