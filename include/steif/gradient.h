@@ -16,7 +16,9 @@
  *     mu <- mu + sum_j (h b_j g_p - F_p^T w_j),
  *
  * from lambda = G_y^T at T; then dJ/dp = mu + (dy0/dp)^T lambda and dJ/dy0 = lambda. E, F_y are made anew
- * at the stages, one factorisation (DIRK: one per stage) serves all functionals and parameters.
+ * at the stages, one factorisation (DIRK: one per stage) serves all functionals and parameters. Of sparse matrices in
+ * adaptive runs one real factorisation serves steps of similar length: K^T w is solved by GMRES to rtol/1000, from the w of the
+ * step before; elsewhere to rounding.
  *
  * lambda at t0 is the derivative by free start values; with algebraic equations only derivatives along
  * consistent starts mean something (parameters.start), others say what the step makes of inconsistent ones: Radau and

@@ -29,6 +29,7 @@ typedef struct stf_head {
 } stf_head;
 
 /* K^T w = r at m points of a step. */
+enum { STF_BASIS = 24 };
 typedef struct stf_adjoint {
   steif_context *ctx;
   stf_pool *pool;
@@ -46,9 +47,25 @@ typedef struct stf_adjoint {
   bool direct, forward; /* the stages' own matrix is factored; K x = r is being solved */
   N_Vector *residual, *omega, product, total;
   long solves, forward_solves, factors;
+  bool krylov;             /* stage_krylov.c, with factors of one real shift ... */
+  sunrealtype held, gamma; /* ... which is this, 0: none yet; of m > 1 stages 1/(gamma h) */
+  sunrealtype tolerance;
+  const steif_table *table;
+  N_Vector *basis[STF_BASIS + 1], *extra, *nothing;
+  N_Vector *behind;     /* w of the step behind, by channels; NULL: none */
+  sunrealtype h_behind; /* 0: not yet */
+  int channel;          /* to be solved for */
+  long sweeps;          /* of the last solve; `slow`: with these factors too many */
+  bool slow, fresh;
 } stf_adjoint;
 int stf_adjoint_open(stf_pool *pool, stf_system *system, int m, const steif_table *table,
                      stf_adjoint *a);
+/* Large sparse stages: what may be left of residuals, relative; then a solve, 1: it does not converge. */
+int stf_stage_krylov_open(stf_adjoint *a, const steif_table *table, sunrealtype tolerance,
+                          int channels);
+int stf_stage_krylov(stf_adjoint *a, N_Vector *r, N_Vector *w);
+/* a->residual := r - K^T w, or r - K w. */
+int stf_adjoint_residuals(stf_adjoint *a, N_Vector *r, N_Vector *w);
 /* Factors after the matrices at the points are filled: B/h of the method, m x m by rows. */
 int stf_adjoint_factor(stf_adjoint *a, sunrealtype t, sunrealtype h, const sunrealtype *B);
 int stf_adjoint_solve(stf_adjoint *a, N_Vector *r, N_Vector *w);

@@ -110,6 +110,19 @@ static int claim(stf_backwards *B)
   return STEIF_OK;
 }
 
+/* Where step lengths are chosen, solves of large sparse stages may leave what is far below errors of the steps. Of
+ * prescribed steps, and with second derivatives, they are exact to rounding. */
+static int open_large(stf_journey *J)
+{
+  stf_backwards *B = &J->back;
+  const steif_solver *s = B->home;
+  const stf_system *system = &s->step.system;
+  const bool large = B->adjoint.pencil && system->storage == STEIF_SPARSE && !system->linear;
+  if (!large || !s->step.adaptive || J->line) return STEIF_OK;
+  return stf_stage_krylov_open(&B->adjoint, B->table, fmax(1e-3 * s->options.rtol, 1e-14),
+                               B->channels);
+}
+
 static int open_back(stf_journey *J)
 {
   stf_backwards *B = &J->back;
@@ -124,6 +137,7 @@ static int open_back(stf_journey *J)
   STEIF_TRY(claim(B));
   const int m = B->kind == STF_TRACE_COLLOCATION ? B->table->s : 1;
   STEIF_TRY(stf_adjoint_open(B->pool, system, m, B->table, &B->adjoint));
+  STEIF_TRY(open_large(J));
   if (m == 1 && B->kind == STF_TRACE_COLLOCATION)
     STEIF_TRY(stf_transform_build(B->pool, B->ctx, B->table, &B->adjoint.transform));
   if (B->kind == STF_TRACE_COLLOCATION)

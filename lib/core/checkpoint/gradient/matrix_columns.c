@@ -27,9 +27,25 @@ static column column_of(SUNMatrix M, sunindextype j)
     .count = last - first + 1, .first = first, .value = SM_COLUMN_B(M, j) + (first - j)};
 }
 
+static void add_sparse(SUNMatrix M, sunindextype n, sunrealtype c, const sunrealtype *x,
+                       sunrealtype *out)
+{
+  const sunindextype *from = SM_INDEXPTRS_S(M), *row = SM_INDEXVALS_S(M);
+  const sunrealtype *value = SM_DATA_S(M);
+  for (sunindextype j = 0; j < n; j++) {
+    sunrealtype sum = 0;
+    for (sunindextype k = from[j]; k < from[j + 1]; k++) sum += value[k] * x[row[k]];
+    out[j] += c * sum;
+  }
+}
+
 void stf_add_transposed(SUNMatrix M, sunindextype n, sunrealtype c, const sunrealtype *x,
                         sunrealtype *out)
 {
+  if (M && SUNMatGetID(M) == SUNMATRIX_SPARSE) {
+    add_sparse(M, n, c, x, out);
+    return;
+  }
   for (sunindextype j = 0; j < n; j++) {
     sunrealtype sum = M ? 0 : x[j];
     const column v = M ? column_of(M, j) : (column){0};

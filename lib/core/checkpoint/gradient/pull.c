@@ -85,6 +85,7 @@ static void right_sides(stf_backwards *B, int i, N_Vector *right)
 static int pull_channel(stf_backwards *B, const stf_head *head, int i, N_Vector *right)
 {
   const steif_table *T = B->table;
+  B->adjoint.channel = i;
   STEIF_TRY(stf_adjoint_solve(&B->adjoint, right, B->w));
   for (int j = 0; j < T->s; j++) {
     const sunrealtype t = head->t + T->c[j] * head->h;
@@ -144,6 +145,7 @@ static int pull_collocation(stf_backwards *B, const stf_head *head)
     STEIF_TRY(bend_stages(B, head, i, right));
     STEIF_TRY(pull_channel(B, head, B->count + i, right));
   }
+  B->adjoint.h_behind = h;
   return STEIF_OK;
 }
 

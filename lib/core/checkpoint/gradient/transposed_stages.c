@@ -1,6 +1,7 @@
 /* transposed_stages.c: K^T w = r, K = (B_jm/h E_j - delta_jm A_j) the matrix of the stages of a step.
  *
- * One stage, or a constant matrix: by factors. Few unknowns: K itself, dense. Else K^T is iterated,
+ * One stage, or a constant matrix: by factors. Few unknowns: K itself, dense. Large and sparse: stage_krylov.c. Else K^T is
+ * iterated,
  *   w <- w + M^{-T} (r - K^T w),   M = B/h x E - I x A with E, A of the middle stage,
  * B = T Lambda T^{-1}: T^T in, transposed solves, T^{-T} out, coupled shifts from the first.
  *
@@ -11,14 +12,21 @@
 
 /* m n of systems that are dense at once, and that may become it; sweeps. */
 enum { SMALL = 48, LARGEST = 1500, SWEEPS = 60 };
+/* Of GMRES with factors of another step; ratio of shifts that they serve. */
+enum { MANY = 10 };
+static const sunrealtype ratio_most = 1.7;
 
 static int claim(stf_adjoint *a, N_Vector like)
 {
   a->residual = stf_pool_vectors(a->pool, a->m, like);
   a->omega = stf_pool_vectors(a->pool, a->m, like);
+  a->extra = stf_pool_vectors(a->pool, a->m, like);
+  a->nothing = stf_pool_vectors(a->pool, a->m, like);
   a->product = stf_pool_vector(a->pool, like);
   a->total = stf_pool_vector(a->pool, like);
-  return a->residual && a->omega && a->product && a->total ? STEIF_OK : STEIF_NO_MEMORY;
+  return a->residual && a->omega && a->extra && a->nothing && a->product && a->total
+           ? STEIF_OK
+           : STEIF_NO_MEMORY;
 }
 
 static int claim_dense(stf_adjoint *a)
@@ -86,8 +94,25 @@ static int factor_dense(stf_adjoint *a, sunrealtype t)
   return STEIF_OK;
 }
 
+/* One real shift, unless the factors that are there serve. */
+static int factor_one(stf_adjoint *a, bool again)
+{
+  const sunrealtype shift = a->m > 1 ? 1 / (a->gamma * a->h) : a->B[0];
+  const sunrealtype ratio = a->held > 0 ? shift / a->held : 0;
+  a->fresh = false;
+  if (!again && !a->slow && ratio <= ratio_most && ratio * ratio_most >= 1) return STEIF_OK;
+  const steif_pencil_stats *stats = steif_pencil_statistics(a->pencil);
+  const long before = stats->factors + stats->refactors;
+  STEIF_TRY(steif_pencil_update(a->pencil));
+  STEIF_TRY(steif_pencil_factor(a->pencil, 1, &(steif_shift){.re = shift}));
+  a->factors += stats->factors + stats->refactors - before;
+  a->held = shift, a->fresh = true, a->slow = false;
+  return STEIF_OK;
+}
+
 static int factor_lanes(stf_adjoint *a)
 {
+  if (a->krylov) return factor_one(a, false);
   steif_shift s[STEIF_STAGES] = {{.re = a->B[0]}};
   const stf_transform *T = &a->transform;
   for (int k = 0; a->m > 1 && k < T->shifts; k++)
@@ -205,6 +230,11 @@ static int residuals_transposed(stf_adjoint *a, N_Vector *r, N_Vector *w)
   return STEIF_OK;
 }
 
+int stf_adjoint_residuals(stf_adjoint *a, N_Vector *r, N_Vector *w)
+{
+  return a->forward ? residuals_forward(a, r, w) : residuals_transposed(a, r, w);
+}
+
 static sunrealtype size_of(const stf_adjoint *a, N_Vector *x)
 {
   sunrealtype sum = 0;
@@ -229,15 +259,29 @@ static int iterate(stf_adjoint *a, N_Vector *r, N_Vector *w)
     if (moved <= 1e-15 * size || (moved <= 1e-11 * size && moved > 0.5 * last)) return STEIF_OK;
     if (sweep > 3 && moved > 2 * last) return 1;
     last = moved;
-    STEIF_TRY(a->forward ? residuals_forward(a, r, w) : residuals_transposed(a, r, w));
+    STEIF_TRY(stf_adjoint_residuals(a, r, w));
   }
   return 1;
+}
+
+/* Factors of another step that do badly are made anew. */
+static int large(stf_adjoint *a, N_Vector *r, N_Vector *w)
+{
+  a->sweeps = 0;
+  int code = stf_stage_krylov(a, r, w);
+  if (code > 0 && !a->fresh) {
+    STEIF_TRY(factor_one(a, true));
+    code = stf_stage_krylov(a, r, w);
+  }
+  a->slow = a->slow || (!a->fresh && a->sweeps > MANY);
+  for (long i = 0; i < a->sweeps; i++) count_solve(a);
+  return code;
 }
 
 static int solve(stf_adjoint *a, N_Vector *r, N_Vector *w)
 {
   if (a->direct) return solve_dense(a, r, w);
-  const int code = iterate(a, r, w);
+  const int code = a->krylov ? large(a, r, w) : iterate(a, r, w);
   if (code <= 0) return code;
   STEIF_CHECK(a->m * a->n <= LARGEST, a->ctx, STEIF_NO_CONVERGENCE,
               "the %s equations of a step of length %.6g did not converge: the matrices at "
