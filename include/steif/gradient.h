@@ -81,7 +81,8 @@ typedef struct steif_gradient {
   /* Asked for; 0 takes the default. */
   size_t memory; /* limit in bytes; 1 GiB */
   int
-    checkpoints; /* images kept at a time, at least 3, beside one segment of stages; as many as fit */
+    checkpoints; /* images kept at a time, at least 3, beside the stages of one step, or with sqrt(steps) of them or
+                    more, of the steps between two; as many as fit */
   const char *
     folder; /* images go into files of this folder, and memory limits stages only; NULL: none do */
   /* Found; blocks belong to the gradient. */

@@ -105,7 +105,7 @@ static bool finished(const steif_solver *s)
 static int run(stf_journey *J)
 {
   steif_solver *s = J->runner;
-  J->whole = true;
+  J->whole = true, J->stands = -1;
   while (!finished(s)) {
     if (J->whole && J->recorded == J->window) STEIF_TRY(grow_records(J));
     STEIF_TRY(step(J, s, J->whole ? J->record + (size_t)J->recorded * J->back.width : NULL));
@@ -123,6 +123,7 @@ static int again(stf_journey *J, long k, sunrealtype *record)
   steif_solver *s = J->runner;
   if (J->line && !record) record = J->record + (size_t)J->window * J->back.width;
   STEIF_TRY(step(J, s, record));
+  J->stands = k + 1;
   const unsigned long long hash =
     stf_checksum(STF_ARRAY(s->step.y), (size_t)J->back.n * sizeof(sunrealtype));
   J->out->cost.recomputed_steps++;
@@ -192,11 +193,12 @@ static void drop(stf_journey *J)
   stf_release(J->back.ctx, m->tangent);
 }
 
-/* The runner goes on from the last image. */
+/* The runner goes on from the last image, unless it stands there. */
 static int restore(stf_journey *J)
 {
   char path[4096];
   const stf_run_image *m = &J->image[J->images - 1];
+  if (J->stands == m->step) return STEIF_OK;
   unsigned char *bytes = m->bytes;
   size_t count = m->count;
   if (!bytes) {
@@ -206,6 +208,7 @@ static int restore(stf_journey *J)
   if (J->runner != J->back.home) steif_solver_free(&J->runner);
   J->runner = stf_checkpoint_revive(J->back.ctx, J->back.problem, &J->options, bytes, count);
   if (!m->bytes) stf_release(J->back.ctx, bytes);
+  J->stands = m->step;
   if (J->line) stf_push_back(&J->back, m->tangent);
   return J->runner ? STEIF_OK : steif_status(J->back.ctx);
 }
@@ -288,8 +291,11 @@ static int plan(stf_journey *J)
     "or raise .memory",
     images, size, J->limit);
   J->images_most = (int)images;
-  long window = J->out->checkpoints ? 1 : (long)((rest - (size_t)images * of_image) / unit);
-  const long longest = J->steps / images + 1;
+  /* With sqrt(N) images or more, segments between them: each step is made twice more, and no oftener. */
+  const bool single = J->out->checkpoints && images * images < J->steps;
+  const long window = single ? 1 : (long)((rest - (size_t)images * of_image) / unit);
+  const long longest =
+    J->out->checkpoints ? (J->steps + images - 1) / images : J->steps / images + 1;
   J->window = window > longest ? longest : window;
   return STEIF_OK;
 }

@@ -21,6 +21,7 @@ typedef struct stf_journey {
   const char *method;
   steif_gradient *out;
   steif_solver *runner; /* makes steps; the first one is the run */
+  long stands;          /* before which step the runner stands */
   stf_logged *log;
   long steps, room;      /* of the log */
   sunrealtype *record;   /* `window` of them ... */
