@@ -44,7 +44,7 @@ int canonical_run(steif_context *ctx, int method, const steif_linear *plain,
 {
   const asked_method *a = asked_method_at(method);
   const int n = (int)SM_ROWS_D(plain->E), limbs = stf_exact_limbs(index, steps);
-  stf_real sum[SYSTEM_MOST];
+  stf_real sum[SYSTEM_MOST] = {0};
   stf_spline spline;
   stf_exact_run r = {.of = {.ctx = ctx,
                             .linear = plain,
@@ -58,6 +58,7 @@ int canonical_run(steif_context *ctx, int method, const steif_linear *plain,
                      .g = &spline,
                      .convention = a->convention,
                      .solved = a->start && !strcmp(a->start, "cq"),
+                     .h = stf_real_of(h),
                      .sum = sum};
   int code = stf_spline_open(g, stf_smooth(index), limbs, false, &spline);
   if (!code) code = stf_exact_run_make(&r);
