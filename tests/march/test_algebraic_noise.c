@@ -77,7 +77,52 @@ static void below_rounding_is_refused(void)
   steif_context_free(&ctx);
 }
 
+/* A current that a prescribed voltage drives through a capacitor, index 2: q' = i, 0 = q - u, 0 = u - sin t. What
+ * Newton's iteration leaves in the constraints, i amplifies by 1/h. */
+static int capacitor(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  const double u = NV_Ith_S(y, 0), q = NV_Ith_S(y, 1), i = NV_Ith_S(y, 2);
+  (void)user;
+  NV_Ith_S(r, 0) = i;
+  NV_Ith_S(r, 1) = q - u;
+  NV_Ith_S(r, 2) = u - sin(t);
+  return 0;
+}
+
+static int charge(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  SM_ELEMENT_D(E, 0, 1) = 1;
+  return 0;
+}
+
+/* All methods with a step size of their own: in few steps, the constraints to rounding and i to the tolerance. */
+static void constraints_keep_their_digits(void)
+{
+  static const char *const methods[] = {"bdf", "bdf:p=3", "bdf:p=5", "radau:s=3", "auto"};
+  static const sunrealtype y0[3] = {0, 0, 1}, rtols[] = {1e-4, 1e-6, 1e-7};
+  const steif_problem p = {
+    .name = "capacitor", .n = 3, .t1 = 1, .y0 = y0, .f = capacitor, .E = charge};
+  for (int m = 0; m < 5; m++)
+    for (int k = 0; k < 3; k++) {
+      steif_context *ctx = steif_context_new(NULL);
+      steif_options o = steif_defaults();
+      o.rtol = o.atol = rtols[k];
+      steif_solver *s = smooth_open(ctx, &p, methods[m], &o);
+      const int code = steif_solve_to(s, 1);
+      if (code) printf("\n  %s, rtol %g: %s", methods[m], rtols[k], steif_message(ctx));
+      CHECK(code == STEIF_OK);
+      const N_Vector y = steif_solution(s);
+      CHECK(fabs(NV_Ith_S(y, 0) - sin(1)) <= 1e-12 && fabs(NV_Ith_S(y, 1) - sin(1)) <= 1e-12);
+      CHECK(fabs(NV_Ith_S(y, 2) - cos(1)) <= 100 * rtols[k]);
+      CHECK(steif_statistics(s)->steps < 1000);
+      steif_solver_free(&s);
+      steif_context_free(&ctx);
+    }
+}
+
 CU_TestInfo tests_of_algebraic_noise[] = {
   {"rounding of algebraic equations is no error", rounding_of_algebraic_equations_is_no_error},
   {"tolerances below rounding are refused", below_rounding_is_refused},
+  {"constraints of index 2 keep their digits", constraints_keep_their_digits},
   CU_TEST_INFO_NULL};

@@ -38,14 +38,17 @@ int stf_newton_open(stf_pool *pool, stf_system *system, const stf_transform *tra
   return good ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-/* May the factors in use serve another shift? Then corrections are scaled by 2 / (1 + ratio), which
- * centres the rate of convergence over the spectrum (Petzold, DASSL). */
+/* May the factors in use serve another shift? Then corrections are scaled by 2 / (1 + ratio), which centres the rate
+ * of convergence over the spectrum (Petzold, DASSL). Not where the index is above 1: that leaves a share of each
+ * correction in rows without a derivative, which old factors solve exactly; a predictor of order k multiplies it by up to
+ * 2^k - 1 from step to step, and components of index 2 and 3 divide it by h and h^2. */
 static bool serves(stf_newton *newton, sunrealtype shift)
 {
   const sunrealtype ratio = shift / newton->shift, window = newton->shift_ratio_most;
   if (!(window > 1) || newton->jacobian_wanted || newton->system->linear) return false;
   if (!(ratio < window && ratio > 1 / window)) return false;
-  newton->relax = newton->gamma > 0 ? 1 : 2 / (1 + ratio);
+  const bool centred = newton->gamma == 0 && newton->system->problem->dae_index < 2;
+  newton->relax = centred ? 2 / (1 + ratio) : 1;
   return true;
 }
 
@@ -306,6 +309,15 @@ static int solve_predicted(stf_newton *newton, const stf_stages *g)
   return norm <= 1e300 ? STEIF_OK : refuse(newton, g, 1, norm, 0);
 }
 
+/* What is expected of the first sweep, theta / (1 - theta), with uncentred factors of another shift: a component of
+ * which the Jacobian has next to nothing contracts by |1 - ratio|. */
+static sunrealtype expected(const stf_newton *newton)
+{
+  if (newton->gamma > 0 || newton->relax != 1 || newton->transform.s > 1) return 0;
+  const sunrealtype rate = fabs(1 - newton->transform.re[0] / newton->h / newton->shift);
+  return rate < 1 ? rate / (1 - rate) : 1;
+}
+
 int stf_newton_solve(stf_newton *newton, const stf_stages *g)
 {
   const bool starts = g->predicted && newton->system->krylov;
@@ -313,6 +325,7 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
   sunrealtype norm, last = 0, theta = 0;
   newton->theta = 0;
   newton->eta = fmax(newton->eta_least, sqrt(newton->eta * sqrt(newton->eta))); /* eta^(3/4) */
+  newton->eta = fmax(newton->eta, expected(newton));
   for (int m = 1;; m++) {
     STEIF_TRY(sweep(newton, g, m, &norm));
     newton->count = m;
@@ -373,24 +386,3 @@ void stf_newton_single(stf_newton *newton, sunrealtype b)
 }
 
 bool stf_newton_stale(const stf_newton *newton) { return newton->jacobian_wanted; }
-
-void stf_newton_keep(stf_newton *newton, stf_image *m)
-{
-  const int s = newton->transform.s; /* 0: the method has an iteration of its own */
-  STF_KEEP(m, newton->single);
-  STF_KEEP(m, newton->transform.re[0]);
-  if (newton->single != 0) newton->transform.B = &newton->single;
-  stf_keep(m, newton->B_over_h, (size_t)(s * s) * sizeof *newton->B_over_h);
-  STF_KEEP(m, newton->tolerance);
-  STF_KEEP(m, newton->shift);
-  STF_KEEP(m, newton->relax);
-  STF_KEEP(m, newton->h);
-  STF_KEEP(m, newton->factored);
-  STF_KEEP(m, newton->jacobian_new);
-  STF_KEEP(m, newton->jacobian_wanted);
-  STF_KEEP(m, newton->theta);
-  STF_KEEP(m, newton->eta);
-  STF_KEEP(m, newton->count);
-  STF_KEEP(m, newton->sweeps);
-  STF_KEEP(m, newton->fails);
-}
