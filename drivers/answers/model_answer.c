@@ -45,6 +45,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_text(r, "form", steif_form_name(a->facts.form));
   report_members(r, "", members, &a->facts);
   report_natural(r, "index", a->p->dae_index);
+  if (steif_model_start(a->p)[0]) steif_report_text(r, "guesses", steif_model_start(a->p));
   steif_report_real(r, "t0", a->p->t0);
   steif_report_real(r, "t1", a->p->t1);
   parameters(r, a->p);

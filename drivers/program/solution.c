@@ -83,6 +83,8 @@ static void fill(steif_report *r, const struct call *call, const outcome *o, ste
   if (s && strcmp(method, steif_method_used(s)))
     steif_report_text(r, "used", steif_method_used(s));
   report_status(r, "", o);
+  if (s && steif_model_start(tr->problem)[0])
+    steif_report_text(r, "guesses", steif_model_start(tr->problem));
   if (s && steif_initial_used(s)->message[0])
     steif_report_text(r, "initial", steif_initial_used(s)->message);
   if (s && steif_initial_used(s)->index > 1)

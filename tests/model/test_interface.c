@@ -173,8 +173,33 @@ static void references_belong_to_parameters(void)
   }
 }
 
+/* Guesses that do not fulfil the rod and its derivative are moved, and told; others are not. */
+static void moved_guesses_are_told(void)
+{
+  static const char rod[] =
+    "state x ~ %s, y = 0, u ~ %s, v = 0, w\nx' = u\ny' = v\nu' = -w*x\nv' = -w*y - 1\n"
+    "0 = x^2 + y^2 - 1\ntime 0 to 1\n";
+  static const struct {
+    const char *x, *u, *told;
+  } rows[] = {
+    {"1", "0", NULL}, {"1.5", "0", "x from 1.5 to 1"}, {"1", "0.5", "u from 0.5 to "}};
+  char text[300];
+  for (int i = 0; i < 3; i++) {
+    fixture s;
+    snprintf(text, sizeof text, rod, rows[i].x, rows[i].u);
+    CU_ASSERT_FATAL(!parse(&s, text));
+    const char *told = steif_model_start(&s.p);
+    CHECK(rows[i].told ? !!strstr(told, rows[i].told) : !told[0]);
+    CLOSE(s.p.y0[0], 1, 1e-12);
+    CHECK(fabs(s.p.y0[2]) <= 1e-12);
+    fixture_close(&s);
+  }
+  CHECK(!steif_model_start(&(steif_problem){.name = "p"})[0]);
+}
+
 CU_TestInfo tests_of_interface[] = {
   {"references belong to parameters", references_belong_to_parameters},
+  {"moved guesses are told", moved_guesses_are_told},
   {"parameters between runs", parameters_between_runs},
   {"facts", facts},
   {"impulses of a linear model", a_linear_model_has_impulses},

@@ -63,6 +63,12 @@ const char *steif_model_parameter(const steif_problem *p, size_t which, sunrealt
   return NULL;
 }
 
+const char *steif_model_start(const steif_problem *p)
+{
+  const stf_model *m = model_of(p);
+  return m ? m->moved : "";
+}
+
 const char *steif_model_output(const steif_problem *p, size_t which)
 {
   const stf_model *m = model_of(p);

@@ -1,6 +1,8 @@
 /* check.c: every name in an expression is known where it stands: declared, or
  * an argument or index there. SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
+#include <ctype.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Is the word an index or an argument of a statement or of those around it? */
@@ -27,10 +29,49 @@ static bool summed(const stf_model *m, const stf_expression *e, int32_t word)
   return false;
 }
 
+/* What names of other languages are here: dx for the derivative of a state x, functions and constants; NULL: nothing
+ * known. */
+static const char *elsewhere(const stf_model *m, const char *name, char *room, size_t size)
+{
+  static const struct {
+    const char *name, *here;
+  } words[] = {{"ln", "'ln' is written log, which is natural here"},
+               {"pow", "'pow': a power is written x^y"},
+               {"power", "'power': a power is written x^y"},
+               {"fabs", "'fabs' is written abs"},
+               {"sgn", "'sgn' is written sign"},
+               {"heaviside", "'heaviside' is written step"},
+               {"arcsin", "'arcsin' is written asin"},
+               {"arccos", "'arccos' is written acos"},
+               {"arctan", "'arctan' is written atan"},
+               {"der", "'der(x)' is written x'"},
+               {"e", "'e' is written exp(1), and e^x exp(x)"}};
+  char small[STEIF_SPEC_WORD];
+  int operands;
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    if (!strcmp(name, words[i].name)) return words[i].here;
+  const stf_symbol *s =
+    name[0] == 'd' && name[1]
+      ? stf_symbol_of(m, stf_word_known(&m->syntax.words, name + 1, strlen(name + 1)))
+      : NULL;
+  if (s && s->kind == STF_IS_STATE) {
+    snprintf(room, size, "'%s' is not declared; the derivative of '%s' is written %s'", name,
+             name + 1, name + 1);
+    return room;
+  }
+  for (size_t i = 0; i < sizeof small; i++) small[i] = (char)tolower((unsigned char)name[i]);
+  small[sizeof small - 1] = 0;
+  if (!strcmp(small, name) || (stf_function_of(small, &operands) < 0 && strcmp(small, "pi")))
+    return NULL;
+  snprintf(room, size, "'%s' is written %s", name, small);
+  return room;
+}
+
 static int unknown(stf_model *m, const stf_statement *s, const stf_code *c, int32_t word)
 {
   const char *name = stf_named(m, word),
              *near = stf_nearest(name, m->names.data, m->names.count, sizeof(char *));
+  char room[3 * STEIF_SPEC_WORD];
   int operands;
   /* A line `r = expr` alone wants a declaration. */
   const bool alone = s->kind == STF_SAY_EQUATION && s->value.to == s->value.from + 1 &&
@@ -40,13 +81,12 @@ static int unknown(stf_model *m, const stf_statement *s, const stf_code *c, int3
                         "'%s' is not declared; write 'let %s = ...' for an abbreviation, "
                         "'state %s' for an unknown",
                         name, name, name);
-  if (c->kind == STF_OP_CALL && !strcmp(name, "ln"))
-    return stf_complain(&m->syntax.sources, c->at, STEIF_UNKNOWN_NAME,
-                        "'ln' is written log, which is natural here");
+  const char *here = elsewhere(m, name, room, sizeof room);
+  if (here) return stf_complain(&m->syntax.sources, c->at, STEIF_UNKNOWN_NAME, "%s", here);
   if (stf_function_of(name, &operands) >= 0)
     return stf_complain(&m->syntax.sources, c->at, STEIF_BAD_INPUT,
                         "'%s' is a function; write %s(...)", name, name);
-  if (!near)
+  if (!near || (!name[1] && !near[1])) /* names of one letter are all near */
     return stf_complain(&m->syntax.sources, c->at, STEIF_UNKNOWN_NAME,
                         "unknown name '%s'; declare it", name);
   return stf_complain(&m->syntax.sources, c->at, STEIF_UNKNOWN_NAME,

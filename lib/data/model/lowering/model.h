@@ -136,8 +136,9 @@ typedef struct stf_model {
   stf_lookup *lookups;
   int32_t tables;
   sunrealtype *y0, *yp0;
-  uint8_t *start; /* n: '=', '~' or 0 */
-  int32_t *owner; /* n: symbol of each unknown */
+  uint8_t *start;  /* n: '=', '~' or 0 */
+  char moved[600]; /* guesses that the start found is away from; "": none */
+  int32_t *owner;  /* n: symbol of each unknown */
   const char **unknown, **equation;
   steif_names problem_names;
   stf_sweep sweep;

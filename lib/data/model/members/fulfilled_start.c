@@ -1,7 +1,9 @@
 /* fulfilled_start.c: start values that fulfil the equations, and the index of
  * the components. SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
+#include <math.h>
 #include <steif/consistent.h>
+#include <stdio.h>
 #include <string.h>
 
 /* '=' is fixed, '~' a guess, nothing free. */
@@ -17,11 +19,31 @@ static int attributes(const stf_model *m, enum steif_attribute *attribute)
   return open;
 }
 
+/* From where to where, of guesses that did not hold. */
+static void tell(stf_model *m, const sunrealtype *y)
+{
+  enum { SHOWN = 6 };
+  const size_t room = sizeof m->moved;
+  int count = 0;
+  size_t end = 0;
+  for (int32_t i = 0; i < m->n; i++) {
+    const sunrealtype off = fabs(y[i] - m->y0[i]);
+    if (m->start[i] != '~' || !(off > 1e-6 * fabs(m->y0[i]) + 1e-9)) continue;
+    if (count++ >= SHOWN || end >= room) continue;
+    end += (size_t)snprintf(m->moved + end, room - end, "%s%.60s from %.6g to %.6g",
+                            count > 1 ? ", " : "moved to fulfil the equations: ", m->unknown[i],
+                            m->y0[i], y[i]);
+  }
+  if (count > SHOWN && end < room)
+    snprintf(m->moved + end, room - end, " and %d more", count - SHOWN);
+}
+
 static int take(stf_model *m, steif_problem *p, const steif_start *start)
 {
   const size_t bytes = (size_t)m->n * sizeof *m->y0;
   m->yp0 = stf_pool_array(m->pool, (size_t)m->n, sizeof *m->yp0);
   if (!m->yp0) return STEIF_NO_MEMORY;
+  tell(m, start->y);
   memcpy(m->y0, start->y, bytes);
   memcpy(m->yp0, start->yp, bytes);
   p->yp0 = m->yp0;
@@ -77,7 +99,7 @@ static int index_of_components(stf_model *m, steif_problem *p)
 int stf_consistent_start(stf_model *m, steif_problem *p)
 {
   if (m->form == STEIF_ODE) return STEIF_OK;
-  p->dae_index = -1;
+  p->dae_index = -1, m->moved[0] = 0;
   if (m->n > STEIF_DIAGNOSE_LARGEST) return STEIF_OK;
   enum steif_attribute *attribute = stf_allocate(m->ctx, (size_t)m->n, sizeof *attribute);
   if (!attribute) return STEIF_NO_MEMORY;

@@ -205,6 +205,32 @@ static int beyond_ascii(lexer *l)
   return wrong(l, l->at, "a character that has no meaning here; remove it");
 }
 
+/* What two characters mean in other languages, and never here; NULL: nothing. */
+static const char *pair(uint32_t c, uint32_t next)
+{
+  if (c == '*' && next == '*') return "'**': a power is written ^";
+  if (c == '/' && next == '/') return "'//': a comment begins with #";
+  if (c == '/' && next == '*') return "'/*': a comment begins with # and ends with the line";
+  return NULL;
+}
+
+/* A character of other languages, and what stands for it here. */
+static int meaningless(lexer *l, int c)
+{
+  switch (c) {
+  case ';':
+    return wrong(l, l->at, "';' has no meaning: a statement ends with its line; remove it");
+  case '.':
+    return wrong(l, l->at,
+                 "a '.' without digits: an interval is written 'time 0 to 30', a range 1:2");
+  case '%': return wrong(l, l->at, "'%': a comment begins with #, a remainder is mod(a, b)");
+  case '!': return wrong(l, l->at, "'!': write 'not' in a condition; a comment begins with #");
+  case '&': return wrong(l, l->at, "'&': write 'and'");
+  case '|': return wrong(l, l->at, "'|': write 'or', and abs(x) for a modulus");
+  default: return wrong(l, l->at, "a character that has no meaning here; remove it");
+  }
+}
+
 static int token(lexer *l)
 {
   const uint32_t c = byte(l, l->at);
@@ -223,8 +249,10 @@ static int token(lexer *l)
   if (c == '"') return enclosed(l, STF_TOKEN_STRING, '"');
   if (c == '{') return enclosed(l, STF_TOKEN_UNIT, '}');
   if (!c) return wrong(l, l->at, "byte 0 in the text; a model is a UTF-8 text file");
+  const char *foreign_pair = pair(c, byte(l, l->at + 1));
+  if (foreign_pair) return wrong(l, l->at, foreign_pair);
   if (strchr("+-*/^()[],:=<>'~", (int)c)) return mark(l, (int)c, 1);
-  return wrong(l, l->at, "a character that has no meaning here; remove it");
+  return meaningless(l, (int)c);
 }
 
 int stf_lex(stf_sources *sources, size_t which, stf_words *words, stf_vector *tokens)

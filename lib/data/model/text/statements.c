@@ -1,6 +1,8 @@
 /* statements.c: statements, a line each. A wrong one is left out and the next
  * one read. SPDX-License-Identifier: BSD-3-Clause */
+#include "base.h"
 #include "reader.h"
+#include <stdio.h>
 #include <string.h>
 
 static int loop(stf_reader *r, const stf_token *t)
@@ -89,8 +91,10 @@ static int every(stf_reader *r)
 static int interval(stf_reader *r)
 {
   stf_statement s = stf_reader_fresh(r, STF_SAY_TIME);
+  if (stf_next_is(&r->p, '=')) return stf_expected(&r->p, "an interval such as 'time 0 to 10'");
   STEIF_TRY(stf_parse_number(&r->p, &s.value));
-  if (!stf_reader_take(r, "to")) return stf_expected(&r->p, "'to' and the end of the interval");
+  if (!stf_reader_take(r, "to"))
+    return stf_expected(&r->p, "'to' and the end of the interval, as in 'time 0 to 10'");
   STEIF_TRY(stf_parse_number(&r->p, &s.other));
   stf_reader_unit(r, &s);
   return stf_reader_keep(r, &s);
@@ -224,6 +228,33 @@ static int dispatch(stf_reader *r, const stf_token *t)
   }
 }
 
+/* Two names side by side are no equation. Words that begin such lines in other languages: */
+static int foreign_statement(stf_reader *r, const stf_token *t)
+{
+  static const struct {
+    const char *word, *here;
+  } words[] = {{"par", "param"},        {"params", "param"},      {"parameter", "param"},
+               {"parameters", "param"}, {"constant", "const"},    {"constants", "const"},
+               {"var", "state"},        {"variable", "state"},    {"variables", "state"},
+               {"states", "state"},     {"unknown", "state"},     {"unknowns", "state"},
+               {"init", "state"},       {"initial", "state"},     {"ic", "state"},
+               {"aux", "output"},       {"def", "function"},      {"define", "let"},
+               {"local", "let"},        {"event", "when"},        {"global", "when"},
+               {"import", "include"},   {"der", "state"},         {"real", "state"},
+               {"Real", "state"},       {"tspan", "time"},        {"rtol", "tolerance"},
+               {"atol", "tolerance"},   {"constraint", "require"}};
+  const char *name = stf_word_text(&r->p.syntax->words, t->word), *here = NULL;
+  char guess[STF_GUESS];
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    if (!strcmp(name, words[i].word)) here = words[i].here;
+  if (here) snprintf(guess, sizeof guess, "; did you mean '%s'?", here);
+  return stf_complain(&r->p.syntax->sources, t->at, STEIF_BAD_INPUT,
+                      "'%.40s' begins no statement%s", name,
+                      here ? guess
+                           : ": a line is an equation, or begins with param, const, state, "
+                             "discrete, let, function, table, when, output, time, ...");
+}
+
 static int statement(stf_reader *r)
 {
   const stf_token *t = stf_next(&r->p);
@@ -231,6 +262,9 @@ static int statement(stf_reader *r)
   if (t->kind == STF_TOKEN_END) return STEIF_OK;
   if (acting(r) && !stf_next_word(&r->p, STF_WORD_END)) return action(r);
   if (t->kind != STF_TOKEN_NAME) return equation(r);
+  if (t->word >= STF_WORDS_RESERVED && t[1].kind == STF_TOKEN_NAME &&
+      t[1].word >= STF_WORDS_RESERVED)
+    return foreign_statement(r, t);
   r->p.at++;
   return dispatch(r, t);
 }
