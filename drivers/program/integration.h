@@ -18,7 +18,7 @@ typedef struct outcome {
 /* Rows of an option table that options_of reads, besides --rtol, --atol and --h. */
 /* clang-format off */
 #define SET_OPTION                                                                             \
-  {"--set", WORD, "NAME=VALUE,...", "values of parameters, as after a colon", NULL}
+  {"--set", REPEATED, "NAME=VALUE,...", "values of parameters, as after a colon", NULL}
 #define RUN_OPTIONS                                                                            \
   SET_OPTION,                                                                                  \
   {"--compile", FLAG, NULL,                                                                    \

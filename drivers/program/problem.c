@@ -4,6 +4,7 @@
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* XDG_CACHE_HOME, or .cache of the home folder; NULL: neither is an absolute path. */
 static const char *cache_folder(char *room, size_t size)
@@ -26,16 +27,38 @@ static void compile(struct call *call, const steif_problem *p)
   steif_forget(call->ctx);
 }
 
+/* A word that is no problem: what it may be instead. */
+static int no_problem(struct call *call, const char *word)
+{
+  const int code = fail(call);
+  const bool unknown = steif_status(call->ctx) == STEIF_UNKNOWN_NAME && !strchr(word, '/');
+  if (unknown && !access(word, R_OK))
+    say(call, "'%s' is a file here: a model's name ends in .steif, or write ./%s", word, word);
+  else if (unknown && call->words > 1 && strstr(call->word[1], ".steif"))
+    say(call, "the problem comes before the method: %s %s", call->word[1], word);
+  return code;
+}
+
+/* "word:k=1,l=2" of all --set. */
+static int with_values(struct call *call, const char *word, char *text, size_t room)
+{
+  const char *set, *file = strstr(word, ".steif");
+  char mark = strchr(file ? file : word, ':') ? ',' : ':';
+  size_t used = (size_t)snprintf(text, room, "%s", word);
+  for (int i = 0; (set = repeated_of(call, "--set", i)) && used < room; i++, mark = ',') {
+    if (!strchr(set, '='))
+      return bad_usage(call, "--set is \"%s\" and must be NAME=VALUE,...", set);
+    used += (size_t)snprintf(text + used, room - used, "%c%s", mark, set);
+  }
+  return used < room ? EXIT_OK : bad_usage(call, "--set is longer than %zu characters", room);
+}
+
 int find_problem(struct call *call, const char *word, steif_problem *p)
 {
-  const char *set = word_of(call, "--set"), *file = strstr(word, ".steif");
   char text[4096];
-  const char mark = strchr(file ? file : word, ':') ? ',' : ':';
-  const int length = set ? snprintf(text, sizeof text, "%s%c%s", word, mark, set)
-                         : snprintf(text, sizeof text, "%s", word);
-  if (length < 0 || (size_t)length >= sizeof text)
-    return bad_usage(call, "--set is longer than %zu characters", sizeof text);
-  if (steif_problem_find(call->ctx, text, p) != STEIF_OK) return fail(call);
+  const int wrong = with_values(call, word, text, sizeof text);
+  if (wrong) return wrong;
+  if (steif_problem_find(call->ctx, text, p) != STEIF_OK) return no_problem(call, word);
   if (given(call, "--compile")) compile(call, p);
   return EXIT_OK;
 }
