@@ -78,7 +78,8 @@ struct sensitivity_answer {
   int count, active[SENSITIVITIES];
   size_t shown, width;
   double *value;
-  double *mesh; /* of the run, where it is to be checked */
+  double *mesh;              /* of the run, where it is to be checked */
+  char used[STEIF_SENTENCE]; /* the method, which auto chooses */
   size_t times, room;
   outcome outcome;
   steif_sensitivity_cost cost;

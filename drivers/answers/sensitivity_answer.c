@@ -106,6 +106,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   for (int i = 0; i < a->count; i++) p[i] = a->problem->parameters->value[a->active[i]];
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
+  if (strcmp(call->word[1], a->used)) steif_report_text(r, "used", a->used);
   steif_report_list(r, "p", (size_t)a->count, p);
   if ((call->json || call->npz || call->h5 || call->mtx) && a->shown) matrix(r, a);
   rows(r, a);

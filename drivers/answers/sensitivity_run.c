@@ -46,7 +46,9 @@ static int on_mesh(struct call *call, struct sensitivity_answer *a, const steif_
   steif_options o = a->options;
   o.mesh = a->mesh, o.mesh_size = a->times, o.h = 0, o.observe = NULL;
   o.sensitivities = derivatives;
-  steif_solver *s = steif_solver_new(call->ctx, p, call->word[1], &o);
+  char method[sizeof a->used];
+  snprintf(method, sizeof method, "%.*s", (int)strcspn(a->used, " "), a->used);
+  steif_solver *s = steif_solver_new(call->ctx, p, method, &o);
   const double end = a->mesh[a->times - 1];
   int code = s && !steif_solve_to(s, end) ? EXIT_OK : fail(call);
   if (!code && derivatives) code = keep(call, a, s, end, row);
@@ -175,12 +177,18 @@ int sensitivity_measure(struct call *call, struct sensitivity_answer *a)
   int code = s ? follow(call, a, s, points) : fail(call);
   if (!code) code = integrals(call, a, s);
   if (s) a->outcome.stats = *steif_statistics(s);
+  if (s) snprintf(a->used, sizeof a->used, "%s", steif_method_used(s));
   snprintf(a->outcome.message, sizeof a->outcome.message, "ok");
   steif_sensitivity_costs(s, &a->cost);
   if (!code) remark(a);
   steif_solver_free(&s);
-  if (!code && given(call, "--check")) code = check(call, a);
-  return code ? code : sensitivity_present(call, a);
+  if (code) return code;
+  const int checked = given(call, "--check") ? check(call, a) : EXIT_OK;
+  if (checked)
+    say(call, "so ends a run on the same mesh, with a parameter moved: nothing is compared; the "
+              "derivatives are those of a run that went well");
+  const int shown = sensitivity_present(call, a);
+  return checked ? checked : shown;
 }
 
 void sensitivity_close(struct sensitivity_answer *a)

@@ -21,7 +21,8 @@
  *                                                 few solves, radau:s=5 below and for linear systems
  *   large dense systems, operators                bdf down to rtol 1e-8, radau:s=5 below
  * Beside it y' = f(t, y) has an explicit method, which begins where that is cheaper, and the two change
- * places when stiffness comes or goes (switching.c).
+ * places when stiffness comes or goes (switching.c). With sensitivities: radau:s=5 for what does not carry them,
+ * throughout.
  * The Rosenbrock method is rodas5p; at rtol 1e-1, where order 4 does, rodas4, or rodas4p2 where f depends
  * on t.
  * Rosenbrock methods factor in every step and iterate nowhere. Collocation on sparse systems takes one
@@ -164,10 +165,18 @@ static choice choose(const steif_problem *p, const steif_options *o, int form)
   return (choice){STF_AUTO_RADAU9, "large, many digits wanted: order 9 needs few steps"};
 }
 
+/* Sensitivities are carried by collocation and BDF. */
+static choice carrying(choice c)
+{
+  const bool carries = c.method == STF_AUTO_RADAU5 || c.method == STF_AUTO_RADAU9 ||
+                       c.method == STF_AUTO_RADAU13 || c.method == STF_AUTO_BDF;
+  return carries ? c : (choice){STF_AUTO_RADAU9, "carries sensitivities"};
+}
+
 const char *stf_choose(const steif_problem *p, const steif_options *o, int form, char *why,
                        size_t room)
 {
-  const choice c = choose(p, o, form);
+  const choice any = choose(p, o, form), c = o->sensitivities ? carrying(any) : any;
   const char *method = stf_auto_methods[c.method];
   snprintf(why, room, "%s (n = %lld, rtol %.1e, form %s): %s", method, (long long)p->n, o->rtol,
            steif_form_name(form), c.reason);

@@ -305,7 +305,7 @@ static int open(steif_solver *s, const char *method)
 int stf_run_begin(steif_solver *s)
 {
   if (!s->engine) STEIF_TRY(begin_step(s));
-  if (s->chosen) STEIF_TRY(stf_switching_open(s, s->chosen));
+  if (s->chosen && !s->options.sensitivities) STEIF_TRY(stf_switching_open(s, s->chosen));
   STEIF_TRY(stf_sensitivity_open(s));
   STEIF_TRY(stf_quadrature_open(s));
   STEIF_TRY(stf_constraint_open(s));

@@ -10,8 +10,6 @@
 
 static int check_method(const steif_solver *s)
 {
-  REFUSE(s->chosen, "'auto' carries no sensitivities, since it may change the method: take "
-                    "radau:s=3 or bdf:p=5");
   REFUSE(s->engine || !s->step.method->carrier,
          "'%s' carries no sensitivities: take collocation (radau:s=3), dirk:hw43 or bdf:p=5",
          s->spec);
