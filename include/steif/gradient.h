@@ -98,7 +98,8 @@ typedef struct steif_gradient {
   void *reserved[8]; /* 0 */
 } steif_gradient;
 
-/* A run of the problem from t0 to options.t1 and back. options NULL: defaults. Codes of the run;
+/* A run of the problem from t0 to options.t1 and back. options NULL: defaults; options.active: of which parameters starts
+ * are differentiated, dp of others being NaN, as where starts are consistent for some only. Codes of the run;
  * STEIF_BAD_INPUT: no functional, a limit of memory below what one step and 3 images need (the sentence says how much);
  * STEIF_NOT_FINITE: names functional and time. After failures nothing is there to be freed. */
 STEIF_EXPORT int steif_gradient_find(steif_context *ctx, const steif_problem *problem,

@@ -46,8 +46,8 @@ static int check_parameters(steif_context *ctx, const steif_problem *p)
   return STEIF_OK;
 }
 
-static int check_call(steif_context *ctx, const steif_problem *p, const steif_functional *J,
-                      const steif_gradient *g)
+static int check_call(steif_context *ctx, const steif_problem *p, const steif_options *o,
+                      const steif_functional *J, const steif_gradient *g)
 {
   STEIF_CHECK(p && J && g, ctx, STEIF_BAD_INPUT, "a gradient needs a problem and functionals");
   STEIF_CHECK(J->count > 0 && (J->integrand || J->end), ctx, STEIF_BAD_INPUT,
@@ -56,7 +56,13 @@ static int check_call(steif_context *ctx, const steif_problem *p, const steif_fu
   STEIF_CHECK(g->checkpoints == 0 || g->checkpoints >= STF_FEWEST, ctx, STEIF_BAD_INPUT,
               "%d checkpoints: at least %d are needed, 0 takes as many as fit", g->checkpoints,
               STF_FEWEST);
-  return check_parameters(ctx, p);
+  STEIF_TRY(check_parameters(ctx, p));
+  const int P = p->parameters ? p->parameters->count : 0;
+  for (int i = 0; o->active && i < o->active_count; i++)
+    STEIF_CHECK(o->active[i] >= 0 && o->active[i] < P, ctx, STEIF_BAD_INPUT,
+                "active[%d] = %d is no number of the %d parameters of problem '%s'", i,
+                o->active[i], P, p->name);
+  return STEIF_OK;
 }
 
 static int check_solver(stf_journey *J)
@@ -192,6 +198,23 @@ static int as_status(steif_context *ctx, int code)
   return code > 0 ? steif_status(ctx) : code;
 }
 
+static bool asked_for(const stf_journey *J, int k)
+{
+  const steif_options *o = &J->options;
+  bool found = o->active == NULL;
+  for (int i = 0; !found && i < o->active_count; i++) found = o->active[i] == k;
+  return found;
+}
+
+static void not_asked(stf_journey *J, int k)
+{
+  const stf_backwards *B = &J->back;
+  for (int i = 0; i < B->count; i++) {
+    J->out->dp[i * B->P + k] = NAN;
+    if (J->line) J->Hp[i * B->P + k] = NAN;
+  }
+}
+
 /* dJ/dp_k = mu_k + (dy0/dp_k) . lambda, and its derivative along the line. */
 static int by_parameter(stf_journey *J, int k)
 {
@@ -219,7 +242,11 @@ static int results(stf_journey *J)
     memcpy(g->dy0 + i * B->n, STF_ARRAY(B->lambda[i]), size);
     if (J->Hy0) memcpy(J->Hy0 + i * B->n, STF_ARRAY(B->lambda[B->count + i]), size);
   }
-  for (int k = 0; k < B->P; k++) STEIF_TRY(by_parameter(J, k));
+  for (int k = 0; k < B->P; k++)
+    if (asked_for(J, k))
+      STEIF_TRY(by_parameter(J, k));
+    else
+      not_asked(J, k);
   g->cost.steps = J->steps, g->cost.bytes = J->bytes;
   g->cost.factors = B->adjoint.factors;
   g->cost.solves += B->adjoint.forward_solves;
@@ -263,7 +290,7 @@ int stf_journey_make(stf_journey *J, const steif_problem *problem,
                      const steif_functional *functional, steif_gradient *g)
 {
   steif_context *ctx = J->back.ctx;
-  STEIF_TRY(check_call(ctx, problem, functional, g));
+  STEIF_TRY(check_call(ctx, problem, &J->options, functional, g));
   J->out = g, J->limit = g->memory ? g->memory : usual;
   STEIF_TRY(check_problem(ctx, problem, &J->options, J->line != NULL));
   J->options.observe = NULL, J->options.on_event = NULL;
