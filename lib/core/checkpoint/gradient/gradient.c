@@ -116,17 +116,20 @@ static int claim(stf_backwards *B)
   return STEIF_OK;
 }
 
-/* Where step lengths are chosen, solves of large sparse stages may leave what is far below errors of the steps. Of
- * prescribed steps, and with second derivatives, they are exact to rounding. */
+/* Where step lengths are chosen, solves of large sparse stages may leave what is far below errors of the steps; of
+ * prescribed steps nothing. Second derivatives are made of factors of each step. */
+enum { LARGE = 1000 }; /* unknowns from which prescribed steps share factors too */
 static int open_large(stf_journey *J)
 {
   stf_backwards *B = &J->back;
   const steif_solver *s = B->home;
   const stf_system *system = &s->step.system;
   const bool large = B->adjoint.pencil && system->storage == STEIF_SPARSE && !system->linear;
-  if (!large || !s->step.adaptive || J->line) return STEIF_OK;
-  return stf_stage_krylov_open(&B->adjoint, B->table, fmax(1e-3 * s->options.rtol, 1e-14),
-                               B->channels);
+  const sunrealtype rounding = 1e-14;
+  if (!large || J->line || (!s->step.adaptive && B->n < LARGE)) return STEIF_OK;
+  return stf_stage_krylov_open(
+    &B->adjoint, B->table, s->step.adaptive ? fmax(1e-3 * s->options.rtol, rounding) : rounding,
+    B->channels);
 }
 
 static int open_back(stf_journey *J)
