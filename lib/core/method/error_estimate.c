@@ -42,6 +42,9 @@ void stf_share_newton(stf_step *s, sunrealtype rounding)
   const sunrealtype most = 1e-3, least = 0.1 * rounding / s->options->rtol;
   if (s->options->newton > 0) return;
   s->newton.tolerance = fmin(most, fmax(0.01 * s->control.tolerance, least));
+  if (s->problem->dae_index >= 3)
+    s->newton.tolerance =
+      fmin(s->newton.tolerance, stf_multipliers_known(s->options->rtol, s->control.order));
 }
 
 void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transform *transform,
@@ -150,6 +153,21 @@ void stf_estimate_levels(stf_step *s)
   sunrealtype *error = stf_own_rows(s->error, &rows);
   for (sunindextype i = 0; error && i < rows; i++)
     if (index[i] > 1) error[i] *= s->control.tolerance / strict;
+}
+
+void stf_stages_known(stf_step *s, int p)
+{
+  const sunrealtype usual = 1e-4, multipliers = 1e-6, rtol = s->options->rtol;
+  if (!s->adaptive || s->options->newton > 0) return;
+  s->newton.tolerance = s->problem->dae_index < 3 ? usual
+                        : p                       ? stf_multipliers_known(rtol, p)
+                                                  : multipliers;
+}
+
+sunrealtype stf_multipliers_known(sunrealtype rtol, int p)
+{
+  const sunrealtype most = 1e-6, rounding = 1e-20;
+  return fmax(most * fmin(1, pow(rtol / most, 2.0 / p)), rounding / rtol);
 }
 
 enum { PATIENCE = 2 };

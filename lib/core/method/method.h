@@ -283,6 +283,11 @@ int stf_filter_rounds(const stf_step *s);
 /* Refuses chosen steps on problems of index 3: methods whose stages have order 1 or
  * that do not damp do not find the multipliers there, and no estimate of theirs would tell. */
 int stf_check_index(const stf_step *s, const char *name);
+/* What Newton's iteration of a method of order p may leave of velocities and multipliers of index 3, which
+ * h^(index - 1) makes small in its norm: N ~ rtol^(-1/p) steps add it up to N^2 of it in positions. */
+sunrealtype stf_multipliers_known(sunrealtype rtol, int p);
+/* Sets Newton's tolerance of collocation with chosen steps; p 0: no finer for finer rtol. */
+void stf_stages_known(stf_step *s, int p);
 
 /* Variants: collocation with all shifts in vector lanes, where `serves` is true of the opened system, and BDF
  * with chosen steps. */

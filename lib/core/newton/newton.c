@@ -334,7 +334,10 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
       const sunrealtype quotient = norm / last;
       theta = m == 2 ? quotient : sqrt(theta * quotient);
       newton->theta = theta;
-      if (stalled(newton, norm, quotient)) break;
+      if (stalled(newton, norm, quotient)) { /* once more for velocities, which keep errors */
+        if (newton->system->problem->dae_index >= 3) STEIF_TRY(sweep(newton, g, m + 1, &norm));
+        break;
+      }
       if (theta >= 1 || m >= newton->iterations) return refuse(newton, g, m, norm, theta);
       newton->eta = theta / (1 - theta);
     }

@@ -63,13 +63,19 @@ static int refuse(stf_step *s, double h, double norm, double theta, double shrin
     s->ctx, STEIF_NO_CONVERGENCE,
     "Newton's iteration did not converge for problem '%s' in the step from t = %.12g "
     "with h = %.6g: after %d iterations the correction is %.3g of its tolerance, "
-    "rate %.2g; check the Jacobian",
-    s->problem->name, s->t, h, e->iterations, norm / e->kappa, theta);
+    "rate %.2g; check the Jacobian%s",
+    s->problem->name, s->t, h, e->iterations, norm / e->kappa, theta,
+    s->problem->dae_index < 3
+      ? ""
+      : ", or take a larger rtol: multipliers of index 3 have rounding errors of eps / h^2");
 }
 
-/* Rounding in the stages makes corrections below this meaningless. */
+/* Rounding in the stages makes corrections below this meaningless. Of velocities in problems of index 3 they
+ * count h times less, so that each step may leave 10 eps / h in them, which N steps add up to N^(3/2) eps
+ * at least: there the iteration ends where corrections no longer shrink. */
 static double floor_of(const stf_step *s, const stf_irk_interleaved *e)
 {
+  if (s->problem->dae_index >= 3) return e->kappa;
   const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
   double most = 0;
   for (int i = 0; i < e->n; i++) most = fmax(most, fabs(y[i]) * w[i]);
@@ -141,15 +147,25 @@ static bool goes_on_by_stages(const stf_step *s, const stf_irk_interleaved *e, d
          norm <= 1e-9 / s->options->rtol;
 }
 
+/* What rounding may leave of corrections, in tolerances. Of velocities and multipliers they count h and h^2
+ * times less, and are then as large in short steps as in long ones. */
+static double rounding_of(const stf_step *s)
+{
+  const double eps = 1e-10, high = s->tries < 2 ? 0.01 : 0.1,
+               multipliers = s->problem->dae_index >= 3 ? 3 * high : high;
+  if (s->problem->dae_index < 2) return fmin(1, eps / s->options->rtol);
+  return fmin(s->problem->dae_index >= 3 ? 0.5 : high, multipliers * eps / s->options->rtol);
+}
+
 /* Corrections that no longer shrink, or grow once they are small, are rounding: so is then what the
  * differences of highest order show. Multipliers of higher index are not to be left at that. */
 static bool stalled(stf_step *s, double norm, double last, double tolerance)
 {
   stf_irk_interleaved *e = s->state;
   const bool high = s->problem->dae_index > 1;
-  const double rounding = fmin(1, 1e-10 / s->options->rtol);
+  const double rounding = rounding_of(s);
   e->rounding_limited =
-    (norm >= 0.5 * last && norm <= fmax(tolerance, (high ? 0.01 : 0.1) * rounding)) ||
+    (norm >= 0.5 * last && norm <= fmax(tolerance, high ? rounding : 0.1 * rounding)) ||
     (norm >= last && norm <= rounding && !high);
   return e->rounding_limited;
 }
@@ -179,6 +195,18 @@ static int renew_from_stage(stf_step *s, double h)
   e->J_from_stage = e->J_ahead = true;
   STEIF_TRY(stf_system_matrices(&s->system, s->t + e->table->c[j] * h, e->Y[j], s->yp));
   return stf_irk_interleaved_factor(s, h);
+}
+
+/* The norm is that of the multipliers where their rounding, eps / h^2, ends the iteration: one correction more
+ * for the velocities, in which it leaves an error that is kept and adds up in positions. */
+static int once_more(stf_step *s, double h)
+{
+  const stf_irk_interleaved *e = s->state;
+  if (!e->rounding_limited || s->problem->dae_index < 3) return STEIF_OK;
+  STEIF_TRY(evaluate(s, h));
+  stf_interleaved_sweep(e->L, STF_ARRAY(s->y), STF_ARRAY(s->weights), h);
+  s->newton.sweeps++, s->solves += (e->s + 1) / 2;
+  return STEIF_OK;
 }
 
 int stf_irk_interleaved_iterate(stf_step *s, double h)
@@ -227,5 +255,5 @@ int stf_irk_interleaved_iterate(stf_step *s, double h)
     last = fmax(norm, STF_EPS);
   }
   e->theta = theta;
-  return STEIF_OK;
+  return once_more(s, h);
 }

@@ -80,7 +80,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->itmax =
     s->options->iterations ? s->options->iterations : 7 + (e->s > 3 ? 5 * (e->s - 3) / 2 : 0);
   e->kappa = s->options->newton > 0 ? s->options->newton : 1e-4;
-  if (s->problem->dae_index >= 3 && !(s->options->newton > 0)) e->kappa = 1e-5;
+  if (s->problem->dae_index >= 3 && !(s->options->newton > 0))
+    e->kappa = 10 * stf_multipliers_known(s->options->rtol, table->order);
   e->eta = 1, e->J_new = true;
   stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
   return STEIF_OK;

@@ -99,10 +99,10 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_CHECK(!s->adaptive || table->c[0] > 0, s->ctx, STEIF_UNSUPPORTED,
               "'%s' has no error estimate (its first node is 0): give steps with h",
               table->name);
-  if (s->adaptive && !(s->options->newton > 0))
-    s->newton.tolerance = s->problem->dae_index >= 3 ? 1e-6 : 1e-4;
-  const bool factors = s->system.storage == STEIF_SPARSE && !s->system.krylov;
-  if (s->adaptive && table->s > 1 && !s->system.linear && factors) STEIF_TRY(blend(s));
+  const bool factors = s->system.storage == STEIF_SPARSE && !s->system.krylov,
+             blended = s->adaptive && table->s > 1 && !s->system.linear && factors;
+  stf_stages_known(s, blended ? 0 : table->order);
+  if (blended) STEIF_TRY(blend(s));
   stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
   return STEIF_OK;
 }
