@@ -73,7 +73,35 @@ static void a_limit_must_be_a_time(void)
   smooth_refused(&smooth, "radau:s=3", &o, STEIF_BAD_INPUT, "max_seconds = nan");
 }
 
-CU_TestInfo tests_of_limits[] = {{"the clock is kept", the_clock_is_kept},
-                                 {"a flag stops between steps", a_flag_stops_between_steps},
-                                 {"a limit must be a time", a_limit_must_be_a_time},
-                                 CU_TEST_INFO_NULL};
+/* Of low orders the limit is a matter of order, of others it is not said to be. */
+static void a_limit_of_steps_tells_the_order(void)
+{
+  static const struct {
+    const char *method, *says;
+    long steps;
+  } known[] = {{"glm:nord22", "has order 2", 10000},
+               {"bdf:p=2", "has order 2", 10000},
+               {"glm:nord22", "loosen the tolerance", 100},
+               {"bdf", "loosen the tolerance", 100}};
+  for (int i = 0; i < 4; i++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_problem p;
+    CU_ASSERT_FATAL(!steif_problem_find(ctx, "vdpol", &p));
+    steif_options o = steif_defaults();
+    o.rtol = 1e-8, o.max_steps = known[i].steps;
+    steif_solver *s = steif_solver_new(ctx, &p, known[i].method, &o);
+    CU_ASSERT_FATAL(s != NULL);
+    CHECK(steif_solve_to(s, p.t1) == STEIF_STEP_LIMIT);
+    CHECK(strstr(steif_message(ctx), known[i].says) != NULL);
+    steif_solver_free(&s);
+    steif_problem_clear(ctx, &p);
+    steif_context_free(&ctx);
+  }
+}
+
+CU_TestInfo tests_of_limits[] = {
+  {"a limit of steps tells the order", a_limit_of_steps_tells_the_order},
+  {"the clock is kept", the_clock_is_kept},
+  {"a flag stops between steps", a_flag_stops_between_steps},
+  {"a limit must be a time", a_limit_must_be_a_time},
+  CU_TEST_INFO_NULL};

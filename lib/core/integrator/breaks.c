@@ -86,15 +86,42 @@ static int check_index(const steif_solver *s)
   return STEIF_OK;
 }
 
+/* The order of the method where it is 1 or 2, else 0: of so low a one many steps are no trouble of the problem. */
+static int low_order(const steif_solver *s)
+{
+  enum { MANY = 10000 };
+  steif_method_info info = {0};
+  if (!s->step.adaptive || s->step.count < MANY) return 0;
+  const bool before = stf_silence(s->ctx, true);
+  const int code = steif_method_find(s->ctx, steif_method_used(s), &info);
+  stf_silence(s->ctx, before);
+  return code || info.order > 2 ? 0 : info.order;
+}
+
+static int check_limit(const steif_solver *s)
+{
+  const stf_step *step = &s->step;
+  if (step->count < s->options.max_steps) return STEIF_OK;
+  const int order = low_order(s);
+  STEIF_CHECK(
+    !order, s->ctx, STEIF_STEP_LIMIT,
+    "%ld steps made at t = %.12g of problem '%s', the limit: '%s' has order %d and takes "
+    "%d times the steps for 100 times the accuracy: for rtol = %g take radau:s=5 or "
+    "auto, or raise rtol or max_steps",
+    step->count, step->t, s->problem->name, s->method, order, order > 1 ? 10 : 100,
+    s->options.rtol);
+  return STEIF_FAIL(
+    s->ctx, STEIF_STEP_LIMIT,
+    "%ld steps made at t = %.12g of problem '%s', the limit: raise max_steps or "
+    "loosen the tolerance",
+    step->count, step->t, s->problem->name);
+}
+
 int stf_advance(steif_solver *s, sunrealtype t_stop)
 {
   const stf_step *step = &s->step;
   STEIF_TRY(check_index(s));
-  STEIF_CHECK(
-    step->count < s->options.max_steps, s->ctx, STEIF_STEP_LIMIT,
-    "%ld steps made at t = %.12g of problem '%s', the limit: raise max_steps or loosen the "
-    "tolerance",
-    step->count, step->t, s->problem->name);
+  STEIF_TRY(check_limit(s));
   if (step->restart) STEIF_TRY(restart(s));
   if (s->switching) STEIF_TRY(stf_switching_look(s));
   if (step->adaptive && step->count >= s->pace.steps) STEIF_TRY(stf_corner_check(s));
