@@ -140,8 +140,35 @@ static void are_named_by_what_they_are(void)
   fixture_close(&s);
 }
 
+/* A capacitor whose charge has a corner in its voltage u = sin t, index 2: q = u up to 0.2 and 3 u - 0.4 from there on, and
+ * the current i = q' jumps from cos t to 3 cos t. What methods keep of the matrices of the old branch is worth nothing on
+ * the new one. */
+static void a_corner_of_a_constraint_is_crossed(void)
+{
+  static const char *const methods[] = {"auto",      "bdf",       "radau:s=2", "radau:s=3",
+                                        "radau:s=5", "gauss:s=2", "gauss:s=3"};
+  static const double rtols[] = {1e-4, 1e-6, 1e-7};
+  const double u = sin(1), q = 3 * u - 0.4, i = 3 * cos(1);
+  fixture s;
+  double y[3];
+  CU_ASSERT_FATAL(!fixture_text(&s,
+                                "state u = 0, q = 0, i\nq' = i\n"
+                                "0 = q - (if u > 0.2 then 3*u - 0.4 else u)\n0 = u - sin(t)\n"
+                                "time 0 to 1\n",
+                                ""));
+  for (int m = 0; m < 7; m++)
+    for (int k = 0; k < 3; k++) {
+      CHECK(run(&s, methods[m], rtols[k], y) == STEIF_OK);
+      CLOSE_FLOOR(y[0], u, 10 * rtols[k], 1);
+      CLOSE_FLOOR(y[1], q, 10 * rtols[k], 1);
+      CLOSE_FLOOR(y[2], i, 100 * rtols[k], 1);
+    }
+  fixture_close(&s);
+}
+
 CU_TestInfo tests_of_events[] = {
   {"a tank runs empty", a_tank_runs_empty},
+  {"a corner of a constraint", a_corner_of_a_constraint_is_crossed},
   {"kinks", kinks_are_events},
   {"conditions of time", conditions_of_time_are_breaks},
   {"a short pulse", a_short_pulse_is_seen},

@@ -38,6 +38,8 @@ int stf_irk_interleaved_factor(stf_step *s, double h)
 int stf_irk_interleaved_prepare(stf_step *s, double h)
 {
   stf_irk_interleaved *e = s->state;
+  if (s->newton.jacobian_wanted) /* behind an event or a break f is another */
+    e->renew_J = true, e->J_new = s->newton.jacobian_wanted = false;
   const bool at_point = e->J_new && !e->J_ahead && e->fails > 0;
   if (e->renew_J && !at_point) STEIF_TRY(jacobian(s, h));
   if (!e->renew_J && e->h_factored == h) return STEIF_OK;
