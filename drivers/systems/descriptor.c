@@ -12,6 +12,8 @@ bool ends_in(const char *word, const char *ending)
   return length > tail && !strcmp(word + length - tail, ending);
 }
 
+bool holds_system(const char *word) { return ends_in(word, ".mat") || ends_in(word, ".h5"); }
+
 /* Of a path without an ending: does it begin as a matrix does? Else it is a model. */
 static bool begins_as_matrix(const char *path)
 {
@@ -29,7 +31,7 @@ bool descriptor_is_file(const char *word)
 {
   const char *model = strstr(word, ".steif"); /* a problem, whatever its folder */
   if (model && (!model[6] || model[6] == ':')) return false;
-  return ends_in(word, ".mtx") || ends_in(word, ".mat") ||
+  return ends_in(word, ".mtx") || holds_system(word) ||
          (strchr(word, '/') && !strchr(word, ':') && begins_as_matrix(word));
 }
 
@@ -88,7 +90,7 @@ static int from_files(struct call *call, struct descriptor *l, int from)
 {
   const char *first = call->word[from],
              *second = call->words > from + 1 ? call->word[from + 1] : NULL;
-  const bool one = ends_in(first, ".mat");
+  const bool one = holds_system(first);
   if (one && second)
     return bad_usage(call, "%s holds both matrices; leave %s out", first, second);
   if (!one && !second)
@@ -127,7 +129,7 @@ static int read_names(struct call *call, struct descriptor *l)
 {
   const char *path =
     given(call, "--names") ? word_of(call, "--names") : call->word[call->words - 1];
-  if (!given(call, "--names") && !ends_in(path, ".mat")) return EXIT_OK;
+  if (!given(call, "--names") && !holds_system(path)) return EXIT_OK;
   if (steif_names_read(call->ctx, path, l->n, &l->read)) return fail_file(call);
   if (l->read) l->names = l->read;
   return EXIT_OK;

@@ -59,6 +59,8 @@ void descriptor_close(struct call *call, struct descriptor *l);
 /* Is the word a file rather than a problem of the collection? */
 bool descriptor_is_file(const char *word);
 bool ends_in(const char *word, const char *ending);
+/* A file of matrices by names: .mat or .h5. */
+bool holds_system(const char *word);
 steif_analysis descriptor_analysis(const struct call *call, const struct descriptor *l);
 /* Say why there is no solution, with the first equations and unknowns to look at; EXIT_SINGULAR, or
  * EXIT_UNCERTIFIED where the entries exactly as given are regular. presented: JSON shows s already. */

@@ -19,7 +19,7 @@ int descriptor_read_x0(struct call *call, struct descriptor *l)
 static int read_input(struct call *call, SUNMatrix *B)
 {
   const char *path = word_of(call, "--input"), *last = call->word[call->words - 1];
-  if (!path && !ends_in(last, ".mat")) return EXIT_OK;
+  if (!path && !holds_system(last)) return EXIT_OK;
   if (path) *B = steif_matrix_read(call->ctx, path);
   const bool good =
     path ? *B != NULL : !steif_input_output_read(call->ctx, last, B, NULL, NULL);
@@ -57,7 +57,7 @@ static int read_matrix(struct call *call, const char *option, SUNMatrix *M)
 static int read_output(struct call *call, struct descriptor *l, const char *path)
 {
   if (!given(call, "--output")) {
-    const bool none = !ends_in(path, ".mat");
+    const bool none = !holds_system(path);
     return none || !steif_input_output_read(call->ctx, path, NULL, &l->C, &l->D)
              ? EXIT_OK
              : fail_file(call);

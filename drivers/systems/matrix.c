@@ -127,7 +127,8 @@ static int of_model(struct call *call, const char *path, struct matrix *A, struc
 static bool is_mat(const char *path)
 {
   const size_t length = strlen(path);
-  return length > 4 && !strcmp(path + length - 4, ".mat");
+  return (length > 4 && !strcmp(path + length - 4, ".mat")) ||
+         (length > 3 && !strcmp(path + length - 3, ".h5"));
 }
 
 static bool is_identity(const struct matrix *M)

@@ -22,7 +22,9 @@ extern "C" {
  * the message set (file, line, what was expected). SUNMatDestroy it. */
 STEIF_EXPORT SUNMatrix steif_matrix_read(steif_context *ctx, const char *path);
 /* Variable `name` of a MATLAB v5 file, sparse or full. *found = 0 and NULL without a message when
- * the file has no such variable. STEIF_UNSUPPORTED when built without matio. */
+ * the file has no such variable. STEIF_UNSUPPORTED when built without matio. Of HDF5 files too, MATLAB's of version 7.3
+ * and plain data sets by rows, through the libhdf5 of the system (STEIF_UNSUPPORTED: none is there); it is not built for
+ * hostile files, so read those of people you trust. */
 STEIF_EXPORT SUNMatrix steif_matrix_read_mat(steif_context *ctx, const char *path,
                                              const char *name, int *found);
 /* Coordinate (sparse) or array (dense) Matrix Market file with 17 digits. */

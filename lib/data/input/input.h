@@ -36,6 +36,9 @@ int stf_input_sized(steif_context *ctx, const char *path, const char *name, SUNM
 int stf_input_variable(steif_context *ctx, const char *path, const char *name, SUNMatrix *M);
 /* A failure when a .mat file is not whole, or its variables claim more entries than it can have. */
 int stf_mat_check(steif_context *ctx, const char *path);
+/* mat_hdf5.c: does a file begin as HDF5 does; a matrix of one, as steif_matrix_read_mat has it. */
+bool stf_hdf5_is(const char *path);
+SUNMatrix stf_hdf5_matrix(steif_context *ctx, const char *path, const char *name, int *found);
 /* B of f = B u in the rows of E, of a .mat file; *B NULL where there is none. */
 int stf_input_read(steif_context *ctx, const char *path, SUNMatrix *B);
 /* The texts of a cell array or the rows of a character array, without blanks at their ends, in the

@@ -212,7 +212,8 @@ int steif_names_read(steif_context *ctx, const char *path, sunindextype n, steif
   STEIF_CHECK(names && path && n > 0, ctx, STEIF_BAD_INPUT,
               "a path, the number of unknowns and room for their names are needed");
   const size_t length = strlen(path);
-  const bool mat = length > 4 && !strcmp(path + length - 4, ".mat");
+  const bool mat = (length > 4 && !strcmp(path + length - 4, ".mat")) ||
+                   (length > 3 && !strcmp(path + length - 3, ".h5"));
   *names = NULL;
   steif_forget(ctx);
   named *d = open(ctx);

@@ -140,6 +140,7 @@ SUNMatrix steif_matrix_read_mat(steif_context *ctx, const char *path, const char
     STEIF_FAIL(ctx, STEIF_BAD_INPUT, "the name of the variable is empty; give a name");
     return NULL;
   }
+  if (stf_hdf5_is(path)) return stf_hdf5_matrix(ctx, path, name, found);
   return stf_mat_check(ctx, path) ? NULL : read(ctx, path, name, found);
 }
 
@@ -203,6 +204,7 @@ int stf_input_texts(steif_context *ctx, stf_pool *pool, const char *path, const 
   int found = 0;
   *count = 0;
   *text = NULL;
+  if (stf_hdf5_is(path)) return STEIF_OK; /* no names: there they are references */
   STEIF_TRY(stf_mat_check(ctx, path));
   steif_forget(ctx);
   matvar_t *v = variable(ctx, path, name, &found);
@@ -219,13 +221,17 @@ int stf_input_texts(steif_context *ctx, stf_pool *pool, const char *path, const 
   (void)pool;
   *count = 0;
   *text = NULL;
+  if (stf_hdf5_is(path)) return STEIF_OK;
   return STEIF_FAIL(ctx, STEIF_UNSUPPORTED, "cannot read %s of '%s' without matio", name, path);
 }
 
 SUNMatrix steif_matrix_read_mat(steif_context *ctx, const char *path, const char *name,
                                 int *found)
 {
-  if (found) *found = 0;
+  int unused;
+  if (!found) found = &unused;
+  *found = 0;
+  if (name && *name && stf_hdf5_is(path)) return stf_hdf5_matrix(ctx, path, name, found);
   STEIF_FAIL(ctx, STEIF_UNSUPPORTED,
              "cannot read %s of '%s': steif was built without matio; build it again with "
              "libmatio-dev installed, or write Matrix Market files",
