@@ -267,7 +267,7 @@ expect(2 sensitivity rober radau:s=3 --parameters k1,kk2 ERR "did you mean 'k2'"
 expect(2 sensitivity rober radau:s=3 --parameters k1,k1 ERR "twice")
 expect(2 sensitivity harmonic radau:s=3 ERR "no parameters")
 expect(0 sensitivity rober auto --parameters k1,k3 --t1 40 --rtol 1e-8 --check --json)
-member("radau:s=7*" used)
+begins("radau:s=7" used)
 string(JSON disagreement GET "${out}" disagreement)
 if(disagreement GREATER 1e-7)
   message(SEND_ERROR "sensitivity: auto: differences on the same mesh are off by ${disagreement}")
