@@ -89,7 +89,7 @@ STEIF_EXPORT int steif_model_describe(steif_context *ctx, const steif_problem *p
 STEIF_EXPORT const char *steif_model_parameter(const steif_problem *problem, size_t i,
                                                sunrealtype *value);
 /* What reading did to the start: guesses ('~') that do not fulfil the equations, where they were and where they are,
- * beyond 1e-6 of their size; "": none moved, or no model. */
+ * beyond 1e-6 of their size, or why no consistent start was found; "": none moved, or no model. */
 STEIF_EXPORT const char *steif_model_start(const steif_problem *problem);
 /* Name of output i; NULL past the end. Their values at (t, y), as many as there are names. */
 STEIF_EXPORT const char *steif_model_output(const steif_problem *problem, size_t i);

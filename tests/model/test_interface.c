@@ -194,6 +194,12 @@ static void moved_guesses_are_told(void)
     CHECK(fabs(s.p.y0[2]) <= 1e-12);
     fixture_close(&s);
   }
+  fixture s; /* where the gradient of the rod vanishes nothing is known to be near */
+  snprintf(text, sizeof text, rod, "0", "0");
+  CU_ASSERT_FATAL(!parse(&s, text));
+  CHECK(!!strstr(steif_model_start(&s.p), "not moved: no consistent start"));
+  CHECK(s.p.y0[0] == 0);
+  fixture_close(&s);
   CHECK(!steif_model_start(&(steif_problem){.name = "p"})[0]);
 }
 

@@ -63,7 +63,9 @@ static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *att
   if (code == STEIF_NO_MEMORY || !code) return code;
   const bool contradiction =
     code == STEIF_BAD_INPUT && m->form != STEIF_DESCRIPTOR && open < m->n;
-  if (!contradiction) {
+  if (!contradiction) { /* the run may start all the same, or fail: then this is why */
+    if (m->form != STEIF_DESCRIPTOR)
+      snprintf(m->moved, sizeof m->moved, "not moved: %s", steif_message(m->ctx));
     steif_forget(m->ctx);
     return STEIF_OK;
   }
