@@ -105,7 +105,6 @@ static void other_families_are_refused(void)
   o.sensitivities = 1;
   for (int i = 0; i < 5; i++)
     refused(ctx, &F.problem, methods[i], &o, STEIF_UNSUPPORTED, methods[i]);
-  refused(ctx, &F.problem, "auto", &o, STEIF_UNSUPPORTED, "auto");
   steif_context_free(&ctx);
 }
 
