@@ -272,6 +272,8 @@ string(JSON disagreement GET "${out}" disagreement)
 if(disagreement GREATER 1e-7)
   message(SEND_ERROR "sensitivity: auto: differences on the same mesh are off by ${disagreement}")
 endif()
+expect(0 sensitivity rober auto --adjoint --functional "int y3" --t1 40 --rtol 1e-8 --json)
+expect(5 sensitivity bounce bdf --adjoint --functional "int y1" --t1 2 ERR "along its dense output")
 expect(0 sensitivity vdpol auto --t1 1 --rtol 1e-4 --json)
 expect(1 sensitivity rober rodas4 ERR "'rodas4' carries no sensitivities")
 # Minima by Gauss-Newton in two other integrators, as tests/fit; the files have six digits.

@@ -185,8 +185,9 @@ int sensitivity_measure(struct call *call, struct sensitivity_answer *a)
   if (code) return code;
   const int checked = given(call, "--check") ? check(call, a) : EXIT_OK;
   if (checked)
-    say(call, "so ends a run on the same mesh, with a parameter moved: nothing is compared; the "
-              "derivatives are those of a run that went well");
+    say(call,
+        "so ends a run on the same mesh, with a parameter moved: nothing is compared; the "
+        "derivatives are those of a run that went well");
   const int shown = sensitivity_present(call, a);
   return checked ? checked : shown;
 }

@@ -8,7 +8,7 @@
  *     steif_gradient_free(ctx, &a);
  *
  * Differentiated is the run, not the equation: J is the number that the steps of the run give, integrals by the
- * quadrature of the method (BDF: by BDF), and with mesh and orders held its derivative is exact up to rounding and
+ * quadrature of the method (BDF: by BDF; STEIF_NOT_CERTIFIED where that is off what dense output gives), and with mesh and orders held its derivative is exact up to rounding and
  * what Newton's iteration left. With stages Y_j, their matrix K (sensitivity.h), E = F_y', and weights w_j
  * and b_j of the end and of the quadrature, a step is gone through backwards by
  *
@@ -40,7 +40,7 @@
  *
  * Derivatives along a direction, J v: direction.h; those of the gradient, H v: hessian.h.
  *
- * Served: collocation (gauss, radau, radau1a, lobatto3c), BDF with start=ramp, DIRK; dense, band and sparse
+ * "auto" takes what it would choose where that is served, else radau:s=5. Served: collocation (gauss, radau, radau1a, lobatto3c), BDF with start=ramp, DIRK; dense, band and sparse
  * matrices, serial vectors, any index that the method integrates. STEIF_UNSUPPORTED: other methods, Krylov
  * storage, events that graze, two at once whose times differ for other y or p, reactions without derivatives, constraints,
  * options.reinitialise, options.sensitivities, starts that had to be repaired, constant steps of BDF that do not end at T.

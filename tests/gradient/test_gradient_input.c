@@ -43,7 +43,6 @@ static void refused(void)
   const steif_problem *p = &s.problem;
   CHECK(refusal(p, "rodas4", &o, &J, g, "rodas4") == STEIF_UNSUPPORTED);
   CHECK(refusal(p, "cvode", &o, &J, g, "cvode") == STEIF_UNSUPPORTED);
-  CHECK(refusal(p, "auto", &o, &J, g, "auto") == STEIF_UNSUPPORTED);
   CHECK(refusal(p, "nothing", &o, &J, g, "nothing") == STEIF_UNKNOWN_NAME);
   CHECK(refusal(p, "radau:s=3", &o, &none, g, "no values") == STEIF_BAD_INPUT);
   CHECK(refusal(p, "radau:s=3", &o, &empty, g, "0 functionals") == STEIF_BAD_INPUT);

@@ -91,6 +91,12 @@ static void images_change_nothing(void)
   CU_ASSERT_FATAL(!steif_problem_find(ctx, EXAMPLES "/bounce.steif", &p));
   for (int m = 0; m < METHODS; m++) {
     steif_gradient a = {0}, b = {.checkpoints = 4};
+    if (!strcmp(methods[m], "bdf")) {
+      /* Free flight: BDF of order 2 and more has no error in y, whatever its steps are, but in integrals. */
+      CHECK(steif_gradient_find(ctx, &p, "bdf", &o, &J, &a) == STEIF_NOT_CERTIFIED);
+      CHECK(strstr(steif_message(ctx), "along its dense output") && !a.value);
+      o.h_max = 2e-3;
+    }
     found(ctx, &p, methods[m], &o, &J, &a);
     found(ctx, &p, methods[m], &o, &J, &b);
     CHECK(a.value[0] == b.value[0]);

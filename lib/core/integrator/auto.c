@@ -33,6 +33,7 @@
 #include "fill_order.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum {
   TINY = 5,
@@ -166,11 +167,22 @@ static choice choose(const steif_problem *p, const steif_options *o, int form)
 }
 
 /* Sensitivities are carried by collocation and BDF. */
+static bool carries(enum stf_auto_method m)
+{
+  return m == STF_AUTO_RADAU5 || m == STF_AUTO_RADAU9 || m == STF_AUTO_RADAU13 ||
+         m == STF_AUTO_BDF;
+}
+
 static choice carrying(choice c)
 {
-  const bool carries = c.method == STF_AUTO_RADAU5 || c.method == STF_AUTO_RADAU9 ||
-                       c.method == STF_AUTO_RADAU13 || c.method == STF_AUTO_BDF;
-  return carries ? c : (choice){STF_AUTO_RADAU9, "carries sensitivities"};
+  return carries(c.method) ? c : (choice){STF_AUTO_RADAU9, "carries sensitivities"};
+}
+
+const char *stf_carrying(const char *method)
+{
+  for (int m = 0; m <= STF_AUTO_EXPLICIT; m++)
+    if (carries((enum stf_auto_method)m) && !strcmp(method, stf_auto_methods[m])) return method;
+  return stf_auto_methods[STF_AUTO_RADAU9];
 }
 
 const char *stf_choose(const steif_problem *p, const steif_options *o, int form, char *why,

@@ -251,6 +251,8 @@ enum stf_auto_method {
   STF_AUTO_EXPLICIT
 };
 extern const char *const stf_auto_methods[]; /* their specs */
+/* One of them, or what takes its place where derivatives are carried. */
+const char *stf_carrying(const char *method);
 /* The spec that `auto` stands for, and a sentence why. */
 const char *stf_choose(const steif_problem *p, const steif_options *o, int form, char *why,
                        size_t room);

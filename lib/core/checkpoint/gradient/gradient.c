@@ -68,8 +68,6 @@ static int check_call(steif_context *ctx, const steif_problem *p, const steif_op
 static int check_solver(stf_journey *J)
 {
   const steif_solver *s = J->back.home;
-  STEIF_CHECK(!s->chosen, s->ctx, STEIF_UNSUPPORTED,
-              "'auto' may change the method: gradients need one, take radau:s=3 or bdf");
   STEIF_CHECK(s->step.system.space.serial || s->engine, s->ctx, STEIF_UNSUPPORTED,
               "gradients of problem '%s' need serial vectors", s->problem->name);
   STEIF_CHECK(s->repair.report.moved == 0, s->ctx, STEIF_UNSUPPORTED,
@@ -176,7 +174,7 @@ int stf_journey_end(stf_journey *J)
   if (B->tangent) STEIF_TRY(bend_end(B, &J->runner->step));
   STEIF_TRY(stf_functional_at(B, 1, J->runner->end, stf_last(J->runner)));
   for (int i = 0; i < B->count; i++) {
-    B->value[i] = B->g[i];
+    J->end[i] = B->value[i] = B->g[i];
     stf_copy(&B->space, B->gy[i], B->lambda[i]);
   }
   memcpy(B->mu, B->gp, (size_t)(B->count * B->P) * sizeof *B->mu);
@@ -259,12 +257,25 @@ static int results(stf_journey *J)
 
 /* ---- all --------------------------------------------------------------------------------------------- */
 
-static int travel(stf_journey *J)
+/* One method throughout, of those that carry derivatives. */
+static int open_run(stf_journey *J)
 {
   stf_backwards *B = &J->back;
   B->home = J->runner = steif_solver_new(B->ctx, B->problem, J->method, &J->options);
   if (!B->home) return steif_status(B->ctx);
+  if (!B->home->chosen) return STEIF_OK;
+  J->method = stf_carrying(B->home->chosen);
+  steif_solver_free(&B->home);
+  B->home = J->runner = steif_solver_new(B->ctx, B->problem, J->method, &J->options);
+  return B->home ? STEIF_OK : steif_status(B->ctx);
+}
+
+static int travel(stf_journey *J)
+{
+  stf_backwards *B = &J->back;
+  STEIF_TRY(open_run(J));
   STEIF_TRY(open_back(J));
+  STEIF_TRY(stf_along_open(J));
   STEIF_TRY(stf_passages_open(J));
   N_Vector start[] = {stf_pool_vector(B->pool, B->space.like),
                       stf_pool_vector(B->pool, B->space.like)};
@@ -276,6 +287,7 @@ static int travel(stf_journey *J)
   STEIF_TRY(stf_journey_forward(J));
   J->out->cost.solves = steif_statistics(J->runner)->nsolve;
   STEIF_TRY(stf_journey_back(J));
+  STEIF_TRY(stf_along_check(J));
   STEIF_TRY(stf_passages_first(J));
   if (J->line) STEIF_TRY(stf_push_start(B, t0, start[0], start[1]));
   STEIF_TRY(stf_pull_start(B, t0, start[0], start[1]));

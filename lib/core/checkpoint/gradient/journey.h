@@ -34,7 +34,10 @@ typedef struct stf_journey {
   stf_passed *passed; /* events and breaks; `left` of them are still to be gone back through */
   long passages, passages_most, left;
   size_t on_passages;
-  bool ended;            /* what is asked of the end has been looked at */
+  sunrealtype
+    *along;         /* integrals along dense output, of their sizes, and scratch; NULL: none */
+  sunrealtype *end; /* count: G at the end */
+  bool ended;       /* what is asked of the end has been looked at */
   steif_direction *line; /* of second derivatives ... */
   sunrealtype *Hp, *Hy0; /* ... which go there; NULL: first ones only */
 } stf_journey;
@@ -57,5 +60,10 @@ int stf_passages_see(stf_journey *J);
 int stf_passages_pull(stf_journey *J, long step, const sunrealtype *record);
 int stf_passages_first(stf_journey *J);
 void stf_passages_close(stf_journey *J);
+
+/* integral_along.c: integrals that no error test of steps sees, seen otherwise; before the first step, after each, and when J is known. */
+int stf_along_open(stf_journey *J);
+int stf_along_step(stf_journey *J);
+int stf_along_check(const stf_journey *J);
 
 #endif
