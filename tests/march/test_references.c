@@ -43,7 +43,7 @@ static void reach(steif_context *ctx, const steif_problem *p, const row *at, con
 {
   const double wanted = at->reached > 0 ? at->reached : p->reference->digits;
   steif_options o = steif_defaults();
-  o.rtol = at->rtol;
+  o.rtol = at->rtol, o.recompute = 1; /* as the program does */
   sunrealtype scd = NAN, mescd = NAN;
   steif_solver *s = smooth_open(ctx, p, method, &o);
   CHECK(steif_solve_to(s, p->reference->t) == STEIF_OK);

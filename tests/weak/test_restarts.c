@@ -48,7 +48,7 @@ static void euler_is_that_by_hand(void)
     steif_weak_row row[3];
     steif_weak_result result;
     broken_system s;
-    snprintf(f, sizeof f, "%sstep(t-" FIRST ")+step(t-" SECOND ")", "0;0;0;" + 2 * (4 - k));
+    snprintf(f, sizeof f, "%sstep(t-" FIRST ")+step(t-" SECOND ")", &"0;0;0;"[2 * (4 - k)]);
     broken_open(&s, k, f);
     const steif_weak_query q = query_of(&s, "be", STEIF_R, NULL, 3);
     CHECK(!steif_weak_measure(s.ctx, &q, row, &result));
@@ -78,7 +78,7 @@ static void orders_off_the_mesh(void)
     steif_weak_result r;
     broken_system s;
     snprintf(f, sizeof f, "%scos(t)+step(t-" FIRST ")*t+2*ramp(t-" SECOND ")",
-             "0;0;0;" + 2 * (4 - known[i].k));
+             &"0;0;0;"[2 * (4 - known[i].k)]);
     broken_open(&s, known[i].k, f);
     const enum steif_convention reading = known[i].start              ? STEIF_C
                                           : known[i].method[0] == 'b' ? STEIF_R
