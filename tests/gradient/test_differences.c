@@ -42,11 +42,11 @@ static sunrealtype value(steif_context *ctx, steif_problem *p, const char *metho
 {
   steif_gradient own = {0};
   const sunrealtype here = p->parameters->value[k];
-  CU_ASSERT_FATAL(!d || !steif_model_set(ctx, p, p->parameters->name[k], here + d));
+  CU_ASSERT_FATAL(d == 0 || !steif_model_set(ctx, p, p->parameters->name[k], here + d));
   const int code = steif_gradient_find(ctx, p, method, o, &J, &own);
   if (code) printf("\n  %s: %s", p->name, steif_message(ctx));
   CU_ASSERT_FATAL(code == STEIF_OK);
-  CU_ASSERT_FATAL(!d || !steif_model_set(ctx, p, p->parameters->name[k], here));
+  CU_ASSERT_FATAL(d == 0 || !steif_model_set(ctx, p, p->parameters->name[k], here));
   const sunrealtype J0 = own.value[0];
   if (g)
     *g = own;
