@@ -82,22 +82,22 @@ static bool numbers(inside *i, double least)
 
 static bool matrix(inside *i);
 
-/* One array in a cell or structure; an empty one may be a tag alone. */
-static bool nested(inside *i)
+/* One array in a cell or structure; an empty one may be a tag alone, but not in a function handle. */
+static bool nested(inside *i, bool handle)
 {
   tag t;
   if (i->depth >= DEEPEST || !tag_of(i, &t) || t.small || t.type != MATRIX) return false;
   if ((double)t.length > i->left) return false;
   inside part = {i->from, (double)t.length, i->depth + 1};
   i->left -= (double)t.length;
-  return !t.length || matrix(&part);
+  return t.length ? matrix(&part) : !handle;
 }
 
-static bool arrays(inside *i, double count)
+static bool arrays(inside *i, double count, bool handle)
 {
   if (count * TAG > i->left) return false;
   for (double k = 0; k < count; k++)
-    if (!nested(i)) return false;
+    if (!nested(i, handle)) return false;
   return true;
 }
 
@@ -111,7 +111,7 @@ static bool structure(inside *i, bool object, double count)
   const unsigned long length = four(i->from, b);
   if (!tag_of(i, &t) || t.type != INT8 || !contents(i, &t, NULL)) return false;
   if (!length || length > NAME || t.length % length) return false;
-  return arrays(i, count * (double)(t.length / length));
+  return arrays(i, count * (double)(t.length / length), false);
 }
 
 /* Row numbers, column pointers, values. */
@@ -137,7 +137,7 @@ static bool matrix(inside *i)
   if (length < 8 || length % 4 || element(i, INT8, NAME, NULL) < 0) return false;
   for (long k = 0; k < length; k += 4) count *= (double)four(i->from, size + k);
   const bool parts = class == CELL || class == FUNCTION;
-  const bool good = parts             ? arrays(i, count)
+  const bool good = parts             ? arrays(i, count, class == FUNCTION)
                     : class <= OBJECT ? structure(i, class == OBJECT, count)
                     : class == SPARSE ? sparse(i, (double)four(i->from, size + 4), complex)
                                       : numbers(i, count) && (!complex || numbers(i, count));
