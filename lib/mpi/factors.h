@@ -6,10 +6,13 @@
 
 #include "own_rows.h"
 
-/* What the spec says, and the own entries of the matrix in MUMPS's integers, from 1. */
+/* What the spec says, the own entries of the matrix in MUMPS's integers, from 1, and the ordering that the first
+ * analysis found: on rank 0 the place of each unknown among the pivots, which the matrices of other shifts share. */
 typedef struct factors_setting {
   int order, memory; /* ICNTL(7); MB a rank, 0: as much as it takes */
   int *row, *column;
+  int *place;
+  bool placed;
 } factors_setting;
 
 /* Answers of MUMPS that decide: INFOG(1), INFOG(2), INFO(2) and so on. */
@@ -20,7 +23,7 @@ typedef struct factors_answer {
 typedef struct factors_calls {
   bool complex;
   void *(*open)(rows *r);
-  void (*analyse)(void *m, const rows *r, const factors_setting *set, factors_answer *out);
+  void (*analyse)(void *m, const rows *r, factors_setting *set, factors_answer *out);
   /* values: as many as entries; workspace: per cent beyond the estimate. */
   void (*factor)(void *m, sunrealtype *values, int workspace, factors_answer *out);
   /* b: own rows; x and its row numbers from 1 as MUMPS spreads them. */

@@ -1,6 +1,7 @@
 /* factors_any.h: the calls of MUMPS for the arithmetic in MUMPS (dmumps_c, zmumps_c), STRUCTURE, NUMBER and RESULT.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "factors.h"
+#include <string.h>
 
 #define ICNTL(i) icntl[(i)-1]
 
@@ -30,22 +31,25 @@ static void *open_any(rows *r)
 
 /* Rows are spread (18), right-hand sides and solutions too (20, 21); null pivots are told (24), for which the root
  * is not left to ScaLAPACK (13). */
-static void analyse_any(void *state, const rows *r, const factors_setting *set,
-                        factors_answer *out)
+static void analyse_any(void *state, const rows *r, factors_setting *set, factors_answer *out)
 {
   STRUCTURE *m = state;
-  const bool parallel = set->order < 0;
+  const bool parallel = set->order < 0, known = set->placed && !parallel;
   m->n = (MUMPS_INT)r->own.n;
   m->nnz_loc = r->entries;
   m->irn_loc = set->row, m->jcn_loc = set->column;
   m->ICNTL(18) = 3, m->ICNTL(20) = 10, m->ICNTL(21) = 1, m->ICNTL(13) = 1, m->ICNTL(24) = 1;
   m->ICNTL(28) = parallel ? 2 : 1;
-  m->ICNTL(7) = parallel ? 7 : set->order;
+  m->ICNTL(7) = parallel ? 7 : known ? 1 : set->order;
+  if (known) m->perm_in = set->place;
   m->ICNTL(29) = 1;
   m->ICNTL(23) = set->memory;
   m->job = 1;
   MUMPS(m);
   answer(m, out);
+  if (out->code < 0 || parallel || known) return;
+  if (set->place) memcpy(set->place, m->sym_perm, (size_t)r->own.n * sizeof *set->place);
+  set->placed = true;
 }
 
 static void factor_any(void *state, sunrealtype *values, int workspace, factors_answer *out)

@@ -6,15 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-  SLOTS = 4,
-  AMD = 0,
-  PORD = 4,
-  SMALL = 2000,
-  PARALLEL = -1,
-  WORKSPACE = 20,
-  MOST_WORKSPACE = 160
-};
+enum { SLOTS = 4, AMD = 0, AMF = 2, PARALLEL = -1, WORKSPACE = 20, MOST_WORKSPACE = 160 };
 
 typedef struct slot {
   const factors_calls *with;
@@ -45,15 +37,17 @@ typedef struct mumps {
 static int read(mumps *s, const steif_spec *spec)
 {
   steif_context *ctx = s->r->ctx;
-  /* PORD ends the process on graphs of a few vertices; for small ones minimum degree is as good. */
-  const int serial = s->r->own.n > SMALL ? PORD : AMD;
-  s->set.order = serial, s->refine = 2;
+  /* Of the orderings inside of MUMPS approximate minimum fill fills least but for PORD, which ends the process where
+   * memory is short. */
+  s->set.order = AMF, s->refine = 2;
   for (int k = 0; k < spec->count; k++) {
     const char *key = spec->param[k].key, *value = spec->param[k].value;
     char *end;
     const long number = strtol(value, &end, 10);
-    if (!strcmp(key, "order") && !strcmp(value, "pord"))
-      s->set.order = serial;
+    if (!strcmp(key, "order") && !strcmp(value, "amf"))
+      s->set.order = AMF;
+    else if (!strcmp(key, "order") && !strcmp(value, "amd"))
+      s->set.order = AMD;
     else if (!strcmp(key, "order") && !strcmp(value, "ptscotch"))
       s->set.order = PARALLEL;
     else if (!strcmp(key, "memory") && *end == 0 && number > 0 && number < 1 << 30)
@@ -62,8 +56,8 @@ static int read(mumps *s, const steif_spec *spec)
       s->refine = (int)number;
     else
       return steif_fail(ctx, STEIF_BAD_INPUT,
-                        "mumps: '%s=%s' is none of order=pord, order=ptscotch, memory=MB, "
-                        "refine=0 .. 10",
+                        "mumps: '%s=%s' is none of order=amf, order=amd, order=ptscotch, "
+                        "memory=MB, refine=0 .. 10",
                         key, value);
   }
   return STEIF_OK;
@@ -91,9 +85,11 @@ static void drop(mumps *s, slot *t)
 static void forget(mumps *s)
 {
   for (int i = 0; i < 2 * SLOTS; i++) drop(s, &s->slot[i]);
-  void *const all[] = {s->set.row, s->set.column, s->row_of_b, s->b, s->d, s->xr, s->xi};
+  void *const all[] = {s->set.row, s->set.column, s->set.place, s->row_of_b,
+                       s->b,       s->d,          s->xr,        s->xi};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) steif_release(s->r->ctx, all[i]);
-  s->set.row = s->set.column = s->row_of_b = NULL;
+  s->set.row = s->set.column = s->set.place = s->row_of_b = NULL;
+  s->set.placed = false;
   s->b = s->d = s->xr = s->xi = NULL;
 }
 
@@ -111,6 +107,9 @@ static int pattern(mumps *s)
   s->set.row = steif_allocate(r->ctx, entries, sizeof(int));
   s->set.column = steif_allocate(r->ctx, entries, sizeof(int));
   s->row_of_b = steif_allocate(r->ctx, here, sizeof(int));
+  if (r->own.rank == 0 &&
+      !(s->set.place = steif_allocate(r->ctx, (size_t)r->own.n, sizeof(int))))
+    return STEIF_NO_MEMORY;
   sunrealtype **const each[] = {&s->b, &s->d, &s->xr, &s->xi};
   for (int i = 0; i < 4; i++)
     if (!(*each[i] = steif_allocate(r->ctx, 2 * here, sizeof(sunrealtype))))
@@ -160,7 +159,7 @@ static int told(const mumps *s, const factors_answer *a, const char *what, const
   if (a->code == -38)
     return steif_fail(ctx, STEIF_UNSUPPORTED,
                       "MUMPS was built without parallel ordering: install "
-                      "libmumps-ptscotch-dev, or take order=pord");
+                      "libmumps-ptscotch-dev, or take order=amf");
   return steif_fail(ctx, STEIF_BASELINE, "MUMPS could not %s: INFOG(1) = %d, INFOG(2) = %d",
                     what, a->code, a->detail);
 }

@@ -10,7 +10,8 @@
  *
  *   "mumps"    factors by MUMPS, real and complex: P = c E - A itself, for each shift; a few iterations, of which
  *              there is more than one only while factors of an earlier step size or Jacobian serve.
- *              mumps:order=pord|ptscotch (pord; minimum degree up to 2000 unknowns), memory=MB a rank (as much as it takes), refine=N sweeps (2)
+ *              mumps:order=amf|amd|ptscotch (amf: approximate minimum fill on one rank, found once for a pattern;
+ *              ptscotch: over all ranks), memory=MB a rank (as much as it takes), refine=N sweeps (2)
  *   "amg"      one cycle of BoomerAMG of hypre for the real c E - A, at |c| for both halves of a complex system:
  *              for elliptic parts; every row needs a diagonal entry.
  *              amg:strong=X threshold of strong connections (0.25), functions=N interleaved unknowns a point (1)
