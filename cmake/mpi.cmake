@@ -49,7 +49,7 @@ if(steif_mpi)
   # Headers of others are not held to our warnings.
   target_include_directories(steif-mpi SYSTEM PRIVATE ${HYPRE_INCLUDE_DIR} ${MUMPS_INCLUDE_DIR})
   target_link_libraries(steif-mpi PUBLIC steif MPI::MPI_C SUNDIALS::nvecparallel
-                        PRIVATE ${DMUMPS_LIBRARY} ${ZMUMPS_LIBRARY} ${HYPRE_LIBRARY} m
+                        PRIVATE ${DMUMPS_LIBRARY} ${ZMUMPS_LIBRARY} ${HYPRE_LIBRARY} steif_klu m
                         $<BUILD_INTERFACE:steif_settings>)
   if(NOT APPLE)
     set_target_properties(steif-mpi PROPERTIES INSTALL_RPATH $ORIGIN)

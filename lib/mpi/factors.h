@@ -6,10 +6,13 @@
 
 #include "own_rows.h"
 
-/* What the spec says, the own entries of the matrix in MUMPS's integers, from 1, and the ordering that the first
- * analysis found: on rank 0 the place of each unknown among the pivots, which the matrices of other shifts share. */
+enum { FACTORS_METIS = 1 }; /* an order that MUMPS is given */
+
+/* What the spec says, the own entries of the matrix in MUMPS's integers, from 1, and the ordering: on rank 0
+ * the place of each unknown among the pivots, found once for the matrices of all shifts. */
 typedef struct factors_setting {
-  int order, memory; /* ICNTL(7); MB a rank, 0: as much as it takes */
+  int refine, order; /* sweeps at most; ICNTL(7), or < 0: by all ranks */
+  int memory;        /* MB a rank, 0: as much as it takes */
   int *row, *column;
   int *place;
   bool placed;
@@ -32,5 +35,12 @@ typedef struct factors_calls {
   void (*close)(void *m, rows *r);
 } factors_calls;
 extern const factors_calls factors_real, factors_complex;
+
+/* The defaults of a spec and what it says otherwise. */
+int factors_read(const rows *r, const steif_spec *spec, factors_setting *set);
+
+/* Places from 1 of all unknowns among the pivots, on rank 0, by nested dissection; place is not read on others. All
+ * ranks return the same. */
+int factors_dissect(const rows *r, const factors_setting *set, int *place);
 
 #endif

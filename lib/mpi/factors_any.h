@@ -1,6 +1,7 @@
 /* factors_any.h: the calls of MUMPS for the arithmetic in MUMPS (dmumps_c, zmumps_c), STRUCTURE, NUMBER and RESULT.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "factors.h"
+#include <float.h>
 #include <string.h>
 
 #define ICNTL(i) icntl[(i)-1]
@@ -29,8 +30,8 @@ static void *open_any(rows *r)
   return m;
 }
 
-/* Rows are spread (18), right-hand sides and solutions too (20, 21); null pivots are told (24), for which the root
- * is not left to ScaLAPACK (13). */
+/* Rows are spread (18), right-hand sides and solutions too (20, 21); pivots that are exactly null are told (24, CNTL(3)),
+ * for which the root is not left to ScaLAPACK (13): small ones are right where c E and A differ much in size. */
 static void analyse_any(void *state, const rows *r, factors_setting *set, factors_answer *out)
 {
   STRUCTURE *m = state;
@@ -39,6 +40,7 @@ static void analyse_any(void *state, const rows *r, factors_setting *set, factor
   m->nnz_loc = r->entries;
   m->irn_loc = set->row, m->jcn_loc = set->column;
   m->ICNTL(18) = 3, m->ICNTL(20) = 10, m->ICNTL(21) = 1, m->ICNTL(13) = 1, m->ICNTL(24) = 1;
+  m->cntl[2] = -DBL_MIN;
   m->ICNTL(28) = parallel ? 2 : 1;
   m->ICNTL(7) = parallel ? 7 : known ? 1 : set->order;
   if (known) m->perm_in = set->place;

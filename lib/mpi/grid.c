@@ -7,11 +7,9 @@
  * IV.10. bruss3d: the same equations in a periodic cube with alpha = 0.02 and the ball around (0.3, 0.6, 0.5) in
  * place of the disc.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "parallel_problem.h"
 #include <math.h>
-#include <stdbool.h>
 #include <stdio.h>
-#include <steif/extension.h>
-#include <steif/mpi.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
@@ -32,7 +30,7 @@ static const kind kinds[] = {{"heat2d", 2, 1, 2, 20000, 32, 1, 0.05},
                              {"bruss3d", 3, 2, 3, 1000, 12, 0.02, 1.0}};
 
 typedef struct grid {
-  steif_problem problem;
+  parallel_problem public;
   const kind *is;
   MPI_Comm comm;
   int rank, size, n, low, high;          /* own layers: low .. high - 1 */
@@ -263,15 +261,14 @@ static int size_of(steif_context *ctx, const steif_spec *spec, const kind *is, i
   return STEIF_OK;
 }
 
-static const kind *kind_of(steif_context *ctx, const char *name)
+static const kind *kind_of(const char *name)
 {
   for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
     if (!strcmp(kinds[i].name, name)) return &kinds[i];
-  steif_fail(ctx, STEIF_UNSUPPORTED,
-             "problem '%s' is not built over ranks: there are heat2d, heat3d, bruss2d, bruss3d",
-             name);
   return NULL;
 }
+
+bool grid_named(const char *name) { return kind_of(name) != NULL; }
 
 static int place(steif_context *ctx, grid *g)
 {
@@ -294,65 +291,45 @@ static int place(steif_context *ctx, grid *g)
 static void describe(grid *g)
 {
   const bool heat = g->is->fields == 1;
-  g->problem = (steif_problem){.name = g->is->name,
-                               .about = "a problem on a grid over ranks",
-                               .n = g->n * g->layer,
-                               .t1 = g->is->end,
-                               .y0 = g->start,
-                               .f = f,
-                               .A = A,
-                               .storage = STEIF_SPARSE,
-                               .nnz = (2 * g->is->dimension + g->is->fields) * g->rows,
-                               .autonomous = heat,
-                               .linear = heat,
-                               .exact = heat ? exact : NULL,
-                               .breaks = heat ? NULL : breaks,
-                               .break_count = !heat && g->is->end > IGNITION,
-                               .user = g};
+  g->public.rows = g->rows;
+  g->public.problem = (steif_problem){.name = g->is->name,
+                                      .about = "a problem on a grid over ranks",
+                                      .n = g->n * g->layer,
+                                      .t1 = g->is->end,
+                                      .y0 = g->start,
+                                      .f = f,
+                                      .A = A,
+                                      .storage = STEIF_SPARSE,
+                                      .nnz = (2 * g->is->dimension + g->is->fields) * g->rows,
+                                      .autonomous = heat,
+                                      .linear = heat,
+                                      .exact = heat ? exact : NULL,
+                                      .breaks = heat ? NULL : breaks,
+                                      .break_count = !heat && g->is->end > IGNITION,
+                                      .user = g};
 }
 
-static int build(steif_context *ctx, const char *text, MPI_Comm comm, grid **out)
+static void release(steif_context *ctx, parallel_problem *public)
+{
+  grid *g = (grid *)public; /* its first member */
+  steif_release(ctx, g->under);
+  steif_release(ctx, g->start);
+  steif_release(ctx, g);
+}
+
+int grid_build(steif_context *ctx, const char *text, MPI_Comm comm, parallel_problem **out)
 {
   steif_spec spec;
   int n;
   if (steif_spec_parse(ctx, text, &spec)) return steif_status(ctx);
-  const kind *is = kind_of(ctx, spec.name);
-  if (!is || size_of(ctx, &spec, is, &n)) return steif_status(ctx);
-  grid *g = *out = steif_allocate(ctx, 1, sizeof *g);
+  const kind *is = kind_of(spec.name);
+  if (size_of(ctx, &spec, is, &n)) return steif_status(ctx);
+  grid *g = steif_allocate(ctx, 1, sizeof *g);
   if (!g) return STEIF_NO_MEMORY;
+  *out = &g->public;
+  g->public.release = release;
   g->is = is, g->n = n, g->comm = comm;
   if (place(ctx, g)) return STEIF_NO_MEMORY;
   describe(g);
   return STEIF_OK;
-}
-
-void steif_mpi_problem_free(steif_context *ctx, steif_problem **problem, N_Vector *like)
-{
-  if (like && *like) N_VDestroy(*like), *like = NULL;
-  if (!problem || !*problem) return;
-  grid *g = (grid *)*problem; /* its first member */
-  steif_release(ctx, g->under);
-  steif_release(ctx, g->start);
-  steif_release(ctx, g);
-  *problem = NULL;
-}
-
-steif_problem *steif_mpi_problem_new(steif_context *ctx, const char *spec, MPI_Comm comm,
-                                     N_Vector *like)
-{
-  grid *g = NULL;
-  int on = 0;
-  MPI_Initialized(&on);
-  if (!on) {
-    steif_fail(ctx, STEIF_BAD_INPUT, "MPI is not initialised: call MPI_Init first");
-    return NULL;
-  }
-  N_Vector one = steif_mpi_vector(ctx, comm, 1); /* to agree by */
-  if (!one) return NULL;
-  const int code = steif_agree(ctx, one, build(ctx, spec, comm, &g));
-  N_VDestroy(one);
-  steif_problem *p = g ? &g->problem : NULL;
-  *like = code ? NULL : steif_mpi_vector(ctx, comm, g->rows);
-  if (!*like) steif_mpi_problem_free(ctx, &p, like);
-  return p;
 }

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SLOTS = 4, AMD = 0, AMF = 2, PARALLEL = -1, WORKSPACE = 20, MOST_WORKSPACE = 160 };
+enum { SLOTS = 4, WORKSPACE = 20, MOST_WORKSPACE = 160 };
 
 typedef struct slot {
   const factors_calls *with;
@@ -25,50 +25,18 @@ typedef struct slot {
 typedef struct mumps {
   rows *r;
   factors_setting set;
-  int refine;
   long revision, clock;
   slot slot[2 * SLOTS]; /* real ones, then complex ones */
   int *row_of_b;
   sunrealtype *b, *d, *xr, *xi; /* right-hand side as MUMPS reads it, residuals */
 } mumps;
 
-/* -- the spec --------------------------------------------------------------------------------- */
-
-static int read(mumps *s, const steif_spec *spec)
-{
-  steif_context *ctx = s->r->ctx;
-  /* Of the orderings inside of MUMPS approximate minimum fill fills least but for PORD, which ends the process where
-   * memory is short. */
-  s->set.order = AMF, s->refine = 2;
-  for (int k = 0; k < spec->count; k++) {
-    const char *key = spec->param[k].key, *value = spec->param[k].value;
-    char *end;
-    const long number = strtol(value, &end, 10);
-    if (!strcmp(key, "order") && !strcmp(value, "amf"))
-      s->set.order = AMF;
-    else if (!strcmp(key, "order") && !strcmp(value, "amd"))
-      s->set.order = AMD;
-    else if (!strcmp(key, "order") && !strcmp(value, "ptscotch"))
-      s->set.order = PARALLEL;
-    else if (!strcmp(key, "memory") && *end == 0 && number > 0 && number < 1 << 30)
-      s->set.memory = (int)number;
-    else if (!strcmp(key, "refine") && *end == 0 && number >= 0 && number <= 10)
-      s->refine = (int)number;
-    else
-      return steif_fail(ctx, STEIF_BAD_INPUT,
-                        "mumps: '%s=%s' is none of order=amf, order=amd, order=ptscotch, "
-                        "memory=MB, refine=0 .. 10",
-                        key, value);
-  }
-  return STEIF_OK;
-}
-
 static int start(rows *r, const steif_spec *spec, void **state)
 {
   mumps *s = *state = steif_allocate(r->ctx, 1, sizeof *s);
   if (!s) return STEIF_NO_MEMORY;
   s->r = r;
-  return read(s, spec);
+  return factors_read(r, spec, &s->set);
 }
 
 /* -- memory ----------------------------------------------------------------------------------- */
@@ -159,7 +127,7 @@ static int told(const mumps *s, const factors_answer *a, const char *what, const
   if (a->code == -38)
     return steif_fail(ctx, STEIF_UNSUPPORTED,
                       "MUMPS was built without parallel ordering: install "
-                      "libmumps-ptscotch-dev, or take order=amf");
+                      "libmumps-ptscotch-dev, or take order=metis");
   return steif_fail(ctx, STEIF_BASELINE, "MUMPS could not %s: INFOG(1) = %d, INFOG(2) = %d",
                     what, a->code, a->detail);
 }
@@ -180,6 +148,10 @@ static int analyse(mumps *s, slot *t)
   factors_answer a;
   if (!(t->m = t->with->open(s->r))) return STEIF_NO_MEMORY;
   MPI_TRY(steif_agree(s->r->ctx, s->r->like, claim(s, t)));
+  if (s->set.order == FACTORS_METIS && !s->set.placed) {
+    MPI_TRY(factors_dissect(s->r, &s->set, s->set.place));
+    s->set.placed = true;
+  }
   t->with->analyse(t->m, s->r, &s->set, &a);
   s->r->stats.analyses++;
   t->revision = s->r->revision;
@@ -377,9 +349,9 @@ static int solve(void *state, sunrealtype re, sunrealtype im, bool transposed,
   for (int w = 0; w < 1 + t->with->complex; w++) memset(own[w], 0, bytes);
   MPI_TRY(correct(s, t, transposed, b, own));
   sunrealtype left = 0, before = INFINITY;
-  for (int sweep = 0; !transposed && sweep <= s->refine; sweep++) {
+  for (int sweep = 0; !transposed && sweep <= s->set.refine; sweep++) {
     left = residual(s, t, b, own, d);
-    if (sweep == s->refine || left <= 1e-15 || !(left < 0.5 * before)) break;
+    if (sweep == s->set.refine || left <= 1e-15 || !(left < 0.5 * before)) break;
     before = left;
     MPI_TRY(correct(s, t, false, (const sunrealtype *const *)d, own));
   }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <steif/data.h>
 #include <steif/mpi.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
@@ -233,6 +234,29 @@ static void sizes(void)
   steif_context_free(&ctx);
 }
 
+/* Problems that cannot be cut into rows, with the same sentence everywhere. */
+static void not_over_ranks(void)
+{
+  static const struct {
+    const char *name;
+    int code;
+  } not [] = {{"hires", STEIF_UNSUPPORTED},
+              {"hirex", STEIF_UNKNOWN_NAME},
+              {"blocks", STEIF_UNSUPPORTED},
+              {"heat2d:n=0", STEIF_BAD_INPUT},
+              {"no/such.steif", STEIF_IO}};
+  for (size_t i = 0; i < sizeof not / sizeof *not ; i++) {
+    N_Vector like;
+    steif_context *ctx = steif_context_new(NULL);
+    steif_problem *p = steif_mpi_problem_new(ctx, not [i].name, MPI_COMM_WORLD, &like);
+    if (!ALL(!p && !like && steif_status(ctx) == not [i].code) && rank == 0)
+      printf("  %s: %s\n", not [i].name, steif_message(ctx));
+    ALL(same(ctx));
+    steif_mpi_problem_free(ctx, &p, &like);
+    steif_context_free(&ctx);
+  }
+}
+
 /* More memory than is allowed, on all ranks alike. */
 static void little_memory(void)
 {
@@ -300,6 +324,28 @@ static void compare(const char *name, const char *spec, const char *method, int 
            method, many.steps, one.steps, many.error, many.norm, one.norm);
 }
 
+/* The norm of the end, which the numbering does not change, by the library without ranks. */
+static void same_as_in_one_process(const char *name, const char *method)
+{
+  const end many = run(MPI_COMM_WORLD, name, "mumps", method);
+  steif_problem p;
+  steif_options o = steif_defaults();
+  steif_context *ctx = steif_context_new(NULL);
+  sunrealtype norm = NAN;
+  o.rtol = 1e-5;
+  if (ALL(steif_problem_find(ctx, name, &p) == STEIF_OK)) {
+    p.t1 = 0.01;
+    steif_solver *s = steif_solver_new(ctx, &p, method, &o);
+    if (s && steif_solve_to(s, p.t1) == STEIF_OK)
+      norm = sqrt(N_VDotProd(steif_solution(s), steif_solution(s)));
+    steif_solver_free(&s);
+    steif_problem_clear(ctx, &p);
+  }
+  if (!ALL(fabs(many.norm - norm) <= 1e-4 * norm) && rank == 0)
+    printf("  %s %s: norms %.10g and %.10g\n", name, method, many.norm, norm);
+  steif_context_free(&ctx);
+}
+
 static void runs(void)
 {
   static const char *const methods[] = {"bdf", "radau:s=3", "dirk:hw43"};
@@ -310,15 +356,19 @@ static void runs(void)
   compare("bruss2d:n=6", "mumps", "radau:s=3", 0);
   compare("bruss3d:n=4", "amg:functions=2", "bdf", 0);
   compare("heat2d:n=12", "amg", "cvode", 0);
+  compare("ladder:n=40,case=cons", "mumps", "bdf", 0);
+  compare("jordan:k=2,case=N-cons", "mumps", "radau:s=3", 0); /* dense; ranks without rows */
+  same_as_in_one_process("ladder:n=40,case=cons", "radau:s=3");
 }
 
-static void shortage(const char *spec)
+static void shortage(const char *name, const char *spec)
 {
   int code = 0, found = 1, k = 0;
   for (; found == 1 && k < 400; k++) {
-    found = shortage_at(spec, k, rank == ranks - 1, &code, same);
+    found = shortage_at(name, spec, k, rank == ranks - 1, &code, same);
     MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-    if (!ALL(found >= 0) && rank == 0) printf("  %s, allocation %d: code %d\n", spec, k, code);
+    if (!ALL(found >= 0) && rank == 0)
+      printf("  %s by %s, allocation %d: code %d\n", name, spec, k, code);
   }
   ALL(found == 0 && k > 20); /* to the end */
 }
@@ -334,8 +384,10 @@ int main(int argc, char **argv)
   ALL(early);
   const char *part = argc > 1 ? argv[1] : "solves bad runs";
   if (strstr(part, "solves")) solves(60), solves(2), little_memory();
-  if (strstr(part, "bad")) bad_input(), sizes();
-  if (strstr(part, "short")) shortage("mumps"), shortage("amg");
+  if (strstr(part, "bad")) bad_input(), sizes(), not_over_ranks();
+  if (strstr(part, "short"))
+    shortage("heat2d:n=4", "mumps"), shortage("heat2d:n=4", "amg"),
+      shortage("jordan:k=2", "mumps");
   if (strstr(part, "runs")) runs();
   MPI_Finalize();
   return failures != 0;

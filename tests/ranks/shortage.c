@@ -24,10 +24,10 @@ static void release(void *block, void *user)
 }
 
 /* A factorisation and a real and a complex solve. */
-static int work(steif_context *ctx, const char *spec)
+static int work(steif_context *ctx, const char *name, const char *spec)
 {
   N_Vector like = NULL;
-  steif_problem *p = steif_mpi_problem_new(ctx, "heat2d:n=4", MPI_COMM_WORLD, &like);
+  steif_problem *p = steif_mpi_problem_new(ctx, name, MPI_COMM_WORLD, &like);
   steif_mpi *m = p ? steif_mpi_open(ctx, p, spec, like) : NULL;
   int code = m ? STEIF_OK : steif_status(ctx);
   if (m) {
@@ -45,13 +45,14 @@ static int work(steif_context *ctx, const char *spec)
   return code;
 }
 
-int shortage_at(const char *spec, int k, int here, int *code, int (*same)(steif_context *))
+int shortage_at(const char *name, const char *spec, int k, int here, int *code,
+                int (*same)(steif_context *))
 {
   heap h = {0};
   steif_context *ctx =
     steif_context_new(&(steif_setup){.allocate = allocate, .release = release, .user = &h});
   h.armed = here, h.until = k;
-  *code = work(ctx, spec);
+  *code = work(ctx, name, spec);
   h.armed = 0;
   int all[] = {same(ctx), h.failed};
   MPI_Allreduce(MPI_IN_PLACE, &all[1], 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);

@@ -6,6 +6,7 @@
 #include <steif/mpi.h>
 
 /* 1: it failed and all is right, 0: there were fewer, -1: wrong. `here`: on this rank. */
-int shortage_at(const char *spec, int k, int here, int *code, int (*same)(steif_context *));
+int shortage_at(const char *name, const char *spec, int k, int here, int *code,
+                int (*same)(steif_context *));
 
 #endif

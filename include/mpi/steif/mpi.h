@@ -10,8 +10,10 @@
  *
  *   "mumps"    factors by MUMPS, real and complex: P = c E - A itself, for each shift; a few iterations, of which
  *              there is more than one only while factors of an earlier step size or Jacobian serve.
- *              mumps:order=amf|amd|ptscotch (amf: approximate minimum fill on one rank, found once for a pattern;
- *              ptscotch: over all ranks), memory=MB a rank (as much as it takes), refine=N sweeps (2)
+ *              mumps:order=metis|amf|amd|ptscotch: nested dissection by METIS on rank 0, found once for a pattern; up to
+ *              200 unknowns amf, approximate minimum fill, whose trees are as deep as a chain of unknowns is long
+ *              and may take more stack than there is; ptscotch: by all ranks, for many thousand unknowns each;
+ *              memory=MB a rank (as much as it takes), refine=N sweeps (2)
  *   "amg"      one cycle of BoomerAMG of hypre for the real c E - A, at |c| for both halves of a complex system:
  *              for elliptic parts; every row needs a diagonal entry.
  *              amg:strong=X threshold of strong connections (0.25), functions=N interleaved unknowns a point (1)
@@ -77,8 +79,11 @@ STEIF_EXPORT int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vect
                                  N_Vector *b, N_Vector *x);
 
 /* Problems of the collection over ranks: "heat2d:n=32", "heat3d:n=20", "bruss2d:n=32", "bruss3d:n=12"; whole grid
- * lines or planes to a rank, unknowns of a point together. *like is a vector of own rows. NULL with the sentence
- * set. The problem must outlive what uses it. */
+ * lines or planes to a rank, unknowns of a point together. Any other is a linear system E x' + F x = f with constant
+ * E and F ("ladder:n=1000,case=cons"; E.steif models too), for "mumps": every rank builds all of it, keeps its own
+ * rows, numbered by levels of the graph of F so that ranks have few neighbours, and evaluates all of f.
+ * *like is a vector of own rows. NULL with the sentence set, STEIF_UNSUPPORTED: another form. The problem must
+ * outlive what uses it. */
 STEIF_EXPORT steif_problem *steif_mpi_problem_new(steif_context *ctx, const char *spec,
                                                   MPI_Comm comm, N_Vector *like);
 /* Frees the vector too. */
