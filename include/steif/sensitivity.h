@@ -19,7 +19,8 @@
  *
  * Column k has the unit of y over that of p_k; scale_k S, scale_k = parameters.scale or |p_k| (1 where that is
  * 0), has that of y. Errors of S are tested in every adaptive step, by the estimate of the method, differentiated,
- * against rtol |S_ik| + atol_i / scale_k; a step passes when y and each column do.
+ * against rtol |S_ik| + atol_i / scale_k; a step passes when y and each column do. Those of one step may be up to 30
+ * times as large as those of y, whose sum is to stay below the tolerance (index 0 and 1; never above a tolerance).
  *
  * Served: collocation (gauss, radau, radau1a, lobatto3c, any number of stages), DIRK and BDF with dense, band
  * and sparse matrices, of the indices that these methods serve. STEIF_UNSUPPORTED: other families and `auto`; Krylov

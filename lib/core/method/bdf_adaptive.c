@@ -197,12 +197,13 @@ static sunrealtype error_at(stf_step *s, int k)
   const stf_space *space = &s->system.space;
   const stf_carry *T = tested(s);
   error_of(s, k, e->y, s->next);
-  sunrealtype most = stf_norm(space, e->other, s->weights);
+  sunrealtype most = stf_norm(space, e->other, s->weights) / e->allowed[k];
   for (int i = 0; T && i < T->count; i++) {
     error_of(s, k, T->kept[i], T->next[i]);
-    most = fmax(most, stf_norm(space, e->other, T->weights[i]));
+    const sunrealtype norm = stf_norm(space, e->other, T->weights[i]);
+    most = fmax(most, norm / stf_carry_allowed(s, e->allowed[k], k, k));
   }
-  return most / e->allowed[k];
+  return most;
 }
 
 /* The same of the step's own order. */
@@ -212,9 +213,11 @@ static sunrealtype error_now(const stf_step *s)
   const stf_carry *T = tested(s);
   sunrealtype most = s->error_norm;
   if (!(most >= 0)) most = stf_norm(&s->system.space, s->error, s->weights);
+  most /= e->allowed[e->k];
+  const sunrealtype allowed = stf_carry_allowed(s, e->allowed[e->k], e->k, e->k);
   for (int i = 0; T && i < T->count; i++)
-    most = fmax(most, stf_norm(&s->system.space, T->error[i], T->weights[i]));
-  return most / e->allowed[e->k];
+    most = fmax(most, stf_norm(&s->system.space, T->error[i], T->weights[i]) / allowed);
+  return most;
 }
 
 static sunrealtype step_factor(sunrealtype bias, sunrealtype error, int k)

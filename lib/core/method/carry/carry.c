@@ -161,6 +161,17 @@ int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
 
 /* ---- the step ----------------------------------------------------------------------------- */
 
+sunrealtype stf_carry_slack(const stf_step *s, int q, int p)
+{
+  const sunrealtype most = 30;
+  return s->problem->dae_index > 1 ? 1 : pow(most, (q + 1.0) / (p + 1.0));
+}
+
+sunrealtype stf_carry_allowed(const stf_step *s, sunrealtype allowed, int q, int p)
+{
+  return fmax(allowed, fmin(1, allowed * stf_carry_slack(s, q, p)));
+}
+
 /* By the values at the beginning of the step, as for y; levels as for y. */
 static void weigh(stf_carry *T, sunrealtype h)
 {

@@ -74,6 +74,13 @@ int stf_carry_carry(stf_carry *T, sunrealtype h);
 /* After the commit of the method. */
 void stf_carry_commit(stf_carry *T);
 
+/* Errors of the steps of y add up to less than a tolerance. Errors of S add up in the same way, but those of one step
+ * may be thirty times as large: of methods of order p so many times the estimate of order q. They stay far below
+ * what others allow in one step, the whole tolerance. Of index 2 and 3, whose errors do not add up: 1. */
+sunrealtype stf_carry_slack(const stf_step *s, int q, int p);
+/* `allowed` of y, where errors are of the order of the method. */
+sunrealtype stf_carry_allowed(const stf_step *s, sunrealtype allowed, int q, int p);
+
 /* What collocation methods share (carry_collocation.c): a step as it has been solved. */
 typedef struct stf_collocation_stages {
   const stf_stage_polynomial *u;

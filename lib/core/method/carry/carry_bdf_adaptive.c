@@ -45,7 +45,7 @@ static int carry(stf_carry *T, sunrealtype h)
               ? carry_halves(T, h)
               : stf_carry_bdf(T, 0, s->t, h, e->k, e->alpha, e->y, s->next, count, weight));
   for (int k = 0; k < T->count; k++) {
-    T->tolerance[k] = s->control.tolerance;
+    T->tolerance[k] = stf_carry_allowed(s, s->control.tolerance, e->k, e->k);
     if (halved) continue;
     stf_combine(space, count, weight, T->kept[k], T->error[k]);
     stf_sum(space, h / span, T->next[k], -h / span, T->error[k], T->error[k]);

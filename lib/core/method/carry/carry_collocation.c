@@ -21,7 +21,9 @@ static void set_tolerance(stf_carry *T, const stf_collocation_stages *c, int k)
 {
   stf_step *s = T->step;
   const stf_control control = s->control;
-  stf_estimate_set(s, c->estimate, size_of(T, c, k, c->estimate->top),
+  stf_estimate wider = *c->estimate;
+  wider.loosest *= stf_carry_slack(s, wider.s, wider.s + wider.beyond);
+  stf_estimate_set(s, &wider, size_of(T, c, k, c->estimate->top),
                    size_of(T, c, k, c->estimate->below));
   if (c->oscillates) stf_estimate_none(s, c->estimate);
   T->tolerance[k] = s->control.tolerance;

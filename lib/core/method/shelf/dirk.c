@@ -215,7 +215,8 @@ static int carry_estimate(stf_carry *T, sunrealtype h, int k)
     stf_copy(space, T->work, T->error[k]);
     STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &T->error[k], NULL));
   }
-  T->tolerance[k] = s->control.tolerance;
+  T->tolerance[k] =
+    stf_carry_allowed(s, s->control.tolerance, s->control.order, e->table->order);
   return STEIF_OK;
 }
 
