@@ -13,7 +13,8 @@
  *   F_y dY_j + F_y' dY_j' = -dF/dp_k
  * at the converged stages is a linear system for column k of S. Of few unknowns it is factored; else iterated with the
  * factors of Newton's iteration as preconditioner, all columns together, from the polynomial of the last step, to 0.003
- * of the tolerance of S (1e-4 where the index is above 1; prescribed steps: as Newton's iteration). S is thus the derivative
+ * of the tolerance of S, or 0.3 with the one real matrix that collocation takes for sparse storage (1e-4 where the index
+ * is above 1; prescribed steps: as Newton's iteration). S is thus the derivative
  * of the numbers that the run returns, on its mesh: central differences of runs on one mesh (options.mesh)
  * agree with it to their own errors, and its order is that of y.
  *

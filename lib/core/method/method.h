@@ -68,6 +68,7 @@ typedef struct stf_carrier_size {
   int stages; /* solved for together */
   int kept,
     trial; /* vectors of a column that are kept, and that an attempt fills; equal without commit */
+  int missed; /* and where the start of the sweeps learns from the last: stages, else 0 */
 } stf_carrier_size;
 typedef struct stf_carrier {
   int (*check)(const stf_step *s); /* NULL: all that the family takes is served */

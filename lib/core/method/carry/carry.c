@@ -17,11 +17,17 @@ static int claim_columns(stf_step *s, stf_carry *T)
 {
   const stf_carrier_size *z = &T->size;
   T->kept = columns(s, T->count, z->kept), T->trial = columns(s, T->count, z->trial);
+  T->missed = columns(s, T->count, z->missed), T->misses = columns(s, T->count, z->missed);
   T->r = columns(s, T->count, z->stages), T->other = columns(s, T->count, z->stages);
   T->slope = columns(s, z->points, T->count);
   T->tolerance = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->tolerance);
-  return T->kept && T->trial && T->r && T->other && T->slope && T->tolerance ? STEIF_OK
-                                                                             : STEIF_NO_MEMORY;
+  T->column = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->column);
+  T->moved = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->moved);
+  if (!T->column || !T->moved) return STEIF_NO_MEMORY;
+  return T->kept && T->trial && T->missed && T->misses && T->r && T->other && T->slope &&
+             T->tolerance
+           ? STEIF_OK
+           : STEIF_NO_MEMORY;
 }
 
 int stf_carry_open(stf_step *s, int count, const int *parameter, const sunrealtype *scale,
@@ -68,7 +74,7 @@ int stf_carry_residual(stf_carry *T, int point, int k, N_Vector S, N_Vector slop
   return STEIF_OK;
 }
 
-int stf_carry_stage_residuals(stf_carry *T, const stf_carry_stages *g, int k)
+int stf_carry_stage_residuals(stf_carry *T, const stf_carry_stages *g, int k, N_Vector *r)
 {
   const stf_space *space = &T->step->system.space;
   N_Vector *Z = T->trial[k] + g->to;
@@ -77,30 +83,51 @@ int stf_carry_stage_residuals(stf_carry *T, const stf_carry_stages *g, int k)
     stf_combine(space, g->m, g->B_over_h + j * g->m, Z, T->work);
     if (g->offset) stf_axpy(space, 1, g->offset[k], T->work);
     if (g->base) stf_sum(space, 1, g->base[k], 1, Z[j], Y = T->Y);
-    STEIF_TRY(stf_carry_residual(T, g->first + j, k, Y, T->work, T->r[k][j]));
+    STEIF_TRY(stf_carry_residual(T, g->first + j, k, Y, T->work, r[j]));
   }
   return STEIF_OK;
 }
 
-/* One sweep over all columns, and the largest of the weighted norms of what it has moved. */
-static int sweep(stf_carry *T, const stf_carry_stages *g, sunrealtype *norm)
+/* One sweep over the columns that are live. */
+static int sweep(stf_carry *T, const stf_carry_stages *g)
 {
   stf_step *s = T->step;
   const stf_space *space = &s->system.space;
-  for (int k = 0; k < T->count; k++) STEIF_TRY(stf_carry_stage_residuals(T, g, k));
-  STEIF_TRY(T->carrier->apply(s, g->h, T->count, T->r, T->other));
+  for (int i = 0; i < T->live; i++)
+    STEIF_TRY(stf_carry_stage_residuals(T, g, T->column[i], T->r[i]));
+  STEIF_TRY(T->carrier->apply(s, g->h, T->live, T->r, T->other));
   T->sweeps++;
-  *norm = 0;
-  for (int k = 0; k < T->count; k++) {
+  for (int i = 0; i < T->live; i++) {
+    const int k = T->column[i];
     sunrealtype sum = 0;
     for (int j = 0; j < g->m; j++) {
-      const sunrealtype part = stf_norm(space, T->r[k][j], T->weights[k]);
-      stf_axpy(space, 1, T->r[k][j], T->trial[k][g->to + j]);
+      const sunrealtype part = stf_norm(space, T->r[i][j], T->weights[k]);
+      stf_axpy(space, 1, T->r[i][j], T->trial[k][g->to + j]);
       sum += part * part;
     }
-    *norm = sum > *norm * *norm * g->m || !(sum >= 0) ? sqrt(sum / g->m) : *norm;
+    T->moved[i] = sqrt(sum / g->m);
   }
   return STEIF_OK;
+}
+
+/* The largest, and NaN if one is. */
+static sunrealtype largest(const stf_carry *T)
+{
+  sunrealtype most = 0;
+  for (int i = 0; i < T->live && most == most; i++)
+    if (!(T->moved[i] <= most)) most = T->moved[i];
+  return most;
+}
+
+/* Columns that a sweep moved by at most this are done. */
+static void settle(stf_carry *T, sunrealtype enough)
+{
+  int left = 0;
+  for (int i = 0; i < T->live; i++) {
+    if (T->moved[i] <= enough) continue;
+    T->column[left] = T->column[i], T->moved[left++] = T->moved[i];
+  }
+  T->live = left;
 }
 
 static int refuse(stf_carry *T, const stf_carry_stages *g, sunrealtype norm, sunrealtype rate)
@@ -122,11 +149,19 @@ static bool at_rounding(const stf_carry *T, sunrealtype norm, sunrealtype first)
   return norm <= (adaptive ? converged ? 0.1 : 0.01 : converged ? 100 : 1);
 }
 
+/* Of the tolerance of S. In adaptive steps errors of S may be larger than those of y, and so may what the sweeps
+ * leave of them. */
+static sunrealtype sweep_tolerance(const stf_step *s)
+{
+  const sunrealtype most = 0.3, least = 3e-3, index = 1e-4, prescribed = 1e-3;
+  if (!s->adaptive) return fmin(s->newton.tolerance, prescribed);
+  return s->problem->dae_index > 1 ? index : fmax(least, fmin(10 * s->newton.tolerance, most));
+}
+
 int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
 {
   stf_step *s = T->step;
-  const sunrealtype loose = s->problem->dae_index > 1 ? 1e-4 : fmax(3e-3, s->newton.tolerance);
-  const sunrealtype tolerance = s->adaptive ? loose : fmin(s->newton.tolerance, 1e-3);
+  const sunrealtype tolerance = sweep_tolerance(s);
   const sunrealtype known = T->eta > 0 && s->adaptive ? pow(fmax(T->eta, 1e-6), 0.8) : 1;
   sunrealtype norm, first = 0, last = 0, rate = 0;
   bool anew = s->system.linear;
@@ -137,16 +172,21 @@ int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
   }
   for (int k = 0; k < T->count && !g->predicted; k++)
     for (int j = 0; j < g->m; j++) stf_zero(&s->system.space, T->trial[k][g->to + j]);
-  for (int m = 1, all = 1;; m++, all++, last = norm) {
-    STEIF_TRY(sweep(T, g, &norm));
+  T->live = T->count;
+  for (int k = 0; k < T->count; k++) T->column[k] = k;
+  for (int m = 1, all = 1;; m++, all++, last = largest(T)) {
+    STEIF_TRY(sweep(T, g));
+    norm = largest(T);
     if (!(norm <= 1e300)) return refuse(T, g, norm, rate);
     if (s->system.linear || norm == 0) return STEIF_OK;
     first = fmax(first, norm);
-    if (m == 1 && !anew && known * norm <= tolerance) return STEIF_OK;
+    if (m == 1 && !anew) settle(T, tolerance / known);
+    if (m > 1) {
+      rate = norm / last;
+      if (rate < 1) T->eta = rate / (1 - rate), settle(T, tolerance / T->eta);
+    }
+    if (T->live == 0) return STEIF_OK;
     if (m == 1) continue;
-    rate = norm / last;
-    if (rate < 1) T->eta = rate / (1 - rate);
-    if (rate < 1 && T->eta * norm <= tolerance) return STEIF_OK;
     if (rate >= 0.5 && (anew ? at_rounding(T, norm, first) : norm <= s->newton.rounding))
       return STEIF_OK;
     if (!anew && (rate > 0.5 || m >= SWEEPS)) {
@@ -234,13 +274,16 @@ static void exchange(N_Vector **a, N_Vector **b)
 
 void stf_carry_commit(stf_carry *T)
 {
-  T->history = true;
+  const stf_step *s = T->step;
+  T->history = s->restart || !T->history ? 1 : 2;
+  T->h_before = s->h;
   if (T->carrier->commit) {
     T->carrier->commit(T);
     return;
   }
   exchange(&T->before, &T->S);
   exchange(&T->S, &T->next);
-  N_Vector **trial = T->trial;
+  N_Vector **trial = T->trial, **missed = T->missed;
   T->trial = T->kept, T->kept = trial;
+  T->missed = T->misses, T->misses = missed;
 }

@@ -36,8 +36,14 @@ typedef struct stf_carry {
   sunrealtype relative; /* the largest error of a column, in tolerances */
   sunrealtype *K, *rhs; /* carry_direct.c; NULL: sweeps */
   int *pivot;
-  sunrealtype eta;   /* rate / (1 - rate) of the sweeps, when last seen; 0: not yet */
-  bool history;      /* a step has been committed */
+  int live, *column;  /* columns still swept, by their numbers ... */
+  sunrealtype *moved; /* ... and the weighted norm of what the last sweep has moved of each */
+  sunrealtype eta;    /* rate / (1 - rate) of the sweeps, when last seen; 0: not yet */
+  int history;        /* steps committed since a restart, 2 for more */
+  sunrealtype h_before;
+  N_Vector **missed,
+    **misses; /* collocation: stages of the last step and of the attempt less the polynomial ahead */
+  bool steady;       /* the last misses were much like those before */
   sunrealtype noise; /* the largest of differences by p, in tolerances of a column */
   long sweeps;
 } stf_carry;
@@ -60,8 +66,8 @@ int stf_carry_open(stf_step *s, int count, const int *parameter, const sunrealty
 int stf_carry_point(stf_carry *T, int point, sunrealtype t, N_Vector y, N_Vector yp);
 /* STEIF_RETRY where the sweeps do not converge. */
 int stf_carry_solve(stf_carry *T, const stf_carry_stages *g);
-/* T->r[k] = right side - left side, at the dZ of the column. */
-int stf_carry_stage_residuals(stf_carry *T, const stf_carry_stages *g, int k);
+/* r[j] = right side - left side at stage j, at the dZ of column k. */
+int stf_carry_stage_residuals(stf_carry *T, const stf_carry_stages *g, int k, N_Vector *r);
 /* carry_direct.c: the matrix of the stages itself, of few unknowns. STEIF_RETRY: it is singular. */
 int stf_carry_direct_open(stf_carry *T);
 int stf_carry_direct(stf_carry *T, const stf_carry_stages *g);
@@ -93,6 +99,9 @@ typedef struct stf_collocation_stages {
   int (*filter)(stf_step *s, sunrealtype h, N_Vector v);
 } stf_collocation_stages;
 int stf_carry_collocation(stf_carry *T, sunrealtype h, const stf_collocation_stages *c);
+/* carry_predict.c: the start of the sweeps in T->trial, false: none; and what it has missed, when they have ended. */
+bool stf_carry_predict(stf_carry *T, sunrealtype h, const stf_collocation_stages *c);
+void stf_carry_look_back(stf_carry *T, sunrealtype h, const stf_collocation_stages *c);
 
 /* A step of BDF from t to y at t + h with coefficients alpha of past values y_n, y_{n-1}, ... of y, and of S in
  * T->kept; then T->next is the derivative. The sweeps begin at the sum of predict_j kept_j, j < count; NULL: at 0. */

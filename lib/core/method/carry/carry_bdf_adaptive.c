@@ -7,7 +7,7 @@ typedef stf_bdf state;
 static stf_carrier_size sizes(const stf_step *s)
 {
   (void)s;
-  return (stf_carrier_size){1, 1, STF_BDF_POINTS + 1, 1};
+  return (stf_carrier_size){1, 1, STF_BDF_POINTS + 1, 1, 0};
 }
 
 /* T->before: the point between them. */

@@ -69,17 +69,6 @@ static int points(stf_carry *T, sunrealtype h, const stf_collocation_stages *c)
                         : stf_carry_point(T, count, s->t + h, s->next, T->Yp);
 }
 
-/* The polynomial of the last step, ahead. */
-static bool predict(stf_carry *T, sunrealtype h, const stf_collocation_stages *c)
-{
-  const stf_step *s = T->step;
-  if (T->K || s->system.linear || !T->history || s->restart) return false;
-  const sunrealtype *P = stf_stage_polynomial_ahead(c->ahead, h / s->h);
-  for (int k = 0; k < T->count; k++)
-    stf_mix(&s->system.space, c->u->s, c->u->s, P, T->kept[k], T->trial[k]);
-  return true;
-}
-
 int stf_carry_collocation(stf_carry *T, sunrealtype h, const stf_collocation_stages *c)
 {
   stf_step *s = T->step;
@@ -89,12 +78,13 @@ int stf_carry_collocation(stf_carry *T, sunrealtype h, const stf_collocation_sta
   const stf_carry_stages g = {.m = count,
                               .t = s->t + c->u->table->c[count - 1] * h,
                               .h = h,
-                              .predicted = predict(T, h, c),
+                              .predicted = stf_carry_predict(T, h, c),
                               .Y = T->last,
                               .Yp = T->last_slope,
                               .B_over_h = c->B_over_h,
                               .base = T->S};
   STEIF_TRY(stf_carry_solve(T, &g));
+  stf_carry_look_back(T, h, c);
   for (int k = 0; k < T->count; k++) {
     stf_combine(space, count, c->u->end, T->trial[k], T->next[k]);
     stf_axpy(space, 1, T->S[k], T->next[k]);

@@ -72,7 +72,7 @@ int stf_carry_direct(stf_carry *T, const stf_carry_stages *g)
     for (int j = 0; j < g->m; j++) stf_zero(space, T->trial[k][g->to + j]);
   for (int round = 0; round < rounds; round++) {
     for (int k = 0; k < T->count; k++)
-      STEIF_TRY(round ? stf_carry_stage_residuals(T, g, k) : right_sides(T, g, k));
+      STEIF_TRY(round ? stf_carry_stage_residuals(T, g, k, T->r[k]) : right_sides(T, g, k));
     correct(T, g);
   }
   return STEIF_OK;

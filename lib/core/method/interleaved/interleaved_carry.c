@@ -10,7 +10,7 @@ typedef stf_irk_interleaved state;
 static stf_carrier_size sizes(const stf_step *s)
 {
   const state *e = s->state;
-  return (stf_carrier_size){e->s + 1, e->s, e->s, e->s};
+  return (stf_carrier_size){e->s + 1, e->s, e->s, e->s, e->s};
 }
 
 int stf_irk_interleaved_damp(stf_step *s, sunrealtype h, N_Vector v)

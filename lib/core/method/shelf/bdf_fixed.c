@@ -250,7 +250,7 @@ static void keep(stf_step *s, stf_image *m)
 static stf_carrier_size sizes(const stf_step *s)
 {
   const state *e = s->state;
-  return (stf_carrier_size){1, 1, e->p + 2, 1};
+  return (stf_carrier_size){1, 1, e->p + 2, 1, 0};
 }
 
 static int check_carry(const stf_step *s)

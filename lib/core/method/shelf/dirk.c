@@ -151,7 +151,7 @@ static void keep(stf_step *s, stf_image *m)
 static stf_carrier_size sizes(const stf_step *s)
 {
   const state *e = s->state;
-  return (stf_carrier_size){e->s, 1, e->s, e->s};
+  return (stf_carrier_size){e->s, 1, e->s, e->s, 0};
 }
 
 /* Explicit: that of the last slope, or at the beginning of y' = f itself; point 0 is the start. */

@@ -303,7 +303,7 @@ static void keep(stf_step *s, stf_image *m)
 static stf_carrier_size sizes(const stf_step *s)
 {
   const state *e = s->state;
-  return (stf_carrier_size){e->s + s->adaptive, e->s, e->s, e->s};
+  return (stf_carrier_size){e->s + s->adaptive, e->s, e->s, e->s, e->s};
 }
 
 static int carry(stf_carry *T, sunrealtype h)

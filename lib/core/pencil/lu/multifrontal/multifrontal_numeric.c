@@ -312,9 +312,11 @@ bool stf_multifrontal_factor(const stf_multifrontal *f, const double *value, dou
 void stf_multifrontal_solve(const stf_multifrontal *f, const double *in, const int *pivot,
                             int nrhs, double *b, sunindextype ld, double *work)
 {
-  const int most = stf_simd_width() == STF_FRONTS_COLUMNS ? STF_FRONTS_COLUMNS : 4;
-  for (; nrhs > 0; nrhs -= most, b += most * ld) {
-    const int now = nrhs < most ? nrhs : most, of = now == 1 ? 1 : now <= 4 ? 4 : most;
+  const int most = stf_simd_width() >= STF_LANES ? STF_FRONTS_COLUMNS : STF_LANES;
+  for (int now; nrhs > 0; nrhs -= now, b += now * ld) {
+    now = nrhs < most ? nrhs : most;
+    if (now == STF_LANES + 1) now = STF_LANES; /* and one alone */
+    const int of = now == 1 ? 1 : now <= STF_LANES ? STF_LANES : most;
     for (int k = 0; k < f->n; k++)
       for (int q = 0; q < of; q++) work[of * k + q] = q < now ? b[ld * q + f->order[k]] : 0;
     best()->solve(of, f, in, pivot, work);
