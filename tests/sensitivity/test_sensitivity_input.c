@@ -150,6 +150,77 @@ static void wrong_signs_are_named(void)
   steif_context_free(&ctx);
 }
 
+/* dF/dp of x' = -a x + b sin 10t with `factor` times the entry of a, or one of b where there is none at the start. */
+static sunrealtype factor_of_a, more_of_b;
+
+static int one_entry_off(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out,
+                         void *user)
+{
+  (void)yp, (void)user;
+  NV_Ith_S(out, 0) = k == 0   ? factor_of_a * NV_Ith_S(y, 0)
+                     : k == 1 ? -sin(10 * t) + more_of_b * t
+                              : 0;
+  return 0;
+}
+
+static void wrong_entries_are_named(void)
+{
+  const struct {
+    sunrealtype a, b;
+    const char *said;
+  } trial[] = {{1, 0, NULL},          {1 + 1e-5, 0, NULL},     {1.01, 0, "parameter 1"},
+               {0, 0, "parameter 1"}, {1, 0.1, "parameter 2"}, {2, 0, "equation e1"}};
+  steif_context *ctx = steif_context_new(NULL);
+  struct forcing F;
+  steif_options o = steif_defaults();
+  forcing_open(&F, 0);
+  F.y0[0] = 1, F.parameters.dFdp = one_entry_off, o.sensitivities = 1;
+  for (size_t i = 0; i < sizeof trial / sizeof *trial; i++) {
+    factor_of_a = trial[i].a, more_of_b = trial[i].b;
+    if (trial[i].said)
+      refused(ctx, &F.problem, "radau:s=3", &o, STEIF_BAD_INPUT, trial[i].said);
+    else {
+      steif_solver *s = steif_solver_new(ctx, &F.problem, "radau:s=3", &o);
+      CHECK(s != NULL);
+      steif_solver_free(&s);
+    }
+  }
+  steif_context_free(&ctx);
+}
+
+/* Terms of 1e14 that cancel, parameters that are lost in them, and corners: true derivatives are not refused. */
+static int hard_f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  const sunrealtype *p = user, x = NV_Ith_S(y, 0), large = 1e14 * x;
+  (void)t;
+  NV_Ith_S(ydot, 0) = (large + p[0] * x) - large + fmax(p[1], 0) + 1e-9 * p[2] * x * x - x;
+  return 0;
+}
+
+static int hard_slope(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  const sunrealtype x = NV_Ith_S(y, 0);
+  (void)t, (void)yp, (void)user;
+  NV_Ith_S(out, 0) = k == 0 ? -x : k == 1 ? -1 : -1e-9 * x * x;
+  return 0;
+}
+
+static void true_entries_are_not_refused(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  struct forcing F;
+  steif_options o = steif_defaults();
+  forcing_open(&F, 0);
+  F.problem.f = hard_f, F.problem.jac = NULL, F.problem.linear = 0;
+  F.y0[0] = 0.7, F.p[0] = 0.3, F.p[1] = 0, F.p[2] = 1;
+  F.parameters.dFdp = hard_slope, o.sensitivities = 1;
+  steif_solver *s = steif_solver_new(ctx, &F.problem, "radau:s=3", &o);
+  CHECK(s != NULL);
+  if (!s) puts(steif_message(ctx));
+  steif_solver_free(&s);
+  steif_context_free(&ctx);
+}
+
 /* Differences by p at a tolerance of their rounding: the run ends in as many steps as with dFdp, or a few times that. */
 static void noise_does_not_shorten_steps(void)
 {
@@ -243,6 +314,8 @@ CU_TestInfo tests_of_sensitivity_input[] = {
   {"inconsistent derivatives of starts are refused",
    inconsistent_derivatives_of_starts_are_refused},
   {"wrong signs are named", wrong_signs_are_named},
+  {"wrong entries are named", wrong_entries_are_named},
+  {"true entries are not refused", true_entries_are_not_refused},
   {"noise does not shorten steps", noise_does_not_shorten_steps},
   {"wrong columns are refused", wrong_columns_are_refused},
   {"memory may fail anywhere, and none is taken while stepping", memory_may_fail_anywhere},

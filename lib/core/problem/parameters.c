@@ -74,7 +74,7 @@ static int residual(const point *at, N_Vector r)
 
 /* ---- differences ------------------------------------------------------------------------------ */
 
-static sunrealtype increment(const steif_parameters *q, int k)
+sunrealtype stf_slopes_increment(const steif_parameters *q, int k)
 {
   const sunrealtype typical = q->scale ? fabs(q->scale[k]) : fabs(q->value[k]);
   return cbrt(STF_EPS) * (typical > 0 ? typical : 1);
@@ -97,7 +97,7 @@ static int differ(const steif_parameters *q, int k, int (*what)(const point *at,
                   const point *at, N_Vector out)
 {
   N_Vector other = at->other;
-  const sunrealtype p = q->value[k], d = increment(q, k);
+  const sunrealtype p = q->value[k], d = stf_slopes_increment(q, k);
   volatile sunrealtype up = p + d, down = p - d;
   int code = with(q, k, up, what, at, out);
   if (code > 0) code = with(q, k, up = p, what, at, out);
@@ -231,19 +231,24 @@ int stf_slopes_at(stf_slopes *at, int k, sunrealtype t, N_Vector y, N_Vector yp,
   return told(at->ctx, p, returned, k, before);
 }
 
-int stf_slopes_differ(stf_slopes *at, int k, sunrealtype t, N_Vector y, N_Vector yp,
-                      N_Vector out)
+int stf_slopes_between(stf_slopes *at, int k, sunrealtype t, N_Vector y, N_Vector yp, int low,
+                       int high, N_Vector out)
 {
+  const steif_parameters *q = at->problem->parameters;
   const long before = stf_failures(at->ctx);
+  const sunrealtype p = q->value[k], d = stf_slopes_increment(q, k);
+  const volatile sunrealtype up = p + high * d, down = p + low * d;
   at->t = t, at->y = y, at->yp = yp;
-  return told(at->ctx, at->problem, differ(at->problem->parameters, k, residual, at, out), k,
-              before);
+  int code = with(q, k, up, residual, at, out);
+  if (!code) code = with(q, k, down, residual, at, at->other);
+  if (!code) N_VLinearSum(1 / (up - down), out, -1 / (up - down), at->other, out);
+  return told(at->ctx, at->problem, code, k, before);
 }
 
 sunrealtype stf_slopes_noise(const stf_slopes *at, int k)
 {
   const steif_parameters *q = at->problem->parameters;
-  return q->dFdp ? 0 : STF_EPS / increment(q, k);
+  return q->dFdp ? 0 : STF_EPS / stf_slopes_increment(q, k);
 }
 
 int steif_parameter_start(steif_context *ctx, const steif_problem *p, int k, N_Vector out)

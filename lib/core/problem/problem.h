@@ -146,10 +146,11 @@ int stf_slopes_open(stf_pool *pool, steif_context *ctx, const steif_problem *pro
 int stf_slopes_at(stf_slopes *slopes, int k, sunrealtype t, N_Vector y, N_Vector yp,
                   N_Vector out);
 
-/* The same by differences, whatever callbacks there are; and how many times the size of the terms of F the rounding of
- * such a difference is, 0 where a callback gives dF/dp. */
-int stf_slopes_differ(stf_slopes *slopes, int k, sunrealtype t, N_Vector y, N_Vector yp,
-                      N_Vector out);
+/* Whatever callbacks there are, by one difference, p_k from `low` to `high` increments off. */
+int stf_slopes_between(stf_slopes *slopes, int k, sunrealtype t, N_Vector y, N_Vector yp,
+                       int low, int high, N_Vector out);
+sunrealtype stf_slopes_increment(const steif_parameters *q, int k);
+/* How many times the size of the terms of F the rounding of a difference is, 0 where a callback gives dF/dp. */
 sunrealtype stf_slopes_noise(const stf_slopes *slopes, int k);
 
 /* matrices_at.c: E and A at several points, beside those of the pencil; a linear system has one pair. Needs

@@ -52,6 +52,8 @@ int stf_saltation_remember(steif_solver *s, const char *who);
 
 /* start_derivatives.c: T->S of a start that was repaired; or of one with hidden constraints, checked. */
 int stf_start_derivatives(steif_solver *s, stf_carry *T);
+/* probe_slopes.c: STEIF_BAD_INPUT where dF/dp is not that of F. */
+int stf_probe_slopes(steif_solver *s, stf_carry *T);
 /* sensitivity.c: the place of parameter k in the list of columns. */
 int stf_column(const steif_solver *s, int k, int *i);
 /* value[k] = value, and what the problem keeps of it. */

@@ -99,30 +99,6 @@ static int check_start(steif_solver *s, stf_carry *T)
   return code > 0 ? steif_status(s->ctx) : code;
 }
 
-/* dF/dp as it is given, against a difference at the start: one of f in place of F has the other sign. Differences of
- * functions that are not smooth there tell nothing. */
-static int probe(steif_solver *s, stf_carry *T)
-{
-  const stf_step *step = &s->step;
-  const steif_parameters *q = s->problem->parameters;
-  N_Vector given = T->error[0], found = T->Y, off = T->Yp;
-  for (int k = 0; q->dFdp && k < T->count; k++) {
-    const bool before = stf_silence(s->ctx, true);
-    int code = stf_slopes_at(T->slopes, T->parameter[k], step->t, step->y, step->yp, given);
-    if (!code)
-      code = stf_slopes_differ(T->slopes, T->parameter[k], step->t, step->y, step->yp, found);
-    stf_silence(s->ctx, before);
-    if (code) continue; /* the first step says so */
-    const sunrealtype size = fmax(N_VMaxNorm(given), N_VMaxNorm(found));
-    N_VLinearSum(1, given, 1, found, off);
-    STEIF_CHECK(!(size > 0) || N_VMaxNorm(off) > 1e-3 * size, s->ctx, STEIF_BAD_INPUT,
-                "dF/dp of parameter %d of problem '%s' has the wrong sign at the start: F is "
-                "y' - f or M y' - f, and its derivative -df/dp",
-                T->parameter[k] + 1, s->problem->name);
-  }
-  return STEIF_OK;
-}
-
 int stf_sensitivity_open(steif_solver *s)
 {
   const steif_options *o = &s->options;
@@ -148,7 +124,7 @@ int stf_sensitivity_open(steif_solver *s)
                 "dy0/dp of parameter %d of problem '%s' is not finite", parameter[k] + 1,
                 s->problem->name);
   }
-  STEIF_TRY(probe(s, T));
+  STEIF_TRY(stf_probe_slopes(s, T));
   STEIF_TRY(stf_start_derivatives(s, T));
   STEIF_TRY(check_start(s, T));
   s->step.carry = T;
