@@ -6,12 +6,19 @@
 static const struct {
   const char *name;
   int (*run)(struct call *call);
-} benchmarks[] = {{"step", bench_step},         {"books", bench_cost_accounting},
-                  {"workprec", bench_workprec}, {"success", bench_success},
-                  {"impulse", bench_impulse},   {"phi", bench_phi},
-                  {"lyapunov", bench_lyapunov}, {"model", bench_model},
-                  {"lorenz", bench_lorenz},     {"certificates", bench_certificates},
-                  {"verdicts", bench_verdicts}, {"scale", bench_scale}};
+} benchmarks[] = {{"step", bench_step},
+                  {"books", bench_cost_accounting},
+                  {"workprec", bench_workprec},
+                  {"success", bench_success},
+                  {"impulse", bench_impulse},
+                  {"phi", bench_phi},
+                  {"lyapunov", bench_lyapunov},
+                  {"model", bench_model},
+                  {"lorenz", bench_lorenz},
+                  {"certificates", bench_certificates},
+                  {"verdicts", bench_verdicts},
+                  {"scale", bench_scale},
+                  {"sensitivity", bench_sensitivity}};
 enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
 static const char *name_at(const void *list, size_t i)
@@ -62,7 +69,7 @@ const struct verb verb_bench = {
   .about = "Measure steps against their kernels, solves against CVODE, IDA, ARKODE, and these "
            "against direct C programs",
   .usage = "[step|books|workprec|success|impulse|phi|lyapunov|model|lorenz|certificates|"
-           "verdicts|scale]",
+           "verdicts|scale|sensitivity]",
   .most = 1,
   .picture = true,
   .option = options,

@@ -20,6 +20,7 @@ int bench_impulse(struct call *call);
 int bench_phi(struct call *call);
 int bench_lorenz(struct call *call);
 int bench_scale(struct call *call);
+int bench_sensitivity(struct call *call);
 
 /* The report of a benchmark that has come to the end of its plan, or why it stopped; frees it. */
 int bench_present(struct call *call, steif_report **r);

@@ -262,6 +262,30 @@ static void grids(void)
   steif_context_free(&ctx);
 }
 
+/* A break at 1.1: not passed, and not in the way of runs that end before it. */
+static void breaks_beyond_the_end(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_options o = steif_defaults();
+  static double S[96], known[96];
+  o.rtol = 1e-8, o.t1 = 1, o.sensitivities = 1;
+  if (there(ctx) && !steif_problem_find(ctx, "bruss2d:n=4", &p)) {
+    columns(ctx, &p, "radau:s=5", &o, 3, known, NULL);
+    for (int m = 0; m < 4; m++) {
+      columns(ctx, &p, methods[m], &o, 3, S, NULL);
+      for (int i = 0; i < 96; i++) CLOSE_FLOOR(S[i], known[i], 1e-5, 1);
+      steif_solver *s = steif_solver_new(ctx, &p, methods[m], &o);
+      CHECK(s && steif_solve_to(s, 1) == STEIF_OK);
+      steif_solver_free(&s);
+    }
+    o.t1 = 2;
+    refused(ctx, &p, "cvodes", &o, STEIF_UNSUPPORTED, "breaks");
+    steif_problem_clear(ctx, &p);
+  }
+  steif_context_free(&ctx);
+}
+
 static void what_is_refused(void)
 {
   static const int twice[] = {1, 1}, far[] = {9};
@@ -338,6 +362,7 @@ CU_TestInfo tests_of_columns[] = {
   {"their own differences", their_own_differences},
   {"otherwise the same", otherwise_the_same},
   {"grids", grids},
+  {"breaks beyond the end", breaks_beyond_the_end},
   {"what is refused", what_is_refused},
   {"failing memory leaks nothing", failing_memory_leaks_nothing},
   CU_TEST_INFO_NULL};

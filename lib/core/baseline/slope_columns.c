@@ -30,6 +30,17 @@ int stf_slope_open(stf_slope_columns *c, stf_baseline *base, bool *exact)
   return STEIF_OK;
 }
 
+int stf_slope_unbroken(const stf_baseline *base)
+{
+  const stf_run *run = base->run;
+  STEIF_CHECK(
+    !run->columns.count || !base->restart, run->ctx, STEIF_UNSUPPORTED,
+    "%s carries no sensitivities through the break of problem '%s' at t = %.12g: take "
+    "radau:s=3",
+    base->package, run->problem->name, run->t);
+  return STEIF_OK;
+}
+
 static int add_slope(stf_slope_columns *c, int k, sunrealtype t, N_Vector y, N_Vector yp,
                      sunrealtype sign, N_Vector out)
 {

@@ -14,6 +14,8 @@ typedef struct stf_slope_columns {
 
 /* Room for what follows; exact: the problem has what these need, else the package takes its own differences. */
 int stf_slope_open(stf_slope_columns *c, stf_baseline *base, bool *exact);
+/* STEIF_UNSUPPORTED where a run with columns has come to a break. */
+int stf_slope_unbroken(const stf_baseline *base);
 /* out_k = df/dy S_k + df/dp_k of y' = f, for all columns. */
 int stf_slope_rhs(stf_slope_columns *c, sunrealtype t, N_Vector y, N_Vector fy, N_Vector *S,
                   N_Vector *out);

@@ -106,6 +106,7 @@ static void cost(const stf_run *run, void *state, steif_sensitivity_cost *spent)
 
 static int step(stf_run *run, void *state, sunrealtype t_stop)
 {
+  STEIF_TRY(stf_slope_unbroken(state));
   const int code = steif_engine_cvode.step(run, state, t_stop);
   count(run, state);
   return code;
@@ -113,6 +114,7 @@ static int step(stf_run *run, void *state, sunrealtype t_stop)
 
 static int advance(stf_run *run, void *state, sunrealtype t, sunrealtype t_stop, long steps)
 {
+  STEIF_TRY(stf_slope_unbroken(state));
   const int code = steif_engine_cvode.advance(run, state, t, t_stop, steps);
   count(run, state);
   return code;

@@ -110,6 +110,7 @@ static void cost(const stf_run *run, void *state, steif_sensitivity_cost *spent)
 
 static int step(stf_run *run, void *state, sunrealtype t_stop)
 {
+  STEIF_TRY(stf_slope_unbroken(state));
   const int code = steif_engine_ida.step(run, state, t_stop);
   count(run, state);
   return code;
@@ -117,6 +118,7 @@ static int step(stf_run *run, void *state, sunrealtype t_stop)
 
 static int advance(stf_run *run, void *state, sunrealtype t, sunrealtype t_stop, long steps)
 {
+  STEIF_TRY(stf_slope_unbroken(state));
   const int code = steif_engine_ida.advance(run, state, t, t_stop, steps);
   count(run, state);
   return code;

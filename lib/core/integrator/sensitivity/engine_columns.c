@@ -11,7 +11,8 @@ static int check(const steif_solver *s)
   const steif_parameters *q = p->parameters;
   STEIF_CHECK(q && q->count > 0 && q->value, s->ctx, STEIF_BAD_INPUT,
               "problem '%s' has no parameters: set .parameters", p->name);
-  REFUSE((p->events > 0 && p->handle_event) || p->break_count > 0,
+  const bool broken = p->break_count > 0 && p->breaks[0] <= s->t1;
+  REFUSE((p->events > 0 && p->handle_event) || broken,
          "'%s' carries no sensitivities through breaks and handled events such as those of "
          "problem '%s': take radau:s=3",
          s->spec, p->name);
