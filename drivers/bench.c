@@ -47,7 +47,10 @@ static const struct option options[] = {
   {"--longest", POSITIVE, "S",
    "a solve ends after S processor seconds (default: 2; phi: 10; --quick: 0.1)", NULL},
   {"--runs", FLAG, NULL,
-   "workprec, success: every run as well, not the best, or the worst, alone", NULL},
+   "workprec, success: every run as well, not the best, or the worst, alone; verdicts: those "
+   "left "
+   "open, too",
+   NULL},
   {"--quick", FLAG, NULL,
    "success, certificates, verdicts: a part of the campaign, in a minute", NULL},
   {"--seeds", COUNT, "N",

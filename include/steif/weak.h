@@ -56,9 +56,12 @@ typedef struct steif_weak_result {
    * have a say: at least three in a row, whose last two orders agree within 0.25 and do not move
    * away from a whole number. "exact to rounding" takes three rows with errors below 4 times and
    * rounding below 1e-9 of the value. A test function with g^(q)(0) = 0 for a q below the index that
-   * matters sees nothing of those impulses and lets nothing converge. A run is linear in x(0-) and f:
-   * where there are impulses of several orders, or a smooth part, each is measured by itself, too.
-   * One that does not converge leaves the verdict open, one of lower order gives the order. */
+   * matters sees nothing of those impulses. A run is linear in x(0-) and f: where a second run tells
+   * rounding, impulses of every order are measured by themselves, on Jordan blocks in many digits, and
+   * the smooth part from x(0+), where need be with (1 - t/t1)^n, with other steps, and all components
+   * together. Impulses above rounding that do not converge by themselves are the verdict, even if these
+   * rows do not show it; where all parts converge, these decide what the rows leave open, and the lowest
+   * order is that of the whole. Where it is not known, `order` is NAN. */
   char verdict[256];
   int converges;        /* 1, 0, or -1: undecided */
   sunrealtype order;    /* where it converges and shows one, else NAN */

@@ -48,21 +48,23 @@ static const struct known {
   const char *method;
   int k;
   enum steif_convention convention;
-  int first; /* 1/h */
+  int first, order; /* 1/h; weak order */
   double error[5];
 } known[] = {
   {"gauss:s=3",
    4,
    STEIF_STAGE,
    64,
+   2,
    {.119079704885, .02981030616575, .007455100241128, .001863932790781, 4.6599e-4}},
   {"gauss:s=3",
    5,
    STEIF_STAGE,
    64,
+   2,
    {-6.635260667829, -1.660174326352, -.4151285291008, -.1037874414955, -2.5947e-2}},
-  {"be", 12, STEIF_R, 16, {71739.42309, 35238.01451, 17452.72568, 8683.609623, 4330.96062}},
-  {"be", 11, STEIF_R, 64, {16246.76101, 8051.061803, 4007.360165, 0, 0}},
+  {"be", 12, STEIF_R, 16, 1, {71739.42309, 35238.01451, 17452.72568, 8683.609623, 4330.96062}},
+  {"be", 11, STEIF_R, 64, 1, {16246.76101, 8051.061803, 4007.360165, 0, 0}},
 };
 
 static void errors_are_right_within_their_levels(void)
@@ -74,7 +76,8 @@ static void errors_are_right_within_their_levels(void)
     steif_weak_result result;
     CHECK(!weak_rows(ctx, a->method, a->k, "N-inc", a->convention, NULL, 1.0 / a->first, 5, row,
                      &result));
-    CHECK(result.converges == -1 && !strncmp(result.verdict, "undecided: ", 11));
+    CHECK(result.converges != 0);
+    CHECK(isnan(result.order) || fabs(result.order - a->order) < 0.25);
     for (int j = 0; j < 5 && a->error[j] != 0; j++)
       CHECK(fabs(row[j].error - a->error[j]) <=
             1.25 * row[j].rounding + 1e-4 * fabs(a->error[j]));
@@ -141,8 +144,7 @@ static void impulses_may_be_too_small_to_be_seen(void)
                                   .h = 1.0 / 64,
                                   .rows = 4};
   CHECK(!steif_weak_measure(ctx, &query, row, &result) && fabs(row[3].order - 3) < 0.05);
-  CHECK(result.converges == -1 &&
-        strstr(result.verdict, "by themselves impulses of order 3") != NULL);
+  CHECK(result.converges == 0 && strstr(result.verdict, "impulses of order 3") != NULL);
   x0[4] = 0;
   CHECK(!steif_weak_measure(ctx, &query, row, &result) && result.converges == 1);
   SUNMatDestroy(l.E), SUNMatDestroy(l.F);

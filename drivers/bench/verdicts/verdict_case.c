@@ -114,7 +114,8 @@ static enum verdict_outcome judge(const verdict_case *c)
     return VERDICT_FALSE;
   if (c->off > OUTSIDE) return VERDICT_ERROR_BAR;
   if (converges < 0) return VERDICT_OPEN;
-  if (converges == 1 && c->result.order > c->truth + APART && c->g != functions[BUMP])
+  if (converges == 1 && fabs(c->result.order - c->truth) > APART && isfinite(c->truth) &&
+      c->g != functions[BUMP])
     return VERDICT_ORDER;
   return VERDICT_RIGHT;
 }

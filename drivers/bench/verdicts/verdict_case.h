@@ -17,8 +17,8 @@ enum { VERDICT_ROWS = 5, VERDICT_MOST = 512 };
 enum verdict_outcome {
   VERDICT_RIGHT,
   VERDICT_OPEN,
-  VERDICT_FALSE,     /* converges, or not, against the truth */
-  VERDICT_ORDER,     /* converges with an order that is another one for smaller steps */
+  VERDICT_FALSE, /* converges, or not, against the truth */
+  VERDICT_ORDER, /* converges with an order that is another one for smaller steps, or for most g */
   VERDICT_ERROR_BAR, /* an error of a usable row is outside twice its rounding level */
   VERDICT_FAILED,
   VERDICT_OUTCOMES

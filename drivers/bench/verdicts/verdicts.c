@@ -3,20 +3,41 @@
 #include "benchmarks.h"
 #include "verdict_case.h"
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 enum { SEEDS = 10000, QUICK = 300 };
 
+/* Words of verdicts that leave a question open. */
+static const char *const reasons[] = {"differ; ask for",
+                                      "on the way to another",
+                                      "fall slowly",
+                                      "do not resolve",
+                                      "three rows decide",
+                                      "rounding from",
+                                      "does not see impulses",
+                                      "by themselves",
+                                      "every part",
+                                      "undecided"};
+enum { REASONS = sizeof reasons / sizeof *reasons };
+
 typedef struct campaign {
   method_orders known;
   verdict_case one;
-  long count[VERDICT_OUTCOMES], of_method[64][VERDICT_OUTCOMES];
+  long count[VERDICT_OUTCOMES], of_method[64][VERDICT_OUTCOMES], open[REASONS];
 } campaign;
 
-static void note(steif_report *r, const verdict_case *c, const char *message)
+static void give_reason(campaign *p)
+{
+  int i = 0;
+  while (i + 1 < REASONS && !strstr(p->one.result.verdict, reasons[i])) i++;
+  p->open[i]++;
+}
+
+static void note(steif_report *r, const verdict_case *c, bool runs, const char *message)
 {
   const asked_method *a = asked_method_at(c->method);
-  if (c->outcome == VERDICT_RIGHT || c->outcome == VERDICT_OPEN) return;
+  if (c->outcome == VERDICT_RIGHT || (c->outcome == VERDICT_OPEN && !runs)) return;
   steif_report_row(r, "others");
   steif_report_text(r, "others.outcome", verdict_outcome_name(c->outcome));
   steif_report_whole(r, "others.seed", c->seed);
@@ -35,13 +56,15 @@ static void note(steif_report *r, const verdict_case *c, const char *message)
 static int run(struct call *call, campaign *p, long seeds, steif_report *r)
 {
   const long first = whole_or(call, "--first", 1);
+  const bool runs = given(call, "--runs");
   for (long k = 0; k < seeds; k++) {
     const long seed = first + k;
     if (k % 50 == 0) progress(call, "%ld of %ld", k, seeds);
     if (verdict_case_run(call->ctx, seed, &p->known, &p->one)) return fail(call);
     p->count[p->one.outcome]++;
     p->of_method[p->one.method][p->one.outcome]++;
-    note(r, &p->one, steif_message(call->ctx));
+    if (p->one.outcome == VERDICT_OPEN) give_reason(p);
+    note(r, &p->one, runs, steif_message(call->ctx));
   }
   return EXIT_OK;
 }
@@ -58,6 +81,11 @@ static void tell(steif_report *r, const campaign *p, double cpu_s)
       snprintf(name, sizeof name, "rows.%s", verdict_outcome_name((enum verdict_outcome)k));
       steif_report_whole(r, name, p->of_method[i][k]);
     }
+  }
+  for (int i = 0; i < REASONS; i++) {
+    steif_report_row(r, "reasons");
+    steif_report_text(r, "reasons.undecided", reasons[i]);
+    steif_report_whole(r, "reasons.count", p->open[i]);
   }
   for (int k = 0; k < VERDICT_OUTCOMES; k++)
     steif_report_whole(r, verdict_outcome_name((enum verdict_outcome)k), p->count[k]);

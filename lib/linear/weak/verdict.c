@@ -3,6 +3,7 @@
 #include "weak_inside.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Orders within FLAT of zero mean a limit other than the exact value; orders AGREED apart are one;
  * the distance of an order from the whole number it tends to halves from row to row, a term of lower
@@ -16,7 +17,7 @@
 /* Changes of an error that comes to a limit: so much of the one before, or of the error itself. */
 #define HALVED 0.65
 #define STILL 0.02
-enum { LEAST = 3 }; /* rows */
+enum { LEAST = STF_LEAST_ROWS };
 
 static bool zero(const stf_judged *j, size_t i)
 {
@@ -24,6 +25,17 @@ static bool zero(const stf_judged *j, size_t i)
   return fabs(r->error) <= TIMES * r->rounding &&
          r->rounding <= TINY * fmax(j->size, fabs(r->value));
 }
+
+static bool nothing(const stf_judged *j)
+{
+  for (size_t i = 0; i < j->rows; i++)
+    if (!zero(j, i)) return false;
+  return true;
+}
+
+static const char exact[] = "exact to rounding at every h measured";
+
+bool stf_weak_is_exact(const steif_weak_result *r) { return !strcmp(r->verdict, exact); }
 
 /* Rows from `from` on that are zero to rounding, all to the last. */
 static bool zeros(const stf_judged *j, size_t from)
@@ -99,9 +111,10 @@ static int too_few(const stf_judged *j, size_t from, size_t usable, steif_weak_r
       j->row[j->rows - 1].h, j->fastest, j->longest);
   if (zeros(j, from + usable)) {
     r->converges = 1;
-    return usable ? snprintf(text, room, "converges weakly, below rounding from h = %.3g on",
-                             j->row[from + usable].h)
-                  : snprintf(text, room, "exact to rounding at every h measured");
+    return usable || !nothing(j)
+             ? snprintf(text, room, "converges weakly, below rounding from h = %.3g on",
+                        j->row[from + usable].h)
+             : snprintf(text, room, "%s", exact);
   }
   if (j->rows - from < LEAST)
     return snprintf(text, room, "undecided: %s; ask for more (--halvings)",

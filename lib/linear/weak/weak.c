@@ -33,7 +33,7 @@ static int fill_row(stf_measure *w, size_t i, const steif_weak_result *result,
     error = all ? hypot(error, v - w->exact[m]) : v - w->exact[m];
   }
   row[i] = (steif_weak_row){h, value, error, NAN, level, 0};
-  row[i].usable = level <= USABLE * fabs(error) && isfinite(error);
+  row[i].usable = level <= USABLE * fabs(error) && error != 0 && isfinite(error);
   if (i > 0) row[i].order = log2(fabs(row[i - 1].error / row[i].error));
   return STEIF_OK;
 }
@@ -170,6 +170,16 @@ static void doubt(const stf_measure *w, steif_weak_result *result)
     method, w->subject.n, seen);
 }
 
+/* Are they what the verdict is about? */
+static bool has_parts(const stf_measure *w)
+{
+  const steif_weak_query *q = w->query;
+  const sunrealtype t1 = (sunrealtype)w->subject.weight.t1;
+  const bool inside =
+    stf_break_inside(q->break_count, q->breaks, t1, w->h) < q->break_count && !w->mesh.anew;
+  return (w->longer || q->exact) && !inside && q->rows >= STF_LEAST_ROWS;
+}
+
 static int measure(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,
                    bool parts, steif_weak_result *result)
 {
@@ -178,7 +188,7 @@ static int measure(steif_context *ctx, const steif_weak_query *query, steif_weak
   stf_measure w;
   int code = stf_measure_open(ctx, query, &w);
   if (!code) code = measure_rows(&w, row, result);
-  if (!code && parts && result->converges >= 0) code = stf_measure_parts(&w, result);
+  if (!code && parts && has_parts(&w)) code = stf_measure_parts(&w, result);
   if (!code && result->converges >= 0) doubt(&w, result);
   stf_measure_close(&w);
   return code;

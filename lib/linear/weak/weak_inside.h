@@ -65,6 +65,8 @@ size_t stf_break_inside(size_t count, const sunrealtype *breaks, sunrealtype t1,
 sunrealtype stf_break_step(size_t count, const sunrealtype *breaks, sunrealtype t1,
                            sunrealtype h);
 
+enum { STF_LEAST_ROWS = 3 }; /* that show an order */
+
 /* What the rows of a measure are judged by. */
 typedef struct stf_judged {
   const steif_weak_row *row;
@@ -82,5 +84,7 @@ typedef struct stf_judged {
 void stf_say_inside(const stf_judged *judged, const char *what, char *text, size_t room);
 /* Fills in verdict and converges. */
 void stf_weak_judge(const stf_judged *judged, steif_weak_result *result);
+/* The verdict is that errors are 0 in all rows. */
+bool stf_weak_is_exact(const steif_weak_result *result);
 
 #endif
