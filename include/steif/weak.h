@@ -39,8 +39,9 @@ enum steif_convention { STEIF_P, STEIF_R, STEIF_C, STEIF_STAGE };
  * own, with entries exactly those of the run in double), added to what random changes of f and t by
  * parts of eps make of that, to four times the largest difference between such runs with the unknowns in
  * other orders, where the run has coordinates of its own, and to the accuracy of the exact value.
- * Methods that have no such second run (general linear ones, Rosenbrock, auto; more than 400 stage
- * values): 16 times the largest difference between runs on multiples of the data, which decides no
+ * For general linear methods with one real shift the coefficients are the doubles of the family in both
+ * runs. Methods that have no such second run (Rosenbrock, auto, general linear ones with other C; more than
+ * 400 stage values): 16 times the largest difference between runs on multiples of the data, which decides no
  * verdict. */
 typedef struct steif_weak_row {
   sunrealtype h, value, error,

@@ -216,7 +216,9 @@ int steif_convention_usual(steif_context *ctx, const char *method, const char *s
   if (strcmp(method, "cobb")) STEIF_TRY(steif_method_find(ctx, method, &m));
   const bool table = !strcmp(m.family, "irk") || !strcmp(m.family, "dirk");
   *convention =
-    m.stages > 1 || (table && strncmp(method, "radau:s=1", 9)) ? STEIF_STAGE : STEIF_R;
+    (m.stages > 1 && strcmp(m.family, "glm") != 0) || (table && strncmp(method, "radau:s=1", 9))
+      ? STEIF_STAGE
+      : STEIF_R;
   if (strstr(method, "start=cq") || (start && !strcmp(start, "cq"))) *convention = STEIF_C;
   return STEIF_OK;
 }

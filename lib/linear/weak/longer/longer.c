@@ -43,10 +43,23 @@ int stf_recurrence_of(steif_context *ctx, const char *method, int *stages)
   return short_of ? STEIF_NO_MEMORY : STEIF_OK;
 }
 
+static bool general(const char *method) { return !strncmp(method, "glm:", 4); }
+
+static int find_general(steif_context *ctx, const char *method, int *stages)
+{
+  const long failures = stf_failures(ctx);
+  const bool silent = stf_silence(ctx, true);
+  stf_longer_general_serves(ctx, method, stages);
+  stf_silence(ctx, silent);
+  const bool short_of = stf_failures(ctx) > failures && steif_status(ctx) == STEIF_NO_MEMORY;
+  return short_of ? STEIF_NO_MEMORY : STEIF_OK;
+}
+
 int stf_longer_serves(steif_context *ctx, const char *method, int n, bool *serves)
 {
   int s;
-  STEIF_TRY(stf_recurrence_of(ctx, method, &s));
+  STEIF_TRY(general(method) ? find_general(ctx, method, &s)
+                            : stf_recurrence_of(ctx, method, &s));
   *serves = LDBL_MANT_DIG > DBL_MANT_DIG && s > 0 && s * n <= LARGEST;
   return STEIF_OK;
 }
@@ -77,6 +90,7 @@ int stf_longer_force(stf_longer *run, size_t i, long double c, long double *out)
 static int dispatch(stf_longer *run)
 {
   steif_spec spec;
+  if (general(run->method)) return stf_longer_general(run, run->method);
   STEIF_TRY(steif_spec_parse(run->ctx, run->method, &spec));
   if (!bdf(&spec)) return stf_longer_stages(run, run->method);
   int p;

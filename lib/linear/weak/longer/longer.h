@@ -1,8 +1,8 @@
 /* longer.h: runs with constant steps on E x' + F x = f in long double, by recurrences of their own: what
  * a run in double differs from them by is its rounding, whatever the run does inside.
  *
- * Served are be and bdf with every starting procedure, and Runge-Kutta tables with regular A. Nodes and
- * weights of collocation are those of long double; entries of E, F, x(0-) and values of f are the
+ * Served are be and bdf with every starting procedure, Runge-Kutta tables with regular A, and general linear
+ * methods with one real shift. Nodes and weights of collocation are those of long double; entries of E, F, x(0-) and values of f are the
  * doubles of the run.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_LONGER_H
@@ -63,5 +63,8 @@ int stf_longer_force(stf_longer *run, size_t i, long double c, long double *out)
 long double stf_longer_shake(stf_longer *run);
 int stf_longer_multistep(stf_longer *run, int p, const char *start);
 int stf_longer_stages(stf_longer *run, const char *method);
+int stf_longer_general(stf_longer *run, const char *method);
+/* Stage values of a general linear method with one real shift; 0: it is none. */
+int stf_longer_general_serves(steif_context *ctx, const char *method, int *stages);
 
 #endif

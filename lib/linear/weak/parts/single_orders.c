@@ -81,8 +81,10 @@ static sunrealtype least_order(const steif_weak_row *row, size_t rows)
 static void answer(const steif_weak_query *query, const steif_weak_row *row,
                    const steif_weak_result *result, part *p)
 {
-  bool none = query->exact; /* nothing but 0 in any digit */
-  for (size_t i = 0; i < query->rows; i++) none = none && row[i].error == 0;
+  /* Nothing but 0 in any digit; beside x(0-) = 1, of which 0 is left. */
+  const sunrealtype zero = p->q == STF_JUMP ? NONE * (query->g ? query->g->t1 : 1) : 0;
+  bool none = query->exact || p->q == STF_JUMP;
+  for (size_t i = 0; i < query->rows; i++) none = none && fabs(row[i].error) <= zero;
   p->converges = none ? 1 : result->converges;
   p->order = p->least = result->order;
   if (p->converges != 1 || isfinite(p->order)) return;
@@ -132,10 +134,8 @@ static int ask_block(const stf_measure *w, part *p)
   question about = {.linear = &block, .x0 = x0, .apart = true};
   x0[n - 1] = 1;
   if (!code) code = stf_recurrence_of(w->ctx, w->query->method, &stages);
-  if (!code && stages) {
-    about.generic = p->q + SMOOTHER, about.exact = true;
-    about.rows = ROWS, about.h = (sunrealtype)w->subject.weight.t1 / LONGEST;
-  }
+  about.exact = stages > 0, about.generic = p->q + SMOOTHER;
+  about.rows = ROWS, about.h = (sunrealtype)w->subject.weight.t1 / LONGEST;
   if (!code) code = ask(w, &about, p);
   if (E) SUNMatDestroy(E);
   if (F) SUNMatDestroy(F);
@@ -172,7 +172,7 @@ static int ask_further(const stf_measure *w, question about, part *p)
   while (about.h > longest) about.h /= 2;
   part other = *p;
   STEIF_TRY(ask(w, &about, &other));
-  if (other.converges < 0 && stages * w->subject.n <= MANY_VALUES &&
+  if (other.converges < 0 && stages > 0 && stages * w->subject.n <= MANY_VALUES &&
       t1 / about.h <= MANY_STEPS) {
     question exactly = about;
     exactly.exact = true, exactly.rows = ROWS;
@@ -216,13 +216,6 @@ static int ask_smooth(stf_measure *w, bool doubted, part *p)
 
 /* ---- all of them ------------------------------------------------------------------------------- */
 
-/* Values of the run besides impulses: the jump from x(0-) to x(0+) enters steps in P and R. */
-static bool has_jump(const stf_measure *w)
-{
-  const enum steif_convention c = w->query->convention;
-  return c == STEIF_P || c == STEIF_R;
-}
-
 int stf_measure_parts(stf_measure *w, steif_weak_result *result)
 {
   const stf_subject *s = &w->subject;
@@ -235,7 +228,7 @@ int stf_measure_parts(stf_measure *w, steif_weak_result *result)
   if (count + 1 >= STF_DERIVATIVES) return STEIF_OK;
   for (int m = 0; m < s->n; m++) size = fmax(size, fabs(s->problem.y0[m]));
   for (int q = 0; q < count; q++) all.most = fmax(all.most, size_of(w, q));
-  for (int q = has_jump(w) ? -1 : 0; q < count; q++) {
+  for (int q = STF_JUMP; q < count; q++) {
     part p = {.q = q, .size = q < 0 ? 0 : size_of(w, q)};
     if (q >= 0 && p.size <= NONE * fmax(size, all.most)) continue;
     p.doubtful = q >= 0 && p.size <= SURE * rounding;
