@@ -124,7 +124,7 @@ typedef struct steif_lyapunov_check {
   const char *name; /* "sum", "flow", "recurrence" */
   int which;        /* exponent, from 1; 0: all of them */
   /* tolerance: accuracy max |exponent| for the sum; else four standard errors, and for the flow
-     |facts.flow| besides, since a run is finite: 1e-9 (1 + |expected|) at least. */
+     |facts.flow| besides, since a run is finite: 1e-9 (min(1, 1/h) + |expected|) at least. */
   sunrealtype value, expected, tolerance;
   int holds;
 } steif_lyapunov_check;

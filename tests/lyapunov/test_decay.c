@@ -209,6 +209,48 @@ static void constant_coefficients(void)
   steif_context_free(&ctx);
 }
 
+/* What decays a million times as fast as the solution hardly does so in Gauss's method, |R(infinity)| = 1: the
+ * exponent of the equation is right within its error, or not known. */
+static void fast_components_do_not_lead(void)
+{
+  static const double y0[] = {1, 1}, rate[] = {1e6, 1e9}, h[] = {0.1, 0.01};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int i = 0; i < 4; i++) {
+    constant A = {-1, 1, -rate[i / 2]};
+    const steif_problem p = {
+      .name = "stiff", .n = 2, .t1 = 20, .y0 = y0, .f = f, .jac = jac, .user = &A};
+    const steif_lyapunov_options o = {.h = h[i % 2], .transient = 2};
+    steif_decay d;
+    CHECK(steif_decay_find(ctx, &p, "radau:s=3", &o, 0, 0, &d) == STEIF_OK);
+    CHECK(!isfinite(d.lambda_error) || fabs(d.lambda + 1) <= d.lambda_error + 1e-3);
+    CHECK(i > 1 || d.verdict == STEIF_DECAY_KEPT);
+    CHECK(d.verdict == STEIF_DECAY_KEPT || d.verdict == STEIF_DECAY_UNDECIDED);
+  }
+  steif_context_free(&ctx);
+}
+
+/* Backward Euler with h = 0.1 of the time 1e9: 5 % off, in any unit of time. */
+static void laws_do_not_depend_on_the_unit_of_time(void)
+{
+  static const double y0[] = {1, 1};
+  steif_context *ctx = steif_context_new(NULL);
+  for (double unit = 1e-9; unit < 1e10; unit *= 1e9) {
+    constant A = {-unit, 2 * unit, -3 * unit};
+    double exponent[2], error[2];
+    steif_lyapunov_facts facts;
+    steif_lyapunov_check check[4];
+    int count;
+    const steif_problem p = {
+      .name = "unit", .n = 2, .t1 = 100 / unit, .y0 = y0, .f = f, .jac = jac, .user = &A};
+    const steif_lyapunov_options o = {.h = 0.1 / unit, .error = error};
+    CHECK(!steif_lyapunov(ctx, &p, "be", &o, exponent, NULL, &facts));
+    CHECK(!steif_lyapunov_verify(ctx, &p, "be", &o, 0, 0, exponent, &facts, check, &count));
+    CHECK(count >= 1 && check[0].law == STEIF_SUM_LAW && !check[0].holds);
+    CLOSE(check[0].expected, -4 * unit, 1e-9);
+  }
+  steif_context_free(&ctx);
+}
+
 /* Neighbours of x' = A x: -1 and -3 differ by 2 in every window; a complex pair, -0.2 +- 3 i, turns and has no
  * gap; two equal exponents of a diagonal neither. */
 static int turning(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector u,
@@ -303,6 +345,8 @@ CU_TestInfo tests_of_decay[] = {
   {"growth on the way is seen", growth_on_the_way_is_seen},
   {"the longest good step", the_longest_good_step},
   {"constant coefficients", constant_coefficients},
+  {"fast components do not lead", fast_components_do_not_lead},
+  {"laws do not depend on the unit of time", laws_do_not_depend_on_the_unit_of_time},
   {"integral separation", separation_is_seen},
   {"a period need not be known", a_period_need_not_be_known},
   {"what cannot be judged is said", what_cannot_be_judged_is_said},

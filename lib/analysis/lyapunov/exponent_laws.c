@@ -25,7 +25,8 @@ static void judge(trial *t, enum steif_lyapunov_law law, int which, sunrealtype 
                   sunrealtype expected, sunrealtype tolerance)
 {
   static const char *const name[] = {"sum", "flow", "recurrence"}; /* enum steif_lyapunov_law */
-  const sunrealtype bound = fmax(tolerance, STF_EXPONENT_ROUNDING * (1 + fabs(expected)));
+  const sunrealtype unit = fmin(1, 1 / t->facts->h),
+                    bound = fmax(tolerance, STF_EXPONENT_ROUNDING * (unit + fabs(expected)));
   t->check[*t->count] = (steif_lyapunov_check){
     law, name[law], which, value, expected, bound, fabs(value - expected) <= bound};
   ++*t->count;

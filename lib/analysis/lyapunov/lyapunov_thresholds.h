@@ -35,7 +35,7 @@
 /* Tolerance of runs that stand for the solution of a problem. */
 #define STF_REFERENCE_RTOL 1e-8
 
-/* Exponents: differences below this part of 1 + |value| are rounding of long sums of logarithms. */
+/* Exponents: differences below this part of min(1, 1/h) + |value| are rounding of long sums of logarithms. */
 #define STF_EXPONENT_ROUNDING 1e-9
 /* |y'| below this part of its start: the solution has come to rest, and no exponent has to be 0. */
 #define STF_AT_REST 1e-6

@@ -81,9 +81,9 @@ void stf_decay_judge(sunrealtype h, steif_decay *d)
   sampling(h, d);
   if (!isfinite(d->lambda_error)) {
     d->verdict = STEIF_DECAY_UNDECIDED;
-    add(d,
-        "undecided: the exponent of the equation did not converge: run longer (t1), or give a "
-        "period");
+    add(d, "undecided: the exponent of the equation did not converge: run longer (t1), take "
+           "shorter steps (h), or give a "
+           "period");
   } else if (fabs(d->lambda) <= d->lambda_error || fabs(d->mu) <= d->mu_error) {
     d->verdict = STEIF_DECAY_UNDECIDED;
     add(
