@@ -92,6 +92,31 @@ static void the_nearest_branch(void)
   steif_solver_free(&s);
 }
 
+/* Between the branches: refused with both values where they are about as near, else the nearer one:
+ * distances 0.9 and 1.1 are alike, 0.7 and 1.3 are not. */
+static void between_the_branches(void)
+{
+  static const sunrealtype near_fold[] = {1e-6, -1e-3, 0.01, -0.05, 0.1};
+  static const sunrealtype guess[] = {0.3, 0.5, -0.3, -0.5};
+  for (int k = 0; k < 5; k++) {
+    const sunrealtype y0[] = {1, near_fold[k]};
+    const steif_problem p = corner(y0);
+    CHECK(steif_solver_new(ctx, &p, "radau:s=3", NULL) == NULL);
+    CHECK(steif_status(ctx) == STEIF_BAD_INPUT);
+    CHECK(strstr(steif_message(ctx), "y2 = ") != NULL);
+    CHECK(strstr(steif_message(ctx), " 1 or -1;") || strstr(steif_message(ctx), " -1 or 1;"));
+    steif_forget(ctx);
+  }
+  for (int k = 0; k < 4; k++) {
+    const sunrealtype y0[] = {1, guess[k]};
+    const steif_problem p = corner(y0);
+    steif_solver *s = steif_solver_new(ctx, &p, "radau:s=3", NULL);
+    CU_ASSERT_FATAL(s != NULL);
+    CLOSE(steif_initial_used(s)->y[1], copysign(1, guess[k]), 1e-12);
+    steif_solver_free(&s);
+  }
+}
+
 /* The same with x in units of 1e-12: 1e-12 X' = z, 0 = z^2 - 1e-12 X. */
 static int small_unit_f(sunrealtype t, N_Vector y, N_Vector r, void *user)
 {
@@ -334,6 +359,7 @@ static int setup(void) { return !(ctx = steif_context_new(NULL)); }
   }
 IN_CONTEXT(index_one)
 IN_CONTEXT(the_nearest_branch)
+IN_CONTEXT(between_the_branches)
 IN_CONTEXT(policies)
 IN_CONTEXT(consistent_starts_cost_little)
 IN_CONTEXT(index_three_is_found)
@@ -346,6 +372,7 @@ IN_CONTEXT(what_has_no_start_is_said)
 CU_TestInfo tests_of_repair[] = {
   {"index 1 is repaired from 1, 10 and 100 %", index_one_here},
   {"the nearest branch is taken", the_nearest_branch_here},
+  {"of two branches as near none is taken", between_the_branches_here},
   {"repair, check, as given, fixed", policies_here},
   {"consistent starts cost two evaluations", consistent_starts_cost_little_here},
   {"index 3 is found and used", index_three_is_found_here},

@@ -318,6 +318,7 @@ static int index_one(stf_repair *r)
               r->given->name);
   STEIF_TRY(code);
   if (first <= 1) return STEIF_OK;
+  STEIF_TRY(stf_nearest_branch(r, first));
   STEIF_TRY(check_fixed(r));
   return use(r, r->y, r->yp, NULL);
 }

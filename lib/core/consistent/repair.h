@@ -44,6 +44,10 @@ int stf_index_one(stf_repair *repair, bool *regular);
 /* Solve for y_a; the first correction is in *first, in tolerances: at most 1, and y stays as it is. */
 int stf_algebraic_newton(stf_repair *repair, sunrealtype *first);
 
+/* second_branch.c: r->y is the nearest consistent start; refused where two are about as near. first: of the
+ * iteration that has found r->y. */
+int stf_nearest_branch(stf_repair *repair, sunrealtype first);
+
 /* first_jump.c: the largest jump of an unknown with a derivative in a step of backward Euler as h -> 0, in
  * tolerances. Zero for consistent starts of any index. */
 int stf_first_jump(stf_repair *repair, sunrealtype *largest);
