@@ -17,15 +17,16 @@ static int claim_columns(stf_step *s, stf_carry *T)
 {
   const stf_carrier_size *z = &T->size;
   T->kept = columns(s, T->count, z->kept), T->trial = columns(s, T->count, z->trial);
-  T->missed = columns(s, T->count, z->missed), T->misses = columns(s, T->count, z->missed);
+  T->misses = columns(s, T->count, z->missed);
+  for (int d = 0; d < STF_CARRY_MISSES; d++)
+    if (!(T->missed[d] = columns(s, T->count, z->missed))) return STEIF_NO_MEMORY;
   T->r = columns(s, T->count, z->stages), T->other = columns(s, T->count, z->stages);
   T->slope = columns(s, z->points, T->count);
   T->tolerance = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->tolerance);
   T->column = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->column);
   T->moved = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->moved);
   if (!T->column || !T->moved) return STEIF_NO_MEMORY;
-  return T->kept && T->trial && T->missed && T->misses && T->r && T->other && T->slope &&
-             T->tolerance
+  return T->kept && T->trial && T->misses && T->r && T->other && T->slope && T->tolerance
            ? STEIF_OK
            : STEIF_NO_MEMORY;
 }
@@ -161,8 +162,8 @@ static sunrealtype sweep_tolerance(const stf_step *s)
 int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
 {
   stf_step *s = T->step;
-  const sunrealtype tolerance = sweep_tolerance(s);
-  const sunrealtype known = T->eta > 0 && s->adaptive ? pow(fmax(T->eta, 1e-6), 0.8) : 1;
+  const sunrealtype tolerance = sweep_tolerance(s), doubt = 1.5, age = 1.05;
+  const sunrealtype known = T->eta > 0 && s->adaptive ? fmin(1, doubt * T->eta) : 1;
   sunrealtype norm, first = 0, last = 0, rate = 0;
   bool anew = s->system.linear;
   if (T->K) {
@@ -185,7 +186,10 @@ int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
       rate = norm / last;
       if (rate < 1) T->eta = rate / (1 - rate), settle(T, tolerance / T->eta);
     }
-    if (T->live == 0) return STEIF_OK;
+    if (T->live == 0) {
+      if (m == 1) T->eta *= age; /* until it is seen again */
+      return STEIF_OK;
+    }
     if (m == 1) continue;
     if (rate >= 0.5 && (anew ? at_rounding(T, norm, first) : norm <= s->newton.rounding))
       return STEIF_OK;
@@ -272,18 +276,26 @@ static void exchange(N_Vector **a, N_Vector **b)
   *a = *b, *b = c;
 }
 
-void stf_carry_commit(stf_carry *T)
+static void remember_misses(stf_carry *T)
 {
   const stf_step *s = T->step;
-  T->history = s->restart || !T->history ? 1 : 2;
-  T->h_before = s->h;
+  N_Vector **oldest = T->missed[STF_CARRY_MISSES - 1];
+  if (s->restart) T->history = 0;
+  if (T->history <= STF_CARRY_MISSES) T->history++;
+  for (int d = STF_CARRY_MISSES - 1; d > 0; d--)
+    T->missed[d] = T->missed[d - 1], T->h_before[d] = T->h_before[d - 1];
+  T->missed[0] = T->misses, T->misses = oldest, T->h_before[0] = s->h;
+}
+
+void stf_carry_commit(stf_carry *T)
+{
   if (T->carrier->commit) {
     T->carrier->commit(T);
     return;
   }
   exchange(&T->before, &T->S);
   exchange(&T->S, &T->next);
-  N_Vector **trial = T->trial, **missed = T->missed;
+  N_Vector **trial = T->trial;
   T->trial = T->kept, T->kept = trial;
-  T->missed = T->misses, T->misses = missed;
+  remember_misses(T);
 }

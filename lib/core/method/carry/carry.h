@@ -16,6 +16,8 @@
 #include "method.h"
 #include "stage_polynomial.h"
 
+enum { STF_CARRY_MISSES = 2 };
+
 typedef struct stf_carry {
   stf_step *step;
   const stf_carrier *carrier;
@@ -39,11 +41,11 @@ typedef struct stf_carry {
   int live, *column;  /* columns still swept, by their numbers ... */
   sunrealtype *moved; /* ... and the weighted norm of what the last sweep has moved of each */
   sunrealtype eta;    /* rate / (1 - rate) of the sweeps, when last seen; 0: not yet */
-  int history;        /* steps committed since a restart, 2 for more */
-  sunrealtype h_before;
-  N_Vector **missed,
-    **misses; /* collocation: stages of the last step and of the attempt less the polynomial ahead */
-  bool steady;       /* the last misses were much like those before */
+  int history;        /* steps committed since a restart, at most 1 + STF_CARRY_MISSES */
+  sunrealtype h_before[STF_CARRY_MISSES]; /* lengths of the steps before the last */
+  /* Collocation: stages less the polynomial ahead, of the last step, the one before, and the attempt. */
+  N_Vector **missed[STF_CARRY_MISSES], **misses;
+  int degree;        /* how many of them predictions take */
   sunrealtype noise; /* the largest of differences by p, in tolerances of a column */
   long sweeps;
 } stf_carry;
