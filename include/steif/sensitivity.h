@@ -35,6 +35,10 @@
  * Differences. Where dF/dy or dF/dp are made by differences, S has their relative error too, about 1e-10: tolerances of one step near
  * that are not kept, and BDF at rtol below 1e-6 may then make far too many steps: give dFdp and jac.
  *
+ * Wrong derivatives. Entries of dFdp are compared with differences of F by p at the start and at a point near it. One that is
+ * off by ten times their errors, of truncation and of rounding, and by 1e-3 of itself is STEIF_BAD_INPUT with
+ * parameter, equation and both values. What cannot be evaluated there, or is not smooth in p, is not judged.
+ *
  * Events and breaks. At an event g(tau, y, p) = 0 with y+ = R(tau, y-, p) after it,
  *   dtau/dp = -(g_y S- + g_p) / (g_y f- + g_t),   S+ = R_y S- + R_p + (R_y f- + R_t - f+) dtau/dp,
  * f- and f+ being the slopes of y on both sides, f- that of dense output. Derivatives of g are differences of two

@@ -60,11 +60,12 @@ static int say(probe *q, int k, sunindextype i, sunrealtype found, sunrealtype b
   char row[STEIF_SPEC_WORD];
   return STEIF_FAIL(
     q->s->ctx, STEIF_BAD_INPUT,
-    "dF/dp of parameter %d%s%.40s of problem '%s' is wrong: it gives %.6g in equation %s at t "
+    "dF/dp of parameter %d%s%.40s%s of problem '%s' is wrong: it gives %.6g in equation %s at "
+    "t "
     "= %.6g, "
     "where differences of F are %.6g, to about %.1g; F is y' - f or M y' - f: check this entry "
     "of parameters.dFdp, or leave it NULL",
-    k + 1, all->name ? ", " : "", all->name ? all->name[k] : "", p->name,
+    k + 1, all->name ? " (" : "", all->name ? all->name[k] : "", all->name ? ")" : "", p->name,
     stf_array(q->given)[i], stf_equation(p, i, row), q->t, found, bar);
 }
 
