@@ -29,7 +29,8 @@ typedef struct steif_drift {
   sunrealtype slope, slope_error; /* per unit of time, and its standard error */
   sunrealtype per_period;         /* slope times the period; NaN where there is none */
   int drifts; /* 1: above 5 standard errors, or the last mean is above 8 times the
-                                     middle one, and one way */
+                                     middle one, and one way; or nearly all the way is one, in 16 parts,
+                                     and leads half as far as the extreme at least: lost for good */
 } steif_drift;
 
 typedef struct steif_energy {

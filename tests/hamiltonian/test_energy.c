@@ -107,6 +107,20 @@ static void rk4_loses_less_by_32_for_half_the_step(void)
   }
 }
 
+/* Backward Euler divides the energy by 1 + h^2 in every step: what is lost for good is a drift, though soon
+ * nothing more is lost. */
+static void what_is_lost_is_a_drift(void)
+{
+  static const double h[] = {0.02, 0.1, 0.1, 0.5};
+  static const long steps[] = {1000, 1000, 10000, 4000};
+  for (int i = 0; i < 4; i++) {
+    const run r = named("harmonic", "be", h[i], steps[i]);
+    const double left = pow(1 + h[i] * h[i], -(double)steps[i]);
+    CHECK(fabs(r.drift[0].final / r.drift[0].start - (left - 1)) < 1e-6);
+    CHECK(r.drift[0].drifts == 1);
+  }
+}
+
 /* -- what is kept exactly ------------------------------------------------------------------------ */
 
 /* user: coefficients of q^2, q p, p^2. */
@@ -272,6 +286,7 @@ CU_TestInfo tests_of_energy[] = {
   {"steps beyond the border are not lowered", steps_beyond_the_border_are_not_lowered},
   {"RK4 loses 32 times less per period for half the step",
    rk4_loses_less_by_32_for_half_the_step},
+  {"what is lost is a drift", what_is_lost_is_a_drift},
   {"modified energies are kept to rounding", modified_energies_are_kept},
   {"bands are the closed ones", bands_are_the_closed_ones},
   {"compensated Gauss keeps the energy to rounding",

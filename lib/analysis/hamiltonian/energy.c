@@ -99,11 +99,11 @@ static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
 
 /* Do the means go one way? A random walk, as rounding makes it, turns back too often, though a line
  * through it may look steep. */
-static bool one_way(int n, const sunrealtype *y)
+static bool one_way(int n, const sunrealtype *y, sunrealtype share)
 {
   sunrealtype path = 0;
   for (int k = 1; k < n; k++) path += fabs(y[k] - y[k - 1]);
-  return n > 2 && fabs(y[n - 1] - y[0]) >= STF_DRIFT_ONE_WAY * path;
+  return n > 2 && path > 0 && fabs(y[n - 1] - y[0]) >= share * path;
 }
 
 /* The line through the means of the parts that have points, all of one weight. */
@@ -133,7 +133,10 @@ static void line(const record *w, int i, steif_drift *d)
   d->slope_error = n > 2 ? sqrt(yy / (n - 2) / xx) : NAN;
   const bool steep = fabs(d->slope) > STF_DRIFT_ERRORS * d->slope_error;
   const bool away = fabs(y[n - 1]) > STF_DRIFT_RUNS_AWAY * fabs(y[n / 2]);
-  d->drifts = (steep || away) && one_way(n, y);
+  /* What is lost for good comes to rest, and a line fits badly. */
+  const bool gone = n == STF_DRIFT_PARTS && one_way(n, y, STF_DRIFT_STRAIGHT) &&
+                    2 * fabs(y[n - 1]) > fmax(d->max, -d->min);
+  d->drifts = gone || ((steep || away) && one_way(n, y, STF_DRIFT_ONE_WAY));
 }
 
 static void finish(record *w)

@@ -13,6 +13,8 @@
 /* Or if the last mean is this many times the middle one: growth as of t^3 or faster, where a line fits
  * badly. */
 #define STF_DRIFT_RUNS_AWAY 8
+/* Or if nearly all of it does, in all parts, to where the run ends: energy that is lost comes to rest. */
+#define STF_DRIFT_STRAIGHT 0.99
 /* Rows at even distances: a step that ends this part of a row early fills it. */
 #define STF_ROW_ROUNDING 1e-9
 /* Solutions of A^T P + P A = 0 are drawn at random up to this often, until one has this condition. */
