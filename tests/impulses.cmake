@@ -599,11 +599,17 @@ member(2 layer_steps)
 near(3 rows 0 exact 0)
 member("*" ida status)
 # Rounding decides nothing: 113-bit arithmetic gives the errors 3.6e4, 1.7e4, ... of order 1 to the first
-# (errors of 2.5e16 in double), and -6.635, -1.660, ... of order 2 to the others.
-foreach(run "be;--index;12" "gauss:s=3;--index;5" "gauss:s=3;--index;4;--h;0.00390625;--halvings;2")
-  expect(5 weak ${run} --json)
+# (errors of 2.5e16 in double, and a test function cut off), and -6.635, -1.660, ... of order 2 to the others,
+# which parts in many digits tell.
+expect(5 weak be --index 12 --json)
+string(JSON verdict GET "${out}" verdict)
+if(NOT verdict MATCHES "^undecided: rounding from h = 0.0")
+  message(SEND_ERROR "weak be --index 12: ${verdict}")
+endif()
+foreach(run "gauss:s=3;--index;5" "gauss:s=3;--index;4;--h;0.00390625;--halvings;2")
+  expect(0 weak ${run} --json)
   string(JSON verdict GET "${out}" verdict)
-  if(NOT verdict MATCHES "^undecided: rounding from h = 0.0")
+  if(NOT verdict MATCHES "^converges weakly, order (2.0|1.9)")
     message(SEND_ERROR "weak ${run}: ${verdict}")
   endif()
 endforeach()
@@ -621,11 +627,15 @@ expect(5 weak be --index 11 --h 0.015625 --halvings 3 --ball 11 ERR "or --exact"
 expect(0 weak be --index 11 --h 0.015625 --halvings 3 --ball 11 --exact)
 expect(5 weak be switchrlc ERR "fastest finite eigenvalue.*--t1") # its time constants are 7e-5 s
 expect(0 weak be switchrlc --t1 1e-3)
-expect(5 weak radau:s=3 --index 5 --g bump ERR "does not see impulses")
+expect(0 weak radau:s=3 --index 5 --g bump --json) # blind to what does not converge
+string(JSON verdict GET "${out}" verdict)
+if(NOT verdict MATCHES "^does not converge weakly: impulses of order 3")
+  message(SEND_ERROR "weak --g bump: ${verdict}")
+endif()
 expect(0 weak bdf:p=2 --start cq --index 4 --g expcos:a=1,b=5 --h 0.03125 --halvings 4 --json)
 near(114658727836 exact)
 near(40 t1)
-expect(5 weak be --index 2 --g hermite:n=1,scale=0.3 ERR "impulses of order 0") # odd
+expect(0 weak be --index 2 --g hermite:n=1,scale=0.3) # odd: parts by themselves converge
 expect(0 weak cobb ut5)
 # Norms by m-fold integration in 113-bit arithmetic: 0.17443062, order 1/2 in H^-1.
 expect(0 weak be --index 2 --ball 1 --h 0.015625 --halvings 3 --json)
@@ -651,7 +661,8 @@ expect(2 weak be --index 3 --g bspline:m=3,cells=9000000 ERR "9000000 cells")
 expect(2 weak be --index 3 --g ball:m=none ERR "ball takes m")
 expect(2 weak be --index 3 --ball 1 ERR "m is 2 to")
 expect(2 weak be --index 3 --ball 2 --g bump ERR "--ball")
-expect(1 weak glm:bdf,p=3 --index 3 --ball 4 ERR "second run")
+expect(0 weak glm:bdf,p=1 --index 3 --ball 4)
+expect(1 weak auto --index 3 --ball 4 ERR "second run")
 expect(2 weak be --index 3 --g "abs(t-0.3)" ERR "not smooth at t = 0.3")
 expect(2 weak be --index 3 --g bump:w=-1 ERR "bump takes c and w")
 expect(2 weak be --index 3 --g 1/t ERR "no derivatives")

@@ -157,7 +157,7 @@ typedef struct steif_weak_ball {
   char mesh[160]; /* as in steif_weak_result */
 } steif_weak_ball;
 /* Rows of H^-m (m = 0: k + p - 1) as the query asks for, and orders in all spaces. Of its g only t1
- * counts. For be, bdf and Runge-Kutta methods with regular A. */
+ * counts. For be, bdf, Runge-Kutta methods with regular A and general linear ones with one real shift. */
 STEIF_EXPORT int steif_weak_measure_ball(steif_context *ctx, const steif_weak_query *query,
                                          int m, steif_ball_row *row, steif_weak_ball *result);
 

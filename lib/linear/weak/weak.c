@@ -170,14 +170,18 @@ static void doubt(const stf_measure *w, steif_weak_result *result)
     method, w->subject.n, seen);
 }
 
-/* Are they what the verdict is about? */
+/* Are they what the verdict is about? Not where no row resolves what is measured. */
 static bool has_parts(const stf_measure *w)
 {
+  sunrealtype longest;
+  const char *fastest;
   const steif_weak_query *q = w->query;
   const sunrealtype t1 = (sunrealtype)w->subject.weight.t1;
   const bool inside =
     stf_break_inside(q->break_count, q->breaks, t1, w->h) < q->break_count && !w->mesh.anew;
-  return (w->longer || q->exact) && !inside && q->rows >= STF_LEAST_ROWS;
+  if (!(w->longer || q->exact) || inside || q->rows < STF_LEAST_ROWS) return false;
+  return !stf_measure_longest(w, &longest, &fastest) &&
+         ldexp(w->h, -(int)(q->rows - 1)) <= longest;
 }
 
 static int measure(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,

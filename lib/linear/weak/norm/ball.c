@@ -255,7 +255,7 @@ static int check(const stf_measure *w, int m)
   const int k = w->subject.index;
   STEIF_CHECK(
     w->longer, w->ctx, STEIF_UNSUPPORTED,
-    "norms take a second run in long double, which there is of be, bdf and Runge-Kutta "
+    "norms take a second run in long double, which there is of be, bdf, glm and Runge-Kutta "
     "methods with regular A and at most 400 stage values, not of '%s' with %d unknowns",
     q->method, w->subject.n);
   STEIF_CHECK(!q->exact || !w->subject.apart.linear.E || w->as_given, w->ctx, STEIF_UNSUPPORTED,
