@@ -203,9 +203,44 @@ static void moved_guesses_are_told(void)
   CHECK(!steif_model_start(&(steif_problem){.name = "p"})[0]);
 }
 
+/* x' = z, 0 = z^2 - x from x = 1: both z = 1 and z = -1. Guesses about half way choose neither. */
+static void guesses_between_solutions_are_refused(void)
+{
+  static const char fold[] = "state x = 1, z %s\nx' = z\n0 = z^2 - x\ntime 0 to 1\n";
+  static const struct {
+    const char *guess;
+    double z; /* 0: refused */
+  } rows[] = {{"~ 0", 0},   {"~ 0.01", 0},  {"~ -0.1", 0},
+              {"~ 0.4", 1}, {"~ -0.4", -1}, {"~ 3", 1}};
+  char text[200];
+  for (int i = 0; i < 6; i++) {
+    fixture s;
+    snprintf(text, sizeof text, fold, rows[i].guess);
+    const int code = parse(&s, text);
+    CHECK((code == 0) == (rows[i].z != 0));
+    if (!code) {
+      CLOSE(s.p.y0[1], rows[i].z, 1e-10);
+      CHECK(strstr(steif_model_start(&s.p), "may be") == NULL);
+    } else {
+      CHECK(code == STEIF_BAD_INPUT);
+      CHECK(strstr(steif_message(s.ctx), "the guess z ~") != NULL);
+      CHECK(strstr(steif_message(s.ctx), "1 and -1:") ||
+            strstr(steif_message(s.ctx), "-1 and 1:"));
+    }
+    fixture_close(&s);
+  }
+  fixture s; /* without a guess one is taken, and both are told */
+  snprintf(text, sizeof text, fold, "");
+  CU_ASSERT_FATAL(!parse(&s, text));
+  CLOSE(fabs(s.p.y0[1]), 1, 1e-10);
+  CHECK(strstr(steif_model_start(&s.p), "z may be ") != NULL);
+  fixture_close(&s);
+}
+
 CU_TestInfo tests_of_interface[] = {
   {"references belong to parameters", references_belong_to_parameters},
   {"moved guesses are told", moved_guesses_are_told},
+  {"guesses between two solutions are refused", guesses_between_solutions_are_refused},
   {"parameters between runs", parameters_between_runs},
   {"facts", facts},
   {"impulses of a linear model", a_linear_model_has_impulses},

@@ -262,6 +262,11 @@ int stf_finish(stf_model *m, steif_problem *problem);
 int stf_component(stf_model *m, stf_builder *b, const stf_statement *s, int32_t *component);
 /* fulfilled_start.c: start values that fulfil the equations, and the index. */
 int stf_consistent_start(stf_model *m, steif_problem *problem);
+struct steif_request;
+/* other_start.c: refuses guesses between two solutions about as near, of which y is one; says so of components
+ * without a guess. */
+int stf_other_start(stf_model *m, const steif_problem *problem,
+                    const struct steif_request *request, const sunrealtype *y);
 /* table_file.c */
 int stf_read_tables(stf_model *m);
 /* given_parameters.c: members of the problem about its parameters. */

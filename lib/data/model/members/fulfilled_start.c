@@ -43,7 +43,6 @@ static int take(stf_model *m, steif_problem *p, const steif_start *start)
   const size_t bytes = (size_t)m->n * sizeof *m->y0;
   m->yp0 = stf_pool_array(m->pool, (size_t)m->n, sizeof *m->yp0);
   if (!m->yp0) return STEIF_NO_MEMORY;
-  tell(m, start->y);
   memcpy(m->y0, start->y, bytes);
   memcpy(m->yp0, start->yp, bytes);
   p->yp0 = m->yp0;
@@ -58,9 +57,14 @@ static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *att
   const steif_request request = {.attribute = attribute};
   steif_start start = {0};
   int code = steif_consistent(m->ctx, p, NULL, &request, &start);
-  if (!code) code = take(m, p, &start);
+  const bool found = !code;
+  if (found) {
+    tell(m, start.y);
+    code = stf_other_start(m, p, &request, start.y);
+  }
+  if (found && !code) code = take(m, p, &start);
   steif_start_clear(&start);
-  if (code == STEIF_NO_MEMORY || !code) return code;
+  if (code == STEIF_NO_MEMORY || found) return code;
   const bool contradiction =
     code == STEIF_BAD_INPUT && m->form != STEIF_DESCRIPTOR && open < m->n;
   if (!contradiction) { /* the run may start all the same, or fail: then this is why */
