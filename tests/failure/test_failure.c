@@ -306,7 +306,29 @@ static void memory_may_fail_at_any_request(void)
   CHECK(refused > 10);
 }
 
+/* A relay that switches against itself: its slope changes sign at every event, but methods that damp stiff
+ * components are not to blame. */
+static void a_relay_does_not_ring(void)
+{
+  static const char *const methods[] = {"auto", "radau:s=3", "bdf", "gauss:s=2"};
+  static const char relay[] = "state x = 1\nx' = if x > 0 then -1 else 1\ntime 0 to 3\n";
+  for (int m = 0; m < 4; m++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_problem p;
+    CU_ASSERT_FATAL(!steif_model_parse(ctx, relay, "relay.steif", NULL, &p));
+    const steif_options o = steif_defaults();
+    steif_failure f = {0};
+    CHECK(!steif_failure_find(ctx, &p, methods[m], &o, &f));
+    CHECK(f.code == STEIF_STEP_SIZE);
+    CLOSE(f.t, 1, 1e-4);
+    CHECK(f.cause.kind != STEIF_CAUSE_RINGING);
+    steif_problem_clear(ctx, &p);
+    steif_context_free(&ctx);
+  }
+}
+
 CU_TestInfo tests_of_failure[] = {
+  {"a relay does not ring", a_relay_does_not_ring},
   {"index 4 is refused with names", index_four_is_refused_with_names},
   {"a blow-up is told with its time", a_blow_up_is_told_with_its_time},
   {"an impasse is told with its time", an_impasse_is_told_with_its_time},

@@ -205,21 +205,23 @@ int stf_cause_impasse(stf_search *c)
 
 /* -- ringing ----------------------------------------------------------------------------- */
 
-/* Share of sign changes among the differences of y_j' of the last steps; *size: their mean
- * times the step, in weights. */
+/* Share of sign changes among the differences of y_j' of the last steps, of those that, times the step, are a
+ * tenth of their mean or more: a switch that is crossed to and fro in ever shorter steps is no ringing. *size: that
+ * mean in weights. */
 static sunrealtype alternation(const stf_search *c, size_t j, sunrealtype *size)
 {
   const steif_history *s = c->scene;
   const size_t n = c->point->n, from = s->count - RING - 2;
-  sunrealtype before = 0, mean = 0;
+  sunrealtype part[RING + 1], mean = 0;
   int changes = 0;
-  for (size_t k = from; k + 1 < s->count; k++) {
-    const sunrealtype d = s->yp[(k + 1) * n + j] - s->yp[k * n + j];
-    changes += k > from && d * before < 0;
-    mean += fabs(d) * (s->t[k + 1] - s->t[k]) / ((RING + 1) * c->weight[j]);
-    before = d;
+  for (size_t k = 0; k <= RING; k++) {
+    const size_t at = from + k;
+    part[k] = (s->yp[(at + 1) * n + j] - s->yp[at * n + j]) * (s->t[at + 1] - s->t[at]);
+    mean += fabs(part[k]) / (RING + 1);
   }
-  *size = mean;
+  for (int k = 1; k <= RING; k++)
+    changes += part[k] * part[k - 1] < 0 && 10 * fabs(part[k]) >= mean;
+  *size = mean / c->weight[j];
   return (sunrealtype)changes / RING;
 }
 
