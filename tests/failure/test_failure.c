@@ -73,6 +73,32 @@ static void an_impasse_is_told_with_its_time(void)
   CLOSE(f.cause.t, 0.5, 5e-3);
 }
 
+/* x' = -1/x reaches 0 at t = 1/2; 1/(t - 0.3) is a pole in time alone. */
+static int poles(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  const sunrealtype x = NV_Ith_S(y, 0);
+  const int kind = *(const int *)user;
+  NV_Ith_S(r, 0) = kind == 0 ? -1 / x : 1 / (t - 0.3);
+  return 0;
+}
+
+static void a_pole_is_no_jump(void)
+{
+  static const char *const methods[] = {"auto", "radau:s=3", "bdf", "dirk:hw43", "rodas4"};
+  static const sunrealtype at[] = {0.5, 0.3};
+  for (int kind = 0; kind < 2; kind++)
+    for (int m = 0; m < 5; m++) {
+      steif_failure f;
+      const steif_problem p = {
+        .name = "poles", .n = 1, .t1 = 1, .y0 = ones, .f = poles, .user = &kind};
+      find(&p, methods[m], 1e-6, &f);
+      CHECK(f.cause.kind != STEIF_CAUSE_JUMP && f.cause.kind != STEIF_CAUSE_JACOBIAN);
+      CHECK(kind == 1 ||
+            (f.cause.kind == STEIF_CAUSE_IMPASSE && strstr(f.message, "y1 passes 0")));
+      if (f.cause.kind != STEIF_CAUSE_UNKNOWN) CLOSE(f.cause.t, at[kind], 1e-3);
+    }
+}
+
 /* y1 + y1^3/5 = sin t + 1/2, y2, y3, y4 its derivatives (1 + y1^2/10 times as small): index 4. */
 static int chain(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
 {
@@ -332,6 +358,7 @@ CU_TestInfo tests_of_failure[] = {
   {"index 4 is refused with names", index_four_is_refused_with_names},
   {"a blow-up is told with its time", a_blow_up_is_told_with_its_time},
   {"an impasse is told with its time", an_impasse_is_told_with_its_time},
+  {"a pole is no jump", a_pole_is_no_jump},
   {"an inconsistent start is told", an_inconsistent_start_is_told},
   {"impulses of the start are told", impulses_of_the_start_are_told},
   {"steps that stability holds are told", steps_that_stability_holds_are_told},

@@ -133,6 +133,18 @@ static int bisect(path *p, size_t i, sunrealtype *a, sunrealtype *b, sunrealtype
   return STEIF_OK;
 }
 
+/* A pole is no jump: F grows towards it. At 256 times the distance even 1/|d|^(1/3) is six times smaller. */
+static int is_pole(path *p, size_t i, sunrealtype a, sunrealtype b, bool *pole)
+{
+  const sunrealtype away = 256 * (b - a), ratio = 4;
+  const sunrealtype near = fmax(fabs(p->left[i]), fabs(p->right[i]));
+  STEIF_TRY(walk(p, a - away, p->F));
+  const sunrealtype before = fabs(p->F[i]);
+  STEIF_TRY(walk(p, b + away, p->F));
+  *pole = near > ratio * fmax(before, fabs(p->F[i]));
+  return STEIF_OK;
+}
+
 /* The unknown whose movement makes the jump: without it there is none. n: time does. */
 static int guilty(path *p, size_t i, sunrealtype a, sunrealtype b, sunrealtype size,
                   size_t *unknown)
@@ -179,6 +191,26 @@ static int tell(path *p, size_t i, sunrealtype at, sunrealtype size, sunrealtype
   return STEIF_OK;
 }
 
+static void tell_pole(path *p, size_t i, sunrealtype at, size_t unknown)
+{
+  const stf_point *s = p->c->point;
+  char e[STEIF_SPEC_WORD], y[STEIF_SPEC_WORD];
+  steif_cause *cause = p->c->cause;
+  cause->kind = STEIF_CAUSE_IMPASSE, cause->t = s->t + at, cause->equation = (sunindextype)i;
+  cause->unknown = unknown < s->n ? (sunindextype)unknown : -1;
+  stf_point_say(cause->message, "Equation %s has a pole at t = %.9g",
+                stf_point_equation(s, i, e), cause->t);
+  if (cause->unknown >= 0) {
+    const sunrealtype x = s->y0[unknown] + at * s->yp0[unknown];
+    const bool zero = fabs(x) * p->c->weight[unknown] < 1; /* within the tolerance */
+    stf_point_say(cause->message, ", where %s passes %.3g", stf_point_unknown(s, unknown, y),
+                  zero ? 0 : x);
+  }
+  stf_point_say(cause->message,
+                ": slopes grow without bound on the way there, and no method goes "
+                "through it. End the run before, or change the model there.");
+}
+
 static int look(path *p, sunrealtype reach, bool *found)
 {
   const size_t n = p->c->point->n;
@@ -198,8 +230,11 @@ static int look(path *p, sunrealtype reach, bool *found)
   if (!(fabs(size) > 0.5 * first) || !(fabs(size) > least)) return STEIF_OK;
   const sunrealtype t0 = c->scene->t0; /* what changes there has no other side */
   if (c->point->t + b <= t0 + 16 * STF_EPS * fmax(fabs(t0), fabs(c->scene->h))) return STEIF_OK;
+  bool pole;
+  STEIF_TRY(is_pole(p, i, a, b, &pole));
   STEIF_TRY(guilty(p, i, a, b, size, &unknown));
   *found = true;
+  if (pole) return tell_pole(p, i, b, unknown), STEIF_OK;
   return tell(p, i, b, size, middle, unknown);
 }
 
