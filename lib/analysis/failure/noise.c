@@ -202,7 +202,7 @@ static void tell_pole(path *p, size_t i, sunrealtype at, size_t unknown)
                 stf_point_equation(s, i, e), cause->t);
   if (cause->unknown >= 0) {
     const sunrealtype x = s->y0[unknown] + at * s->yp0[unknown];
-    const bool zero = fabs(x) * p->c->weight[unknown] < 1; /* within the tolerance */
+    const bool zero = fabs(x) < p->c->weight[unknown]; /* within the tolerance */
     stf_point_say(cause->message, ", where %s passes %.3g", stf_point_unknown(s, unknown, y),
                   zero ? 0 : x);
   }
