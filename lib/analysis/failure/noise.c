@@ -133,15 +133,16 @@ static int bisect(path *p, size_t i, sunrealtype *a, sunrealtype *b, sunrealtype
   return STEIF_OK;
 }
 
-/* A pole is no jump: F grows towards it. At 256 times the distance even 1/|d|^(1/3) is six times smaller. */
+/* A pole is no jump: F grows towards it, from its mean at 256 times the distance on both sides. There even
+ * 1/|d|^(1/3) is six times smaller. */
 static int is_pole(path *p, size_t i, sunrealtype a, sunrealtype b, bool *pole)
 {
   const sunrealtype away = 256 * (b - a), ratio = 4;
-  const sunrealtype near = fmax(fabs(p->left[i]), fabs(p->right[i]));
   STEIF_TRY(walk(p, a - away, p->F));
-  const sunrealtype before = fabs(p->F[i]);
+  const sunrealtype before = p->F[i];
   STEIF_TRY(walk(p, b + away, p->F));
-  *pole = near > ratio * fmax(before, fabs(p->F[i]));
+  const sunrealtype middle = before + (p->F[i] - before) / 2, far = fabs(p->F[i] - before) / 2;
+  *pole = fmax(fabs(p->left[i] - middle), fabs(p->right[i] - middle)) > ratio * far;
   return STEIF_OK;
 }
 

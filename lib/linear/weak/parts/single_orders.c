@@ -119,7 +119,7 @@ static int ask(const stf_measure *w, const question *about, part *p)
 static int ask_block(const stf_measure *w, part *p)
 {
   const int n = p->q + 2;
-  int stages;
+  int stages = 0;
   sunrealtype x0[STF_DERIVATIVES] = {0};
   SUNMatrix E = SUNDenseMatrix(n, n, steif_sundials(w->ctx)),
             F = SUNDenseMatrix(n, n, steif_sundials(w->ctx));
@@ -162,7 +162,7 @@ static int ask_further(const stf_measure *w, question about, part *p)
 {
   sunrealtype longest;
   const char *fastest;
-  int stages;
+  int stages = 0;
   const sunrealtype t1 = (sunrealtype)w->subject.weight.t1;
   STEIF_TRY(stf_recurrence_of(w->ctx, w->query->method, &stages));
   STEIF_TRY(stf_measure_longest(w, &longest, &fastest));
