@@ -36,7 +36,12 @@ static const row rows[] = {
   {"transamp", {"radau:s=7", "gauss:s=4"}, 1e-11, false, 11.3, "M y' cancels, see success"},
   {"vdpol", {"radau:s=4", "gauss:s=4"}, 1e-13, false, 0, NULL},
   {"vdpol:mu=10", {"radau:s=7", "gauss:s=4"}, 1e-11, false, 0, NULL},
-  {"vdpol:mu=30", {"radau:s=7", "gauss:s=4"}, 1e-13, false, 11.7, "double precision"},
+  {"vdpol:mu=30",
+   {"radau:s=7", "gauss:s=4"},
+   1e-13,
+   false,
+   11,
+   "rounding of the phase, up to 6e-12"},
 };
 
 static void reach(steif_context *ctx, const steif_problem *p, const row *at, const char *method)
