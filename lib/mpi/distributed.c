@@ -216,7 +216,7 @@ static void pass_on(steif_mpi *m)
   q->parameters = NULL, q->quadrature = NULL, q->build = NULL, q->destroy = NULL;
   q->precsetup = setup, q->precsolve = solve;
   q->precsolve_pair = m->with->complex ? solve_pair : NULL;
-  if (p->E && !p->Ev) q->Ev = rows_E;
+  if (!m->rows.identity && !p->Ev) q->Ev = rows_E;
   if (m->constant && !p->Av) q->Av = rows_A;
 }
 
@@ -234,8 +234,9 @@ static int same(steif_mpi *m, const char *spec)
   uint64_t hash = 14695981039346656037u; /* FNV-1a */
   char text[256];
   const steif_problem *p = m->p;
-  snprintf(text, sizeof text, "%s|%s|%lld|%.17g|%.17g|%d%d%d%d", p->name ? p->name : "",
-           spec ? spec : "", (long long)p->n, p->t0, p->t1, p->linear, !!p->E, !!p->f, !!p->F);
+  snprintf(text, sizeof text, "%s|%s|%lld|%.17g|%.17g|%d%d%d%d%d%d", p->name ? p->name : "",
+           spec ? spec : "", (long long)p->n, p->t0, p->t1, p->linear, !!p->E, !!p->A,
+           !!p->pattern, !!p->f, !!p->F);
   for (const char *c = text; *c; c++) hash = (hash ^ (unsigned char)*c) * 1099511628211u;
   uint64_t all[2] = {hash, ~hash};
   MPI_Allreduce(MPI_IN_PLACE, all, 2, MPI_UINT64_T, MPI_MAX, NV_COMM_P(m->rows.like));

@@ -1,6 +1,6 @@
 /* own_rows.c: own rows of E and A, filled by callbacks, on the union of their patterns.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "own_rows.h"
+#include "row_differences.h"
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -43,9 +43,13 @@ static SUNMatrix matrix(rows *r, sunindextype nnz)
 
 static int open_matrices(rows *r, const steif_problem *p)
 {
-  if (!(r->A = matrix(r, p->nnz))) return STEIF_NO_MEMORY;
-  r->identity = !p->E;
-  if (p->E && !(r->E = matrix(r, p->nnz_E ? p->nnz_E : p->nnz))) return STEIF_NO_MEMORY;
+  const bool differ = differences_needed(p);
+  if (differ) MPI_TRY(differences_check(r, p));
+  const sunindextype nnz = differ && r->own.rows ? p->pattern->column[r->own.rows] : p->nnz;
+  if (!(r->A = matrix(r, nnz))) return STEIF_NO_MEMORY;
+  r->identity = !p->E && !(differ && p->F);
+  if (!r->identity && !(r->E = matrix(r, p->E && p->nnz_E ? p->nnz_E : nnz)))
+    return STEIF_NO_MEMORY;
   return STEIF_OK;
 }
 
@@ -58,10 +62,12 @@ int rows_open(rows *r, steif_context *ctx, const steif_problem *p, N_Vector like
     code = steif_fail(ctx, STEIF_BAD_INPUT,
                       "problem '%s' has n = %lld and the rows of %d ranks are %lld together",
                       p->name, (long long)p->n, r->own.size, (long long)r->own.n);
-  else if (!p->A)
-    code = steif_fail(ctx, STEIF_BAD_INPUT,
-                      "problem '%s' has no .A: steif_mpi_open needs own rows of A, in CSR_MAT",
-                      p->name);
+  else if (!p->A && !differences_needed(p))
+    code =
+      steif_fail(ctx, STEIF_BAD_INPUT,
+                 "problem '%s' has neither .A nor .pattern: steif_mpi_open needs own rows of "
+                 "A, in CSR_MAT, or the pattern of own rows",
+                 p->name);
   else if (p->n >= INT_MAX || p->nnz >= INT_MAX)
     code =
       steif_fail(ctx, STEIF_UNSUPPORTED,
@@ -223,28 +229,50 @@ static int remember(rows *r)
   return unite(r);
 }
 
-int rows_fill(rows *r, const steif_problem *p, sunrealtype t, N_Vector y, N_Vector yp)
+static int renew_pattern(rows *r)
 {
-  int code = filled(r, p, p->A, 'A', t, y, yp, r->A);
-  if (!code && r->E && !r->revision) code = filled(r, p, p->E, 'E', t, y, yp, r->E);
-  MPI_TRY(steif_agree(r->ctx, r->like, code));
-  r->stats.fills++;
   int changed = !same_pattern(r);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, r->own.comm);
-  if (changed) {
-    MPI_TRY(steif_agree(r->ctx, r->like, remember(r)));
-    MPI_TRY(halo_open(r));
-    r->revision++;
-  }
+  if (!changed) return STEIF_OK;
+  MPI_TRY(steif_agree(r->ctx, r->like, remember(r)));
+  MPI_TRY(halo_open(r));
+  r->revision++;
+  return STEIF_OK;
+}
+
+/* The colours once, then the values, which are to be finite. */
+static int differ(rows *r, const steif_problem *p, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  if (!r->differences) MPI_TRY(differences_open(r, p));
+  int code = differences_fill(r, p, t, y, yp);
+  if (!code) code = check(r, r->A, 'A');
+  if (!code && r->E) code = check(r, r->E, 'E');
+  return steif_agree(r->ctx, r->like, code);
+}
+
+int rows_fill(rows *r, const steif_problem *p, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  const bool differs = differences_needed(p);
+  int code = STEIF_OK;
+  if (!differs)
+    code = filled(r, p, p->A, 'A', t, y, yp, r->A);
+  else if (!r->revision)
+    differences_pattern(r, p);
+  if (!code && p->E && !r->revision) code = filled(r, p, p->E, 'E', t, y, yp, r->E);
+  MPI_TRY(steif_agree(r->ctx, r->like, code));
+  r->stats.fills++;
+  MPI_TRY(renew_pattern(r));
+  if (differs) MPI_TRY(differ(r, p, t, y, yp));
   for (sunindextype k = 0; k < r->entries; k++) {
     r->a[k] = r->at_A[k] < 0 ? 0 : SM_DATA_S(r->A)[r->at_A[k]];
     if (r->at_E[k] >= 0) r->e[k] = SM_DATA_S(r->E)[r->at_E[k]];
   }
-  return STEIF_OK;
+  return differs && p->linear ? differences_verify(r, p, t) : STEIF_OK;
 }
 
 void rows_close(rows *r)
 {
+  differences_close(r);
   forget(r);
   if (r->A) SUNMatDestroy(r->A);
   if (r->E) SUNMatDestroy(r->E);

@@ -32,6 +32,7 @@ typedef struct halo {
 } halo;
 
 /* Entries of the union of the patterns of E and A, rows ascending in columns. */
+typedef struct row_differences row_differences;
 typedef struct rows {
   steif_context *ctx;
   N_Vector like;
@@ -42,10 +43,11 @@ typedef struct rows {
   sunindextype *seen_pointer, *seen_column, seen_room; /* of A, when the union was made */
   sunindextype entries, room;
   sunindextype *row_at, *column, *local, *at_A,
-    *at_E;                /* local: column among own rows, then in the halo */
-  sunrealtype *e, *a;     /* values on the union */
-  sunrealtype *one, *two; /* own rows, then the halo */
-  long revision;          /* of the pattern */
+    *at_E;                      /* local: column among own rows, then in the halo */
+  sunrealtype *e, *a;           /* values on the union */
+  sunrealtype *one, *two;       /* own rows, then the halo */
+  long revision;                /* of the pattern */
+  row_differences *differences; /* values of A come from; NULL: from a callback */
   steif_mpi_stats stats;
 } rows;
 

@@ -1,29 +1,26 @@
 /* linear.c: solvers over ranks against a product; runs with them against closed solutions and one rank; bad input.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "checks.h"
 #include "shortage.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <steif/data.h>
-#include <steif/mpi.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-static int failures, rank, ranks;
+int failures, rank, ranks;
 
-/* True on all ranks? */
-static int everywhere(int condition, const char *text, int line)
+int everywhere(int condition, const char *text, const char *file, int line)
 {
   int all = !!condition;
   MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-  if (!all && rank == 0) printf("linear.c:%d: not on all ranks: %s\n", line, text);
+  if (!all && rank == 0) printf("%s:%d: not on all ranks: %s\n", file, line, text);
   failures += !all;
   return all;
 }
-#define ALL(condition) everywhere(condition, #condition, __LINE__)
 
-/* The same code and sentence on all ranks? */
-static int same(steif_context *ctx)
+int same(steif_context *ctx)
 {
   char first[1100] = "";
   snprintf(first, sizeof first, "%d %s", steif_status(ctx), steif_message(ctx));
@@ -361,11 +358,11 @@ static void runs(void)
   same_as_in_one_process("ladder:n=40,case=cons", "radau:s=3");
 }
 
-static void shortage(const char *name, const char *spec)
+static void shortage(const char *name, const char *spec, int differences)
 {
   int code = 0, found = 1, k = 0;
   for (; found == 1 && k < 400; k++) {
-    found = shortage_at(name, spec, k, rank == ranks - 1, &code, same);
+    found = shortage_at(name, spec, differences, k, rank == ranks - 1, &code);
     MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
     if (!ALL(found >= 0) && rank == 0)
       printf("  %s by %s, allocation %d: code %d\n", name, spec, k, code);
@@ -382,12 +379,13 @@ int main(int argc, char **argv)
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank), MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   ALL(early);
-  const char *part = argc > 1 ? argv[1] : "solves bad runs";
+  const char *part = argc > 1 ? argv[1] : "solves bad runs differences";
   if (strstr(part, "solves")) solves(60), solves(2), little_memory();
+  if (strstr(part, "differences")) test_differences();
   if (strstr(part, "bad")) bad_input(), sizes(), not_over_ranks();
   if (strstr(part, "short"))
-    shortage("heat2d:n=4", "mumps"), shortage("heat2d:n=4", "amg"),
-      shortage("jordan:k=2", "mumps");
+    shortage("heat2d:n=4", "mumps", 0), shortage("heat2d:n=4", "amg", 0),
+      shortage("jordan:k=2", "mumps", 0), shortage("heat2d:n=4", "mumps", 1);
   if (strstr(part, "runs")) runs();
   MPI_Finalize();
   return failures != 0;

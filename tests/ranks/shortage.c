@@ -1,6 +1,7 @@
 /* shortage.c: the k-th allocation fails on one rank: all return the same, and nothing is left.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "shortage.h"
+#include "checks.h"
 #include <stdlib.h>
 #include <steif/mpi.h>
 
@@ -23,11 +24,22 @@ static void release(void *block, void *user)
   free(block);
 }
 
+/* Own rows of a dense pattern, in place of A. */
+static void take_A_away(steif_problem *p, sunindextype rows)
+{
+  static sunindextype at[17], column[256];
+  static const steif_pattern dense = {at, column};
+  for (sunindextype k = 0; k < rows * p->n; k++) column[k] = k % p->n;
+  for (sunindextype i = 0; i <= rows; i++) at[i] = i * p->n;
+  p->A = NULL, p->pattern = &dense;
+}
+
 /* A factorisation and a real and a complex solve. */
-static int work(steif_context *ctx, const char *name, const char *spec)
+static int work(steif_context *ctx, const char *name, const char *spec, int differences)
 {
   N_Vector like = NULL;
   steif_problem *p = steif_mpi_problem_new(ctx, name, MPI_COMM_WORLD, &like);
+  if (p && differences) take_A_away(p, NV_LOCLENGTH_P(like));
   steif_mpi *m = p ? steif_mpi_open(ctx, p, spec, like) : NULL;
   int code = m ? STEIF_OK : steif_status(ctx);
   if (m) {
@@ -45,14 +57,13 @@ static int work(steif_context *ctx, const char *name, const char *spec)
   return code;
 }
 
-int shortage_at(const char *name, const char *spec, int k, int here, int *code,
-                int (*same)(steif_context *))
+int shortage_at(const char *name, const char *spec, int differences, int k, int here, int *code)
 {
   heap h = {0};
   steif_context *ctx =
     steif_context_new(&(steif_setup){.allocate = allocate, .release = release, .user = &h});
   h.armed = here, h.until = k;
-  *code = work(ctx, name, spec);
+  *code = work(ctx, name, spec, differences);
   h.armed = 0;
   int all[] = {same(ctx), h.failed};
   MPI_Allreduce(MPI_IN_PLACE, &all[1], 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);

@@ -5,8 +5,9 @@
 
 #include <steif/mpi.h>
 
-/* 1: it failed and all is right, 0: there were fewer, -1: wrong. `here`: on this rank. */
-int shortage_at(const char *name, const char *spec, int k, int here, int *code,
-                int (*same)(steif_context *));
+/* 1: it failed and all is right, 0: there were fewer, -1: wrong. `here`: on this rank; differences: A by those of f, for
+ * problems of 16 unknowns. */
+int shortage_at(const char *name, const char *spec, int differences, int k, int here,
+                int *code);
 
 #endif

@@ -48,6 +48,8 @@ typedef struct steif_mpi_stats {
   double memory;         /* MB that the factors of MUMPS take on this rank at most */
   double
     backward_error; /* the largest |b - M x| / (|M| |x| + |b|), in norms of maxima, after refinement */
+  long evaluations; /* of f or F for differences */
+  int colours;      /* of the columns then */
 } steif_mpi_stats;
 
 /* A vector of `rows` rows of this rank, 0 or more, zeroed; NULL with the sentence set: rows < 0 on one rank, MPI
@@ -60,8 +62,13 @@ STEIF_EXPORT sunindextype steif_mpi_first(N_Vector v);
 /* The problem with one of the solvers above, for vectors like `like`, which is kept until steif_mpi_free; NULL with
  * the sentence set. problem->A, and E where there is one, fill SUNSparseMatrix(rows, n, nnz, CSR_MAT): index
  * pointers of own rows, column numbers from 0 to n - 1 in any order, none twice in a row; problem->nnz and nnz_E is
- * the room on this rank. A = df/dy, or -dF/dy at the (t, y, y') given; E is constant. For constant coefficients
- * (.linear, or the descriptor form) products come from the rows too, else from .Av or differences of f.
+ * the room on this rank. A = df/dy, or -dF/dy at the (t, y, y') given; E is constant. Without A, problem->pattern
+ * is that of own rows: row i has the columns pattern->row[pattern->column[i]] .., ascending, global numbers; A comes
+ * from differences of f (of F: E too), an evaluation for each colour and one, columns that share no row being one
+ * colour, the same colours for any number of ranks. Increments are 1.5e-8 max(|y_j|, rtol_scale). The callback is
+ * called equally often on all ranks. For constant coefficients (.linear, or the descriptor form) products come from the
+ * rows too, and entries that the pattern lacks are an error; else products come from .Av or differences of f, and what
+ * the pattern lacks costs iterations.
  * STEIF_BAD_INPUT: rows that do not add up to n, ranks with different problems or specs, columns out of range;
  * STEIF_UNKNOWN_NAME: no such solver; STEIF_UNSUPPORTED: more rows than the integers of MUMPS or hypre hold. */
 STEIF_EXPORT steif_mpi *steif_mpi_open(steif_context *ctx, const steif_problem *problem,
