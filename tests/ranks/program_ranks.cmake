@@ -17,4 +17,29 @@ run(0 "unknowns +67" solve ladder:n=20,case=cons bdf --linear mumps)
 run(2 "STEIF_UNSUPPORTED" solve hires bdf)
 run(2 "STEIF_UNKNOWN_NAME" solve heat2d:n=8 bdf --linear pardiso)
 run(2 "no option" solve heat2d:n=8 bdf --npz file)
-run(2 "verb" compare heat2d:n=8 bdf)
+run(2 "no option" solve heat2d:n=8 bdf --rtols 1e-3)
+run(2 "not \"1e-3,x\"" compare heat2d:n=8 bdf --rtols 1e-3,x)
+run(2 "verbs solve, compare and sweep" order heat2d:n=8 bdf)
+run(2 "no method .abx." compare heat2d:n=8 bdf abx)
+
+# Methods and the three baselines, the same preconditioner: every run ends within ten tolerances of the closed
+# solution; each row has its counts, and reductions of steif's methods are at most 2 an iteration, 6 a step and 60 for the
+# start.
+execute_process(COMMAND ${MPIEXEC} -np ${RANKS} --oversubscribe --bind-to none ${STEIF} compare heat2d:n=12 bdf radau:s=3
+                        cvode ida arkode --rtols 1e-4,1e-5 --t1 0.02 --parallel --json
+                OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code TIMEOUT 60)
+string(JSON rows ERROR_VARIABLE wrong LENGTH "${out}" rows)
+if(NOT code EQUAL 0 OR NOT rows EQUAL 10)
+  message(FATAL_ERROR "compare: exit code ${code}, ${rows} rows:\n${out}${err}")
+endif()
+foreach(k RANGE 9)
+  foreach(column method status error steps iterations cycles setups reductions)
+    string(JSON ${column} GET "${out}" rows ${k} ${column})
+  endforeach()
+  math(EXPR most "2 * ${iterations} + 6 * ${steps} + 60")
+  if(NOT status STREQUAL ok OR cycles LESS iterations OR setups LESS 1 OR error GREATER 1e-3
+     OR (k LESS 4 AND reductions GREATER most))
+    message(SEND_ERROR "compare ${method}: ${status}, error ${error}, ${steps} steps, ${iterations} iterations, "
+                       "${cycles} cycles, ${setups} setups, ${reductions} reductions")
+  endif()
+endforeach()
