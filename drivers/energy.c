@@ -7,18 +7,20 @@
 
 static int find(struct call *call, struct energy_answer *a)
 {
-  const steif_options o = options_of(call);
-  interruption_poll();
+  steif_options o = options_of(call);
+  o.observe = energy_follow, o.observer = a;
   steif_energy *e = &a->energy;
   e->drift = calloc(a->columns, sizeof *e->drift);
   e->row = calloc(e->rows * a->columns, sizeof *e->row);
+  a->report = steif_report_new(call->ctx);
   int code = EXIT_FAILED;
   progress(call, "%s on %s to t = %g", call->word[1], a->problem->name, o.t1);
-  if (!e->drift || !e->row)
+  if (!e->drift || !e->row || !a->report)
     code = no_memory(call, "the rows", "ask for fewer with --rows");
   else
     code =
       energy_shown(call, a, steif_energy_measure(call->ctx, a->problem, call->word[1], &o, e));
+  steif_report_free(&a->report);
   free(e->row);
   free(e->drift);
   return code;
@@ -29,6 +31,7 @@ static int select_invariant(struct call *call, const steif_problem *p)
   const long which = whole_of(call, "--invariant");
   struct energy_answer a = {
     .problem = p,
+    .call = call,
     .t1 = real_or(call, "--t1", p->t1),
     .which = (size_t)which,
     .columns = 1 + (size_t)p->invariants,

@@ -3,26 +3,7 @@
 #include "answers.h"
 #include "curves.h"
 
-struct answer {
-  steif_method_info method;
-  size_t count;           /* of rows asked for; a signal leaves the last ones without error */
-  struct steps_made made; /* by the first row */
-  steif_order_row row[HALVINGS];
-};
-
-static void fill(steif_report *r, const struct call *call, const void *result)
-{
-  const struct answer *a = result;
-  steif_report_text(r, "method", call->word[0]);
-  steif_report_text(r, "problem", word_of(call, "--problem"));
-  if (a->method.order) steif_report_whole(r, "claimed", a->method.order);
-  steif_report_truth(r, "compensated", a->row[0].compensated);
-  report_steps(r, &a->made);
-  steif_report_text(r, "start", word_of(call, "--start"));
-  order_rows(r, a->count, a->row);
-}
-
-static int draw(const struct call *call, const struct answer *a)
+static int draw(const struct call *call, const struct order_answer *a)
 {
   error_curves errors = {.title = call->word[0], .y_label = "error"};
   errors_open(&errors, call->word[0]);
@@ -30,28 +11,20 @@ static int draw(const struct call *call, const struct answer *a)
   return errors_plot(call, &errors, call->plot);
 }
 
-static int present_rows(const struct call *call, const steif_problem *p, struct answer *a)
-{
-  const double h = a->row[0].h, t1 = real_or(call, "--t1", p->t1);
-  a->made = (struct steps_made){p->t0, h, a->row[0].end, h, t1, 0};
-  return present_result(call, fill, a);
-}
-
 static int run(struct call *call)
 {
-  struct answer a = {.count = (size_t)whole_of(call, "--halvings") + 1};
-  const steif_options o = options_of(call);
+  static struct order_answer a;
   steif_problem p;
+  a = (struct order_answer){.count = (size_t)whole_of(call, "--halvings") + 1};
   if (steif_method_find(call->ctx, call->word[0], &a.method)) return fail(call);
   int code = find_problem(call, word_of(call, "--problem"), &p);
   if (code) return code;
-  progress(call, "%s on %s", call->word[0], p.name);
-  interruption_poll();
-  code =
-    steif_order_measure(call->ctx, &p, call->word[0], &o, real_of(call, "--h"), a.count, a.row);
-  if (!code) code = steif_order_rounding(call->ctx, &p, call->word[0], &o, a.count, a.row);
-  if (code == STEIF_STOPPED && a.row[0].error >= 0) present_rows(call, &p, &a);
-  code = code ? fail(call) : present_rows(call, &p, &a);
+  a.report = steif_report_new(call->ctx);
+  code = a.report ? order_measure(call, &p, &a) : STEIF_NO_MEMORY;
+  const bool shown = !code || (code == STEIF_STOPPED && a.made);
+  const int output = shown ? present(call, a.report) : EXIT_OK;
+  code = code ? fail(call) : output;
+  steif_report_free(&a.report);
   steif_problem_clear(call->ctx, &p);
   return code ? code : draw(call, &a);
 }

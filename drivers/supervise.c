@@ -12,13 +12,17 @@ static int find(struct call *call, const steif_problem *p)
   if (!(windows < 1e6))
     return bad_usage(call, "%g windows of %g: take a longer --window", windows, window);
   const size_t room = (size_t)(windows > 0 ? windows : 0) + 3;
-  struct supervise_answer a = {.n = (size_t)p->n, .y = calloc((size_t)p->n, sizeof *a.y)};
+  struct supervise_answer a = {.call = call,
+                               .report = steif_report_new(call->ctx),
+                               .n = (size_t)p->n,
+                               .y = calloc((size_t)p->n, sizeof *a.y)};
   const bool alone = supervise_open(&a.alone, room), kept = supervise_open(&a.kept, room);
-  const int code = a.y && alone && kept
+  const int code = a.report && a.y && alone && kept
                      ? supervise_both(call, p, &a)
                      : no_memory(call, "the windows", "take a longer --window");
   supervise_close(&a.alone);
   supervise_close(&a.kept);
+  steif_report_free(&a.report);
   free(a.y);
   return code;
 }

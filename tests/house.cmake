@@ -65,6 +65,8 @@ if(TARGET steif_program)
              -DFOLDER=${PROJECT_BINARY_DIR}/hamiltonians)
   add_test(NAME kills COMMAND sh ${PROJECT_SOURCE_DIR}/tests/kills.sh $<TARGET_FILE:steif_program>
            ${PROJECT_BINARY_DIR}/kills ${PROJECT_SOURCE_DIR}/examples/models)
+  add_test(NAME rows COMMAND sh ${PROJECT_SOURCE_DIR}/tests/rows.sh $<TARGET_FILE:steif_program>
+           ${PROJECT_BINARY_DIR}/rows)
   house_test(commands -DPROGRAM=$<TARGET_FILE:steif_program> -DREADME=${PROJECT_SOURCE_DIR}/README.md)
 endif()
 

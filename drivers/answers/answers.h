@@ -4,13 +4,22 @@
 #ifndef ANSWERS_H
 #define ANSWERS_H
 
+#include "curves.h"
 #include "integration.h"
 
 /* Rows of the sheet "methods". */
 void report_methods(steif_report *r, const struct call *call);
 
 /* Errors with steps h, h/2, ..., and the orders that rounding leaves. */
-void order_rows(steif_report *r, size_t count, const steif_order_row *row);
+struct order_answer {
+  steif_method_info method;
+  steif_report *report;
+  size_t count; /* of rows asked for, and of those made */
+  size_t made;
+  steif_order_row row[HALVINGS];
+};
+/* Row by row, each with its rounding; all end where the longest steps do. */
+int order_measure(struct call *call, const steif_problem *p, struct order_answer *a);
 
 struct problem_answer {
   const steif_problem *problem;
@@ -76,6 +85,7 @@ struct sensitivity_answer {
   const steif_problem *problem;
   steif_options options;
   int count, active[SENSITIVITIES];
+  steif_report *report;
   size_t shown, width;
   double *value;
   double *mesh;              /* of the run, where it is to be checked */
@@ -90,6 +100,10 @@ struct sensitivity_answer {
 /* --parameters; the run, and what it shows: exit codes after a sentence. */
 int sensitivity_choose(struct call *call, struct sensitivity_answer *a);
 int sensitivity_measure(struct call *call, struct sensitivity_answer *a);
+/* Its parts: what is known at the start, the rows of the point that came last, the rest, of a run that a signal has
+ * stopped, too. */
+void sensitivity_begin(struct call *call, struct sensitivity_answer *a);
+void sensitivity_point(struct call *call, struct sensitivity_answer *a);
 int sensitivity_present(struct call *call, const struct sensitivity_answer *a);
 const char *sensitivity_name(const struct sensitivity_answer *a, int i, char *room);
 double sensitivity_scale(const struct sensitivity_answer *a, int i);
@@ -100,9 +114,13 @@ struct energy_answer {
   double t1;             /* as asked for, or where a signal came */
   size_t which, columns; /* the invariant shown, from 1; of a row: t and every invariant */
   steif_energy energy;
+  steif_report *report;
+  const struct call *call;
+  size_t told; /* rows of the energy that the report has */
 };
-int energy_present(struct call *call, const struct energy_answer *a);
-/* The same after the code of steif_energy_measure: what a run has seen that a signal has stopped, too. */
+/* Fits steif_options.observe, with the answer: rows that have come. */
+int energy_follow(steif_solver *s, double t, N_Vector y, void *answer);
+/* After the code of steif_energy_measure: what a run has seen that a signal has stopped, too. */
 int energy_shown(struct call *call, struct energy_answer *a, int code);
 
 struct lyapunov_answer {
@@ -115,6 +133,9 @@ struct lyapunov_answer {
   bool measured; /* growth, and by steps: */
   size_t steps, room;
   double *t, *norm, *lte; /* NULL: not wanted */
+  steif_context *ctx;     /* of the rows of --series: */
+  const char *series;     /* the path; NULL: there is none, or it cannot be written */
+  steif_rows *file;
   steif_decay decay;
   bool judged, decided; /* decay is there; and says something, or is not for this problem */
   steif_lyapunov_check *check;
@@ -133,6 +154,7 @@ int lyapunov_present(const struct call *call, const struct lyapunov_answer *a);
 /* The windows of one run, and ln |w| at their ends: count + 1 points. */
 struct supervise_run {
   size_t count, room;
+  struct supervise_answer *rows; /* whose report gets a row for each window; NULL: none */
   steif_supervised_window *window;
   double *t, *log;
   steif_supervised facts;
@@ -144,13 +166,17 @@ void supervise_close(struct supervise_run *run);
 /* Fits steif_supervision.tell, with a supervise_run as user data. */
 int supervise_keep(const steif_supervised_window *window, void *run);
 struct supervise_answer {
+  const struct call *call;
+  steif_report *report;
   size_t n;
   double *y;
   struct supervise_run alone, kept; /* by error control alone, and supervised */
 };
+/* What is known at the start. */
+void supervise_begin(struct supervise_answer *a);
 /* Both runs by the options of the call, presented. */
 int supervise_both(struct call *call, const steif_problem *p, struct supervise_answer *a);
-int supervise_present(const struct call *call, const struct supervise_answer *a);
+int supervise_present(struct supervise_answer *a);
 
 struct discrete_answer {
   steif_discrete discrete;

@@ -31,12 +31,36 @@ static void map_of_step(const struct call *call, steif_report *r, const steif_pr
   steif_forget(call->ctx);
 }
 
-static void fill(steif_report *r, const struct call *call, const void *result)
+static void rows(struct energy_answer *a)
 {
-  const struct energy_answer *a = result;
   const steif_energy *e = &a->energy;
-  steif_report_text(r, "problem", call->word[0]);
-  steif_report_text(r, "method", call->word[1]);
+  steif_report *r = a->report;
+  if (!a->told) {
+    steif_report_text(r, "problem", a->call->word[0]);
+    steif_report_text(r, "method", a->call->word[1]);
+  }
+  for (; a->told < e->rows; a->told++) {
+    const double *row = e->row + a->told * a->columns;
+    steif_report_row(r, "rows");
+    steif_report_real(r, "rows.t", row[0]);
+    steif_report_real(r, "rows.drift", row[a->which]);
+  }
+  rows_come(a->call, r);
+}
+
+int energy_follow(steif_solver *s, double t, N_Vector y, void *answer)
+{
+  struct energy_answer *a = answer;
+  (void)s, (void)t, (void)y;
+  if (a->told < a->energy.rows) rows(a);
+  return 0;
+}
+
+static void finish(const struct call *call, struct energy_answer *a)
+{
+  const steif_energy *e = &a->energy;
+  steif_report *r = a->report;
+  rows(a);
   steif_report_whole(r, "steps", e->steps);
   if (e->h > 0)
     report_steps(r, &(struct steps_made){.t0 = a->problem->t0,
@@ -45,11 +69,6 @@ static void fill(steif_report *r, const struct call *call, const void *result)
                                          .last_h = e->h,
                                          .asked = a->t1,
                                          .steps = e->steps});
-  for (size_t i = 0; i < e->rows; i++) {
-    steif_report_row(r, "rows");
-    steif_report_real(r, "rows.t", e->row[i * a->columns]);
-    steif_report_real(r, "rows.drift", e->row[i * a->columns + a->which]);
-  }
   report_members(r, "", drift_members, &e->drift[a->which - 1]);
   steif_report_real(r, "period", e->period);
   steif_report_truth(r, "drifts", e->drift[a->which - 1].drifts);
@@ -79,9 +98,10 @@ static int draw(const struct call *call, const struct energy_answer *a)
   return code;
 }
 
-int energy_present(struct call *call, const struct energy_answer *a)
+static int energy_present(struct call *call, struct energy_answer *a)
 {
-  const int code = present_result(call, fill, a);
+  finish(call, a);
+  const int code = present(call, a->report);
   return code || !call->plot ? code : draw(call, a);
 }
 

@@ -71,21 +71,22 @@ static void cells(steif_report *r, const struct sensitivity_answer *a, const dou
     }
 }
 
-static void rows(steif_report *r, const struct sensitivity_answer *a)
+void sensitivity_point(struct call *call, struct sensitivity_answer *a)
 {
   const size_t n = (size_t)a->problem->n;
   const steif_names *names = a->problem->names;
-  for (size_t point = 0; point < a->shown; point++)
-    for (size_t i = 0; i < n; i++) {
-      const double *y = a->value + point * a->width + 1;
-      char own[STEIF_SPEC_WORD];
-      snprintf(own, sizeof own, "y%zu", i + 1);
-      steif_report_row(r, "rows");
-      steif_report_real(r, "rows.t", y[-1]);
-      steif_report_text(r, "rows.unknown", names && names->unknown ? names->unknown[i] : own);
-      steif_report_real(r, "rows.y", y[i]);
-      cells(r, a, y + n, i);
-    }
+  steif_report *r = a->report;
+  const double *y = a->value + (a->shown - 1) * a->width + 1;
+  for (size_t i = 0; i < n; i++) {
+    char own[STEIF_SPEC_WORD];
+    snprintf(own, sizeof own, "y%zu", i + 1);
+    steif_report_row(r, "rows");
+    steif_report_real(r, "rows.t", y[-1]);
+    steif_report_text(r, "rows.unknown", names && names->unknown ? names->unknown[i] : own);
+    steif_report_real(r, "rows.y", y[i]);
+    cells(r, a, y + n, i);
+  }
+  rows_come(call, r);
 }
 
 /* S at the end, n x P by rows, as the last point has it by columns. */
@@ -99,18 +100,21 @@ static void matrix(steif_report *r, const struct sensitivity_answer *a)
   free(by_rows);
 }
 
-static void fill(steif_report *r, const struct call *call, const void *result)
+void sensitivity_begin(struct call *call, struct sensitivity_answer *a)
 {
-  const struct sensitivity_answer *a = result;
+  steif_report *r = a->report;
   double p[SENSITIVITIES];
   for (int i = 0; i < a->count; i++) p[i] = a->problem->parameters->value[a->active[i]];
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
-  if (strcmp(call->word[1], a->used)) steif_report_text(r, "used", a->used);
   steif_report_list(r, "p", (size_t)a->count, p);
+}
+
+static void finish(steif_report *r, const struct call *call, const struct sensitivity_answer *a)
+{
+  if (strcmp(call->word[1], a->used)) steif_report_text(r, "used", a->used);
   if ((call->json || call->npz || call->h5 || call->mtx) && a->shown) matrix(r, a);
-  rows(r, a);
-  if (a->problem->quadrature) {
+  if (a->problem->quadrature && !a->outcome.code) {
     steif_report_real(r, "integral", a->integral);
     steif_report_list(r, "gradient", (size_t)a->count, a->gradient);
   }
@@ -126,5 +130,6 @@ static void fill(steif_report *r, const struct call *call, const void *result)
 
 int sensitivity_present(struct call *call, const struct sensitivity_answer *a)
 {
-  return present_result(call, fill, a);
+  finish(a->report, call, a);
+  return present(call, a->report);
 }

@@ -115,6 +115,15 @@ static int check(struct call *call, struct sensitivity_answer *a)
   return code;
 }
 
+/* A run that stopped: by a signal after some rows, these are presented. */
+static int ended(struct call *call, struct sensitivity_answer *a)
+{
+  a->outcome.code = steif_status(call->ctx);
+  if (a->outcome.code != STEIF_STOPPED || !a->shown) return fail(call);
+  snprintf(a->outcome.message, sizeof a->outcome.message, "%s", steif_message(call->ctx));
+  return exit_of(a->outcome.code);
+}
+
 static int follow(struct call *call, struct sensitivity_answer *a, steif_solver *s,
                   size_t points)
 {
@@ -122,9 +131,11 @@ static int follow(struct call *call, struct sensitivity_answer *a, steif_solver 
   int code = EXIT_OK;
   for (size_t i = 1; !code && i <= points; i++) {
     const double t = i < points ? t0 + (double)i / (double)points * span : a->options.t1;
-    if (steif_solve_to(s, t)) return fail(call);
+    if (steif_solve_to(s, t)) return ended(call, a);
     code = keep(call, a, s, t, a->value + a->shown * a->width);
-    if (!code) a->shown++;
+    if (code) return code;
+    a->shown++;
+    sensitivity_point(call, a);
   }
   return code;
 }
@@ -161,6 +172,13 @@ static void remark(struct sensitivity_answer *a)
       a->cost.noise);
 }
 
+static int stopped(struct call *call, struct sensitivity_answer *a, int code)
+{
+  const int shown = sensitivity_present(call, a);
+  say(call, "%s", a->outcome.message);
+  return shown ? shown : code;
+}
+
 int sensitivity_measure(struct call *call, struct sensitivity_answer *a)
 {
   const size_t points = (size_t)whole_of(call, "--points");
@@ -172,16 +190,20 @@ int sensitivity_measure(struct call *call, struct sensitivity_answer *a)
   a->options.sensitivities = 1, a->options.active = a->active,
   a->options.active_count = a->count;
   if (given(call, "--check")) a->options.observe = note, a->options.observer = a;
+  a->report = steif_report_new(call->ctx);
+  if (!a->report) return fail(call);
+  sensitivity_begin(call, a);
   progress(call, "%s on %s", call->word[1], a->problem->name);
+  snprintf(a->outcome.message, sizeof a->outcome.message, "ok");
   steif_solver *s = steif_solver_new(call->ctx, a->problem, call->word[1], &a->options);
   int code = s ? follow(call, a, s, points) : fail(call);
   if (!code) code = integrals(call, a, s);
   if (s) a->outcome.stats = *steif_statistics(s);
   if (s) snprintf(a->used, sizeof a->used, "%s", steif_method_used(s));
-  snprintf(a->outcome.message, sizeof a->outcome.message, "ok");
   steif_sensitivity_costs(s, &a->cost);
   if (!code) remark(a);
   steif_solver_free(&s);
+  if (code && a->outcome.code == STEIF_STOPPED && a->shown) return stopped(call, a, code);
   if (code) return code;
   const int checked = given(call, "--check") ? check(call, a) : EXIT_OK;
   if (checked)
@@ -194,6 +216,7 @@ int sensitivity_measure(struct call *call, struct sensitivity_answer *a)
 
 void sensitivity_close(struct sensitivity_answer *a)
 {
+  steif_report_free(&a->report);
   free(a->value);
   free(a->mesh);
 }

@@ -10,10 +10,26 @@ int series_open(struct call *call, struct lyapunov_answer *a, size_t room)
   a->t = malloc(3 * room * sizeof *a->t);
   if (!a->t) return no_memory(call, "the steps", "leave --series and --plot out");
   a->norm = a->t + room, a->lte = a->norm + room, a->room = room;
+  a->series = word_of(call, "--series"), a->ctx = call->ctx;
   return EXIT_OK;
 }
 
-void series_close(struct lyapunov_answer *a) { free(a->t); }
+void series_close(struct lyapunov_answer *a)
+{
+  (void)steif_rows_close(&a->file);
+  free(a->t);
+}
+
+/* The file is made by the first step: where no solution is followed, there is none. One that cannot be written is
+ * left to series_save, which says why. */
+static void to_file(struct lyapunov_answer *a, const double row[3])
+{
+  static const char *const name[] = {"t", "norm", "lte"};
+  if (!a->file) a->file = steif_rows_new(a->ctx, a->series, 3, name);
+  if (a->file && !steif_rows_add(a->file, row)) return;
+  a->series = NULL;
+  steif_forget(a->ctx);
+}
 
 int series_tell(double t, double norm, double lte, void *answer)
 {
@@ -22,6 +38,7 @@ int series_tell(double t, double norm, double lte, void *answer)
   a->t[a->steps] = t;
   a->norm[a->steps] = norm;
   a->lte[a->steps++] = lte;
+  if (a->series) to_file(a, (const double[]){t, norm, lte});
   return 0;
 }
 
@@ -50,7 +67,7 @@ int series_save(const struct call *call, const struct lyapunov_answer *a)
         "no solution of x' = A(t) x was followed: --series and --plot have nothing to show");
     return EXIT_FAILED;
   }
-  const int code = given(call, "--series") ? save(call, a) : EXIT_OK;
+  const int code = given(call, "--series") && !a->series ? save(call, a) : EXIT_OK;
   snprintf(title, sizeof title, "Size and local error: %s, %s", call->word[0], call->word[1]);
   const steif_curve curve[] = {{"|x|", a->steps, a->t, a->norm, 0},
                                {"local error", a->steps, a->t, a->lte, 0}};

@@ -19,16 +19,6 @@ void supervise_close(struct supervise_run *run)
   free(run->t);
 }
 
-int supervise_keep(const steif_supervised_window *window, void *user)
-{
-  struct supervise_run *run = user;
-  if (run->count >= run->room) return 1;
-  run->window[run->count++] = *window;
-  run->t[run->count] = window->t;
-  run->log[run->count] = window->log;
-  return 0;
-}
-
 static void cost(steif_report *r, const char *control, const struct supervise_run *j,
                  bool capped)
 {
@@ -61,26 +51,47 @@ static void window(steif_report *r, const struct supervise_answer *a, size_t i)
   steif_report_truth(r, "rows.real", w->real);
 }
 
-/* A signal may have come in the run by error control alone: then the other one is not there. */
-static void fill(steif_report *r, const struct call *call, const void *result)
+int supervise_keep(const steif_supervised_window *w, void *user)
 {
-  const struct supervise_answer *a = result;
-  const bool stopped = a->alone.code == STEIF_STOPPED;
+  struct supervise_run *run = user;
+  if (run->count >= run->room) return 1;
+  run->window[run->count++] = *w;
+  run->t[run->count] = w->t;
+  run->log[run->count] = w->log;
+  if (!run->rows) return 0;
+  window(run->rows->report, run->rows, run->count - 1);
+  rows_come(run->rows->call, run->rows->report);
+  return 0;
+}
+
+void supervise_begin(struct supervise_answer *a)
+{
+  const struct call *call = a->call;
+  steif_report *r = a->report;
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
   steif_report_real(r, "rate", real_of(call, "--rate"));
   steif_report_real(r, "window", real_of(call, "--window"));
+}
+
+/* A signal may have come in the run by error control alone: then the other one is not there. */
+static void finish(struct supervise_answer *a)
+{
+  steif_report *r = a->report;
+  const bool stopped = a->alone.code == STEIF_STOPPED;
+  for (size_t i = 0; stopped && i < a->alone.count; i++) window(r, a, i);
   if (stopped || a->alone.code == STEIF_OK) cost(r, "errors", &a->alone, false);
-  if (!stopped) cost(r, word_of(call, "--watch"), &a->kept, true);
-  for (size_t i = 0; i < (stopped ? a->alone.count : a->kept.count); i++) window(r, a, i);
+  if (!stopped) cost(r, word_of(a->call, "--watch"), &a->kept, true);
   steif_report_list(r, "y", a->n, a->y);
 }
 
-int supervise_present(const struct call *call, const struct supervise_answer *a)
+int supervise_present(struct supervise_answer *a)
 {
+  const struct call *call = a->call;
   const struct supervise_run *alone = &a->alone, *kept = &a->kept;
   char title[160];
-  const int code = present_result(call, fill, a);
+  finish(a);
+  const int code = present(call, a->report);
   snprintf(title, sizeof title, "Growth of the linearised solution: %s, %s", call->word[0],
            call->word[1]);
   const steif_curve curve[] = {

@@ -22,9 +22,9 @@ static void run_once(struct call *call, const steif_problem *p,
 }
 
 /* Windows that were finished before a signal came. */
-static int stopped(struct call *call, const struct supervise_answer *a, size_t windows)
+static int stopped(struct call *call, struct supervise_answer *a, size_t windows)
 {
-  const int output = windows > 0 ? supervise_present(call, a) : EXIT_OK;
+  const int output = windows > 0 ? supervise_present(a) : EXIT_OK;
   return output ? output : fail(call);
 }
 
@@ -32,9 +32,11 @@ int supervise_both(struct call *call, const steif_problem *p, struct supervise_a
 {
   static const enum steif_supervision_rule rule[] = {STEIF_SUPERVISE_WINDOWS,
                                                      STEIF_SUPERVISE_SUM};
+  a->kept.rows = a;
+  supervise_begin(a);
   run_once(call, p, STEIF_SUPERVISE_NONE, a->y, &a->alone); /* it may well overflow */
   if (a->alone.code == STEIF_STOPPED) return stopped(call, a, a->alone.count);
   run_once(call, p, rule[choice_of(call, "--watch")], a->y, &a->kept);
-  if (a->kept.code == STEIF_OK) return supervise_present(call, a);
+  if (a->kept.code == STEIF_OK) return supervise_present(a);
   return a->kept.code == STEIF_STOPPED ? stopped(call, a, a->kept.count) : fail(call);
 }

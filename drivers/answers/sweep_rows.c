@@ -177,8 +177,7 @@ static int count(struct sweep *s, const char *line)
   for (const char *at = line; *at; at++)
     s->fingerprint = (s->fingerprint ^ (unsigned char)*at) * UINT64_C(0x100000001b3);
   s->rows++;
-  if (s->csv && (fprintf(s->csv, "%s\n", line) < 0 || (s->rows % 64 == 0 && fflush(s->csv))))
-    return 1;
+  if (s->csv && fprintf(s->csv, "%s\n", line) < 0) return 1;
   return ferror(stdout);
 }
 
@@ -199,6 +198,7 @@ int sweep_rows(struct sweep *s, long long i, const struct member_record *r)
     if (!s->call->json && !s->call->csv) table_row(s, i, r, row);
     if (csv_line(s, i, r, row) >= s->room || count(s, s->line)) return 1;
   }
+  if ((s->csv && fflush(s->csv)) || fflush(stdout)) return 1; /* who is killed keeps them */
   count_member(s, r->code >= 0);
   return 0;
 }

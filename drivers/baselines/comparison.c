@@ -61,6 +61,7 @@ void compare_method(struct call *call, comparison *c, const char *method)
     report_run(c->report, method, &c->problem, &o, &out);
     steif_report_text(c->report, "rows.settings", spec);
     if (many) report_settings(c->report, "settings", NULL, &s);
+    rows_come(call, c->report);
     work_add(&c->work, &out);
     c->good += out.code == STEIF_OK || out.code == STEIF_EVENT;
   }

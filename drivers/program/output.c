@@ -32,6 +32,17 @@ int save_plot(const struct call *call, const steif_plot *plot, const char *path)
   return EXIT_FAILED;
 }
 
+void rows_come(const struct call *call, steif_report *report)
+{
+  progress(call, NULL);
+  if (steif_report_flow(report, call->csv, call->json ? NULL : stdout)) steif_forget(call->ctx);
+}
+
+void csv_comes(const struct call *call, steif_report *report)
+{
+  if (steif_report_flow(report, call->csv, NULL)) steif_forget(call->ctx);
+}
+
 int present(const struct call *call, steif_report *report)
 {
   const int shown = show(call, report), saved = save_csv(call, report);

@@ -15,6 +15,11 @@ int show(const struct call *call, steif_report *report);
 /* Of --npz and --h5, in those that are given; an exit code. */
 int save_arrays(const struct call *call, size_t count, const steif_array *array);
 int save_report_arrays(const struct call *call, const steif_report *report);
+/* The rows of its first sheet that are new, each of which is complete, in --csv and, without --json, on stdout; show
+ * then shows the rest. A failure is left to save_csv. */
+void rows_come(const struct call *call, steif_report *report);
+/* The same in --csv alone. */
+void csv_comes(const struct call *call, steif_report *report);
 /* As --csv. */
 int save_csv(const struct call *call, steif_report *report);
 /* Both. */

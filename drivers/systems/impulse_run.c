@@ -23,6 +23,12 @@ struct record {
   double breaks[BREAKS];
 };
 
+/* A row that is complete. */
+static void come(struct record *k)
+{
+  if (k->call->csv) csv_comes(k->call, k->sheet);
+}
+
 static int jump(double t, const double *before, const steif_impulse *i, void *user)
 {
   struct record *k = user;
@@ -30,6 +36,7 @@ static int jump(double t, const double *before, const steif_impulse *i, void *us
   k->jumps++;
   report_jump(k->shown, "jumps", NULL, t, before, i);
   if (k->call->csv) report_jump(k->sheet, "rows", k->column, t, before, i);
+  come(k);
   if (!k->verdict) k->verdict = impulse_verdict(k->call, i);
   return 0;
 }
@@ -40,6 +47,7 @@ static int step(double t, N_Vector x, void *user)
   const double *value = N_VGetArrayPointer(x);
   k->steps++;
   if (k->call->csv) report_vector(k->sheet, "rows", k->column, "x", t, k->n, value);
+  come(k);
   if (t >= k->path.t1) {
     steif_report_real(k->shown, "t", t);
     steif_report_list(k->shown, "x", k->n, value);
@@ -132,6 +140,7 @@ static int row(double t, const double *x, int layer, void *user)
     return step(t, k->view, k);
   }
   if (k->call->csv) report_vector(k->sheet, "rows", k->column, "layer", t, k->n, x);
+  come(k);
   return 0;
 }
 

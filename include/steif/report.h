@@ -53,6 +53,12 @@ STEIF_EXPORT int steif_report_write(steif_report *r, enum steif_format format, F
 /* The same into a file; an unwritable path leaves no file. */
 STEIF_EXPORT int steif_report_save(steif_report *r, enum steif_format format, const char *path);
 
+/* Rows as they come: those of the first sheet that are new since the last call, each of which is complete, to the file
+ * `path` as in STEIF_CSV and to `stream` as in STEIF_TABLE, below the fields that were there when the first came.
+ * Either may be NULL; give the same ones every time. What steif_report_write then writes as STEIF_TABLE is the rest;
+ * steif_report_save writes all. A pipe or a device is left to that. */
+STEIF_EXPORT int steif_report_flow(steif_report *r, const char *path, FILE *stream);
+
 /* Rows of numbers as comma-separated values with a header line, like those of STEIF_CSV, each written out as it
  * comes: what a run that is killed has made is in the file, whose former content is lost. NULL and STEIF_IO where
  * it cannot be written. */

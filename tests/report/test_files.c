@@ -138,6 +138,67 @@ static void rows_are_there_as_they_come(void)
   steif_context_free(&ctx);
 }
 
+static void file_is(const char *path, const char *expected)
+{
+  char found[256];
+  FILE *file = fopen(path, "r");
+  CU_ASSERT_FATAL(file != NULL);
+  found[fread(found, 1, sizeof found - 1, file)] = 0;
+  fclose(file);
+  CHECK(!strcmp(found, expected));
+}
+
+static void stream_is(FILE *stream, const char *expected)
+{
+  char found[512];
+  fflush(stream), rewind(stream);
+  found[fread(found, 1, sizeof found - 1, stream)] = 0;
+  fseek(stream, 0, SEEK_END);
+  CHECK(!strcmp(found, expected));
+}
+
+/* Rows of a report as they come: the file is at every moment what steif_report_save would write, and what has been
+ * shown is not shown again. */
+static void a_report_as_it_comes(void)
+{
+  const char *path = "flow.csv";
+  steif_context *ctx = steif_context_new(NULL);
+  steif_report *r = steif_report_new(ctx);
+  FILE *table = tmpfile();
+  CU_ASSERT_FATAL(r && table);
+  steif_report_text(r, "method", "be");
+  CHECK(steif_report_flow(r, path, table) == STEIF_OK); /* no row has come */
+  steif_report_row(r, "rows");
+  steif_report_real(r, "rows.h", 0.5), steif_report_text(r, "rows.status", "ok");
+  CHECK(steif_report_flow(r, path, table) == STEIF_OK);
+  file_is(path, "h,status\n0.5,ok\n");
+  const char *first = "method  be\n\n           h  status\n         0.5  ok\n";
+  stream_is(table, first);
+  steif_report_row(r, "rows");
+  steif_report_real(r, "rows.h", -0.25), steif_report_text(r, "rows.status", "no");
+  steif_report_text(r, "rows.message", "stopped");
+  CHECK(steif_report_flow(r, path, table) == STEIF_OK); /* a column more */
+  file_is(path, "h,status,message\n0.5,ok,\n-0.25,no,stopped\n");
+  steif_report_whole(r, "count", 2);
+  CHECK(steif_report_write(r, STEIF_TABLE, table) == STEIF_OK);
+  CHECK(steif_report_save(r, STEIF_CSV, path) == STEIF_OK);
+  file_is(path, "h,status,message\n0.5,ok,\n-0.25,no,stopped\n");
+  char all[512];
+  snprintf(all, sizeof all, "%s       -0.25  no\n  -0.25: stopped\n\ncount   2\n", first);
+  stream_is(table, all);
+  fclose(table);
+  remove(path);
+  steif_report_free(&r);
+  r = steif_report_new(ctx);
+  steif_report_row(r, "rows");
+  steif_report_real(r, "rows.h", 1);
+  CHECK(steif_report_flow(r, "no_such_folder/rows.csv", NULL) == STEIF_IO);
+  CHECK(steif_report_flow(r, "/dev/full", NULL) == STEIF_OK); /* a device is left to the end */
+  CHECK(steif_report_flow(NULL, path, NULL) == STEIF_NO_MEMORY);
+  steif_report_free(&r);
+  steif_context_free(&ctx);
+}
+
 /* The names and, one after the other, the numbers stand in the file, behind the signature of HDF5. */
 static void arrays_as_hdf5(void)
 {
@@ -175,6 +236,7 @@ static void arrays_as_hdf5(void)
 
 CU_TestInfo tests_of_files[] = {
   {"rows are there as they come", rows_are_there_as_they_come},
+  {"a report as it comes", a_report_as_it_comes},
   {"a saved file is complete and replaces the old one", saved_file_is_complete},
   {"an unwritable path leaves nothing", unwritable_path_leaves_nothing},
   {"a full disk is told, a device stays a device", full_disk_is_told},

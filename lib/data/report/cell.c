@@ -49,6 +49,19 @@ static void locate(const char *key, char *conversion, int *precision)
     }
 }
 
+size_t stf_report_most(const char *key, const json_t *value)
+{
+  enum { WHOLE = 7, TEXT = 10 };
+  char conversion;
+  int precision;
+  locate(key, &conversion, &precision);
+  if (json_is_integer(value)) return WHOLE;
+  if (json_is_array(value) || !stf_report_is_number(value)) return TEXT;
+  return (size_t)(precision + (conversion == 'g'   ? 6
+                               : conversion == 'e' ? 7
+                                                   : 5)); /* -1.2e-05 */
+}
+
 void stf_report_number(char *out, size_t size, char conversion, int precision, double value)
 {
   if (isnan(value))

@@ -66,8 +66,8 @@ static void cells(FILE *stream, const json_t *value, json_int_t width)
   }
 }
 
-/* Enter the members of `row` in `columns`: name to the longest list met (0: scalars only). */
-static int collect(json_t *columns, json_t *row)
+/* Name to the longest list met (0: scalars only). */
+int stf_csv_collect(json_t *columns, json_t *row)
 {
   const char *key;
   json_t *value;
@@ -102,7 +102,7 @@ static void header(FILE *stream, json_t *columns)
   putc('\n', stream);
 }
 
-static void line(FILE *stream, json_t *columns, json_t *row)
+void stf_csv_line(FILE *stream, json_t *columns, json_t *row)
 {
   const char *key;
   json_t *width;
@@ -155,7 +155,7 @@ static json_t *flat(json_t *root)
   return NULL;
 }
 
-static json_t *first_sheet(json_t *root)
+json_t *stf_report_first_sheet(json_t *root)
 {
   const char *key;
   json_t *value;
@@ -165,18 +165,19 @@ static json_t *first_sheet(json_t *root)
 
 int stf_report_csv(steif_report *r, FILE *stream)
 {
-  json_t *columns = json_object(), *sheet = first_sheet(r->root), *single = NULL, *row;
+  json_t *columns = json_object(), *sheet = stf_report_first_sheet(r->root), *single = NULL,
+         *row;
   size_t i;
   int code = columns ? STEIF_OK : STEIF_NO_MEMORY;
   if (code == STEIF_OK && !sheet) {
     single = flat(r->root);
-    code = single ? collect(columns, single) : STEIF_NO_MEMORY;
+    code = single ? stf_csv_collect(columns, single) : STEIF_NO_MEMORY;
   }
-  json_array_foreach(sheet, i, row) if (code == STEIF_OK) code = collect(columns, row);
+  json_array_foreach(sheet, i, row) if (code == STEIF_OK) code = stf_csv_collect(columns, row);
   if (code == STEIF_OK) {
     header(stream, columns);
-    json_array_foreach(sheet, i, row) line(stream, columns, row);
-    if (single) line(stream, columns, single);
+    json_array_foreach(sheet, i, row) stf_csv_line(stream, columns, row);
+    if (single) stf_csv_line(stream, columns, single);
   } else {
     STEIF_FAIL(r->ctx, code,
                "no memory for the columns of the CSV file; ask for fewer of them");

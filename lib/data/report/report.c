@@ -22,6 +22,7 @@ steif_report *steif_report_new(steif_context *ctx)
 void steif_report_free(steif_report **r)
 {
   if (!r || !*r) return;
+  stf_flow_close(&(*r)->flow);
   json_decref((*r)->root);
   stf_release((*r)->ctx, *r);
   *r = NULL;

@@ -9,15 +9,43 @@
 
 /* One JSON object: scalars, lists and matrices are fields, arrays of objects are sheets. The first
  * failure is kept in `code`; its sentence is in the context. */
+/* Rows of the first sheet as they come (steif_report_flow). */
+typedef struct stf_flow {
+  size_t shown, written;  /* rows on the terminal, in the file */
+  json_t *widths, *names; /* columns there; NULL: no row has come */
+  FILE *file;             /* NULL: not open */
+  bool whole; /* the file is written at the end: it is a pipe, or could not be written */
+} stf_flow;
 struct steif_report {
   steif_context *ctx;
   json_t *root;
   int code;
+  stf_flow flow;
 };
+/* The rows that the terminal has not seen, and the sentences of all. */
+int stf_flow_rest(steif_report *r, json_t *sheet, FILE *stream);
+void stf_flow_close(stf_flow *flow);
 
 int stf_report_json(steif_report *r, FILE *stream);
 int stf_report_csv(steif_report *r, FILE *stream);
 int stf_report_table(steif_report *r, FILE *stream);
+/* Names of columns with the lengths of their lists from the members of `row`; a row below them. */
+int stf_csv_collect(json_t *columns, json_t *row);
+void stf_csv_line(FILE *stream, json_t *columns, json_t *row);
+json_t *stf_report_first_sheet(json_t *root);
+
+/* Lines for a terminal: of the fields before the first sheet, and of a sheet. Columns have the widths of the rows
+ * from `from` on; where more will come, of the longest number that may. A row that is NULL: their names. */
+enum { STF_CELL = 1024, STF_LINE = 96 };
+void stf_table_fields(steif_report *r, FILE *stream);
+int stf_table_measure(json_t *sheet, size_t from, bool more, json_t *columns);
+void stf_table_line(FILE *stream, json_t *columns, const json_t *row);
+/* "  name: sentence" for every row that has one other than "ok". */
+void stf_table_notes(FILE *stream, json_t *sheet);
+int stf_table_sheet(json_t *sheet, FILE *stream);
+void stf_table_pad(FILE *stream, size_t used, size_t width);
+/* Text broken at spaces, further lines indented to where it began. */
+void stf_table_wrapped(FILE *stream, const char *text, size_t indent);
 
 /* Arrays of objects. */
 bool stf_report_is_sheet(const json_t *value);
@@ -28,6 +56,8 @@ bool stf_report_is_number(const json_t *value);
 void stf_report_number(char *out, size_t size, char conversion, int precision, double value);
 /* One value as a person reads it: about six digits, exact values with more; lists shortened. */
 void stf_report_cell(char *out, size_t size, const char *key, const json_t *value);
+/* The characters that a value of this kind takes at most, or nearly always. */
+size_t stf_report_most(const char *key, const json_t *value);
 /* A text as a cell of comma-separated values. */
 void stf_report_quoted(FILE *stream, const char *text);
 /* Characters (not bytes) of UTF-8. */
