@@ -27,6 +27,8 @@ static const struct option options[] = {
   {"--atol", POSITIVE, "A", "absolute tolerance (default: rtol times the problem's scale)",
    NULL},
   {"--h", POSITIVE, "H", "constant step size instead of a tolerance", NULL},
+  PARALLEL_OPTION(
+    "members shared by ranks: mpirun -np N steif sweep ... --parallel, a thread each"),
   SET_OPTION,
   INTERPRETED_OPTIONS,
   OPTIONS_END,
@@ -37,6 +39,7 @@ static const struct rule rules[] = {{"--p", REQUIRED, NULL},
                                     {"--h", EXCLUDES, "--atol"},
                                     {"--threads", AT_MOST, "64"},
                                     {"--at", EXCLUDES, "--points"},
+                                    {"--parallel", EXCLUDES, "--threads"},
                                     RULES_END};
 
 const struct verb verb_sweep = {

@@ -40,6 +40,24 @@ struct member_record {
   double row[]; /* t and n numbers each */
 };
 
+struct sweep;
+struct member_record;
+/* Members shared with other processes, as ranks: all of them have the same sweep, the first one shows it. */
+struct shares {
+  bool first;
+  int processes;
+  /* As in ensemble.h. */
+  long long (*take)(long long chunk, void *of);
+  /* Before the members: 0, or the exit code of one that cannot begin. */
+  int (*agree)(int code, void *of);
+  /* Member k is done here: nonzero when it cannot be kept. */
+  int (*keep)(struct sweep *s, long long k, const struct member_record *r, size_t bytes,
+              void *of);
+  /* After the members: what is still to be shown; the code of all. */
+  int (*join)(struct sweep *s, int code, void *of);
+  void *of;
+};
+
 struct old_rows; /* of --resume */
 struct sweep {
   struct call *call;
@@ -62,6 +80,8 @@ struct sweep {
   uint64_t fingerprint; /* FNV-1a of the rows as --csv has them */
 };
 
+/* The next member that is done, numbered among those that were to be run; nonzero when it cannot be written. */
+int sweep_show(struct sweep *s, long long k, const struct member_record *r);
 /* The rows of a member on stdout, in the file and in the fingerprint; nonzero when they cannot be written. */
 int sweep_head(struct sweep *s);
 int sweep_rows(struct sweep *s, long long i, const struct member_record *r);

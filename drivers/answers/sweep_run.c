@@ -52,6 +52,12 @@ static void take_row(const struct sweep *s, struct member_record *r, steif_solve
     memcpy(row + 1, N_VGetArrayPointer(steif_solution(solver)), s->n * sizeof *row);
 }
 
+static size_t record_size(const struct sweep *s)
+{
+  const size_t rows = s->points + s->on_the_way; /* one more where a run ends early */
+  return sizeof(struct member_record) + rows * (s->n + 1) * sizeof(double);
+}
+
 static bool fits(const struct sweep *s, const steif_problem *p)
 {
   return s->collect != COLLECT_Y || p->n == (sunindextype)s->n;
@@ -91,11 +97,18 @@ static int done(steif_context *ctx, long long k, const steif_problem *p, steif_s
   return STEIF_OK;
 }
 
+int sweep_show(struct sweep *s, long long k, const struct member_record *r)
+{
+  const long long i = old_number(s, k);
+  return old_before(s, i) || sweep_rows(s, i, r);
+}
+
 static int row(long long k, const void *record, void *user)
 {
   struct sweep *s = user;
-  const long long i = old_number(s, k);
-  return old_before(s, i) || sweep_rows(s, i, record);
+  const struct shares *shares = s->call->shares;
+  if (shares) return shares->keep(s, k, record, record_size(s), shares->of);
+  return sweep_show(s, k, record);
 }
 
 /* ---- the whole --------------------------------------------------------------------------------- */
@@ -122,6 +135,7 @@ static int check_names(struct sweep *s)
 
 static int conclude(struct sweep *s, int code)
 {
+  if (s->call->shares && !s->call->shares->first) return EXIT_OK;
   const bool stopped = code == STEIF_STOPPED;
   if (code && !stopped) return fail(s->call);
   int shown = old_before(s, s->axes.members) ? EXIT_FAILED : sweep_foot(s, stopped);
@@ -137,13 +151,15 @@ static int conclude(struct sweep *s, int code)
 
 static int run_members(struct sweep *s)
 {
-  const size_t rows = s->points + s->on_the_way; /* one more where a run ends early */
+  const struct shares *shares = s->call->shares;
   const steif_ensemble_options e = {.open = open_problem,
                                     .method = s->call->word[1],
                                     .options = &s->options,
-                                    .threads = (int)whole_of(s->call, "--threads"),
-                                    .record = sizeof(struct member_record) +
-                                              rows * (s->n + 1) * sizeof(double),
+                                    .threads = shares ? 1 : (int)whole_of(s->call, "--threads"),
+                                    .take = shares ? shares->take : NULL,
+                                    .queue = shares ? shares->of : NULL,
+                                    .workers = shares ? shares->processes : 0,
+                                    .record = record_size(s),
                                     .points = s->on_the_way ? (int)s->points : 0,
                                     .times = given(s->call, "--at") ? s->at : NULL,
                                     .at = at,
@@ -151,8 +167,9 @@ static int run_members(struct sweep *s)
                                     .user = s,
                                     .stop = interruption_poll()};
   const long long missing = old_missing(s);
-  if (sweep_head(s)) return STEIF_IO;
-  return missing ? steif_ensemble(s->call->ctx, missing, member, done, &e) : STEIF_OK;
+  int code = sweep_head(s) ? STEIF_IO : STEIF_OK;
+  if (!code && missing) code = steif_ensemble(s->call->ctx, missing, member, done, &e);
+  return shares ? shares->join(s, code, shares->of) : code;
 }
 
 /* Over the rows that are kept goes a new file, by renaming, when all is written. */
@@ -197,6 +214,7 @@ static int begin(struct sweep *s)
   if (!s->line) return no_memory(s->call, "a row", "collect digits or stats");
   const char *old = word_of(s->call, "--resume");
   if (old) code = old_open(s, old);
+  if (s->call->shares) code = s->call->shares->agree(code, s->call->shares->of);
   if (code) return code;
   return s->call->csv ? write_file(s, s->call->csv) : conclude(s, run_members(s));
 }
@@ -209,7 +227,9 @@ int sweep_run(struct call *call, const steif_problem *p)
   s->problem = p;
   s->options = options_of(call);
   s->collect = (enum collect)choice_of(call, "--collect");
-  if (!given(call, "--csv") && given(call, "--resume")) call->csv = word_of(call, "--resume");
+  const bool shown = !call->shares || call->shares->first;
+  if (shown && !given(call, "--csv") && given(call, "--resume"))
+    call->csv = word_of(call, "--resume");
   const int code = begin(s);
   old_close(s);
   free(s->line);

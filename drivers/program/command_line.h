@@ -75,7 +75,8 @@ struct call {
   } given[GIVEN];
   bool json, quiet, help;
   const char *csv, *plot, *npz, *h5, *mtx;
-  const char *continues; /* the checkpoint that a run goes on from; NULL: it begins */
+  const char *continues;       /* the checkpoint that a run goes on from; NULL: it begins */
+  const struct shares *shares; /* of a sweep over ranks; NULL: one process does it all */
 };
 
 /* Of every verb: --json to --help. */

@@ -19,6 +19,8 @@ typedef struct outcome {
 /* clang-format off */
 #define SET_OPTION                                                                             \
   {"--set", REPEATED, "NAME=VALUE,...", "values of parameters, as after a colon", NULL}
+#define PARALLEL_OPTION(about)                                                                 \
+  {"--parallel", FLAG, NULL, about, NULL}
 #define RUN_OPTIONS                                                                            \
   SET_OPTION,                                                                                  \
   {"--compile", FLAG, NULL,                                                                    \

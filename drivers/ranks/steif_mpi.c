@@ -10,7 +10,13 @@ int main(int argc, char **argv)
   int level;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &level);
   MPI_Comm_rank(MPI_COMM_WORLD, &r.rank), MPI_Comm_size(MPI_COMM_WORLD, &r.ranks);
-  int code = request_read(&r, argc, argv);
+  int code = FINE;
+  if (argc > 1 && !strcmp(argv[1], "sweep")) {
+    code = sweep_over_ranks(argc, argv);
+    MPI_Finalize();
+    return code;
+  }
+  code = request_read(&r, argc, argv);
   if (!code && !strcmp(r.verb, "solve"))
     code = solve_over_ranks(&r);
   else if (!code)

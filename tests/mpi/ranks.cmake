@@ -48,6 +48,14 @@ if(steif_mpi)
     set_tests_properties(ranks_example_${ranks} PROPERTIES LABELS mpi TIMEOUT 60 RUN_SERIAL ON ENVIRONMENT
       "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
   endforeach()
+  foreach(ranks 3)
+    add_test(NAME ranks_sweep_${ranks}
+             COMMAND ${CMAKE_COMMAND} -DMPIEXEC=${MPIEXEC_EXECUTABLE} -DRANKS=${ranks}
+                     -DSTEIF=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/sweep_ranks_${ranks}
+                     -P ${PROJECT_SOURCE_DIR}/tests/ranks/sweep_ranks.cmake)
+    set_tests_properties(ranks_sweep_${ranks} PROPERTIES LABELS mpi TIMEOUT 60 RUN_SERIAL ON ENVIRONMENT
+      "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
+  endforeach()
   foreach(ranks 1 3)
     add_test(NAME ranks_program_${ranks}
              COMMAND ${CMAKE_COMMAND} -DMPIEXEC=${MPIEXEC_EXECUTABLE} -DRANKS=${ranks}
