@@ -118,7 +118,11 @@ static int told(const mumps *s, const factors_answer *a, const char *what, const
                       "none; is the pencil regular, or is this an eigenvalue?",
                       t->re, t->im, a->null_pivots > 0 ? a->null_pivots : 1);
   if (a->code >= 0) return STEIF_OK;
-  if (a->code == -19 || a->code == -9 || a->code == -8 || a->code == -13)
+  static const int short_of[] = {-5, -7, -8, -9, -11, -13, -14, -17, -19, -20};
+  bool memory = false;
+  for (size_t i = 0; i < sizeof short_of / sizeof *short_of; i++)
+    memory |= a->code == short_of[i];
+  if (memory)
     return steif_fail(
       ctx, STEIF_NO_MEMORY,
       "MUMPS has not memory enough to %s (INFOG(1) = %d, INFOG(2) = %d)%s: give "

@@ -15,5 +15,6 @@ int everywhere(int condition, const char *text, const char *file, int line);
 int same(steif_context *ctx);
 
 void test_differences(void);
+void test_one_rank_short(void);
 
 #endif

@@ -353,6 +353,8 @@ static void runs(void)
   compare("bruss2d:n=6", "mumps", "radau:s=3", 0);
   compare("bruss3d:n=4", "amg:functions=2", "bdf", 0);
   compare("heat2d:n=12", "amg", "cvode", 0);
+  compare("heat2d:n=6", "mumps", "ida", 0);
+  compare("heat2d:n=6", "amg", "arkode", 0);
   compare("ladder:n=40,case=cons", "mumps", "bdf", 0);
   compare("jordan:k=2,case=N-cons", "mumps", "radau:s=3", 0); /* dense; ranks without rows */
   same_as_in_one_process("ladder:n=40,case=cons", "radau:s=3");
@@ -382,6 +384,7 @@ int main(int argc, char **argv)
   const char *part = argc > 1 ? argv[1] : "solves bad runs differences";
   if (strstr(part, "solves")) solves(60), solves(2), little_memory();
   if (strstr(part, "differences")) test_differences();
+  if (strstr(part, "memory")) test_one_rank_short();
   if (strstr(part, "bad")) bad_input(), sizes(), not_over_ranks();
   if (strstr(part, "short"))
     shortage("heat2d:n=4", "mumps", 0), shortage("heat2d:n=4", "amg", 0),
