@@ -205,8 +205,9 @@ int stf_quadrature_step(steif_solver *s)
 {
   stf_quadratures *w = s->quadratures;
   const stf_step *step = &s->step;
-  const bool whole = !s->engine && s->end == step->t &&
-                     fabs(step->t - step->h - w->t) <= 8 * STF_EPS * fabs(step->t);
+  const sunrealtype size = fmax(fabs(step->t), fabs(s->t1)); /* constant steps count from t1 */
+  const bool whole =
+    !s->engine && s->end == step->t && fabs(step->t - step->h - w->t) <= 8 * STF_EPS * size;
   for (int column = -1; column < w->columns; column++) {
     bool served = false;
     if (whole) STEIF_TRY(by_stages(s, column, sum_of(w, column), &served));
