@@ -47,7 +47,7 @@ static void bit_for_bit(void)
       find(ctx, &s, methods[m], 1, &more);
       CHECK(same(&all, &few) && same(&all, &more));
       CHECK(all.cost.recomputed_steps == 0);
-      CHECK(few.cost.recomputed_steps > few.cost.steps || few.cost.steps < 4);
+      CHECK(few.cost.recomputed_steps > few.cost.steps || few.cost.steps <= 9);
       CHECK(more.cost.recomputed_steps <= few.cost.recomputed_steps);
       steif_gradient_free(ctx, &all), steif_gradient_free(ctx, &few);
       steif_gradient_free(ctx, &more);
@@ -56,7 +56,7 @@ static void bit_for_bit(void)
 }
 
 /* r N - C(c + r, r - 1) advances with c images, and the steps whose stages are looked at; with c^2 >= N a segment of
- * stages is kept beside them, and all but the last one of ceil(N/c) steps are advanced over once. */
+ * stages is kept beside them, and images of the way forward serve: none is advanced over. */
 static void as_few_as_possible(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -68,7 +68,7 @@ static void as_few_as_possible(void)
   static const struct {
     int c;
     long advances;
-  } of[] = {{10, 3636}, {20, 2747}, {30, 2472}, {45, 43 * 23}};
+  } of[] = {{10, 3636}, {20, 2747}, {30, 2472}, {45, 0}};
   for (int i = 0; i < 4; i++) {
     steif_gradient g = {.checkpoints = of[i].c};
     CHECK(steif_gradient_find(ctx, &s.problem, "radau:s=2", &o, &J, &g) == STEIF_OK);

@@ -146,18 +146,19 @@ steif_solver *(steif_solver_copy)(steif_solver *s, const steif_problem *problem)
   return steif_solver_copy_sized(0, s, problem);
 }
 
-steif_solver *stf_checkpoint_revive(steif_context *ctx, const steif_problem *problem,
-                                    const steif_options *options, const unsigned char *bytes,
-                                    size_t count)
+int stf_checkpoint_revive(steif_context *ctx, const steif_problem *problem,
+                          const steif_options *options, unsigned char *bytes, size_t count,
+                          steif_solver **s)
 {
   stf_opened file;
-  unsigned char *own = stf_allocate(ctx, count, 1);
-  if (!own) return NULL;
-  memcpy(own, bytes, count);
-  if (stf_checkpoint_open(ctx, "image", own, count, &file)) return NULL;
-  steif_solver *s = load(ctx, problem, 0, options, &file);
-  stf_checkpoint_close(ctx, &file);
-  return s;
+  STEIF_TRY(stf_checkpoint_view(ctx, bytes, count, &file));
+  if (*s) {
+    const int code = fill(*s, &file);
+    if (code) steif_solver_free(s);
+    return code;
+  }
+  *s = load(ctx, problem, 0, options, &file);
+  return *s ? STEIF_OK : steif_status(ctx);
 }
 
 /* -- look ------------------------------------------------------------------------------------ */

@@ -62,8 +62,8 @@ static int check_savable(steif_solver *s)
   return STEIF_OK;
 }
 
-int stf_checkpoint_bytes(steif_solver *s, const void *note, size_t note_bytes,
-                         unsigned char **bytes, size_t *count)
+static int write(steif_solver *s, const void *note, size_t note_bytes, bool summed,
+                 unsigned char **bytes, size_t *count)
 {
   stf_identity id;
   STEIF_TRY(check_savable(s));
@@ -78,7 +78,7 @@ int stf_checkpoint_bytes(steif_solver *s, const void *note, size_t note_bytes,
   memcpy(*bytes, &h, sizeof h);
   m = (stf_image){.ctx = s->ctx, .at = *bytes + sizeof h, .size = m.used};
   walk(s, &id, note, note_bytes, &m);
-  const uint64_t sum = stf_checksum(*bytes, *count - sizeof sum);
+  const uint64_t sum = summed ? stf_checksum(*bytes, *count - sizeof sum) : 0;
   memcpy(*bytes + *count - sizeof sum, &sum, sizeof sum);
   if (!m.code && m.used == m.size) return STEIF_OK;
   stf_release(s->ctx, *bytes);
@@ -88,6 +88,17 @@ int stf_checkpoint_bytes(steif_solver *s, const void *note, size_t note_bytes,
                              "save of problem '%s' gave more bytes at its second call than at "
                              "its first",
                              s->problem->name);
+}
+
+int stf_checkpoint_bytes(steif_solver *s, const void *note, size_t note_bytes,
+                         unsigned char **bytes, size_t *count)
+{
+  return write(s, note, note_bytes, true, bytes, count);
+}
+
+int stf_checkpoint_image(steif_solver *s, unsigned char **bytes, size_t *count)
+{
+  return write(s, NULL, 0, false, bytes, count);
 }
 
 /* -- reading ------------------------------------------------------------------------------- */
@@ -118,7 +129,7 @@ static int check_head(steif_context *ctx, const char *name, const head *h, size_
 }
 
 static int check_whole(steif_context *ctx, const char *name, const unsigned char *bytes,
-                       size_t count)
+                       size_t count, bool summed)
 {
   head h;
   uint64_t sum;
@@ -127,7 +138,7 @@ static int check_whole(steif_context *ctx, const char *name, const unsigned char
   memcpy(&h, bytes, sizeof h);
   STEIF_TRY(check_head(ctx, name, &h, count));
   memcpy(&sum, bytes + count - sizeof sum, sizeof sum);
-  STEIF_CHECK(sum == stf_checksum(bytes, count - sizeof sum), ctx, STEIF_IO,
+  STEIF_CHECK(!summed || sum == stf_checksum(bytes, count - sizeof sum), ctx, STEIF_IO,
               "checkpoint '%s' is damaged: its bytes do not have the checksum they had", name);
   return STEIF_OK;
 }
@@ -144,10 +155,11 @@ static int check_identity(steif_context *ctx, const char *name, stf_identity *id
   return STEIF_OK;
 }
 
-static int look(steif_context *ctx, const char *name, size_t count, stf_opened *file)
+static int look(steif_context *ctx, const char *name, size_t count, bool summed,
+                stf_opened *file)
 {
   stf_image *m = &file->state;
-  STEIF_TRY(check_whole(ctx, name, file->bytes, count));
+  STEIF_TRY(check_whole(ctx, name, file->bytes, count, summed));
   *m = (stf_image){.ctx = ctx,
                    .from = file->bytes + sizeof(head),
                    .size = count - sizeof(head) - sizeof(uint64_t),
@@ -168,9 +180,16 @@ int stf_checkpoint_open(steif_context *ctx, const char *name, unsigned char *byt
                         size_t count, stf_opened *file)
 {
   *file = (stf_opened){.bytes = bytes};
-  const int code = look(ctx, name, count, file);
+  const int code = look(ctx, name, count, true, file);
   if (code) stf_checkpoint_close(ctx, file);
   return code;
+}
+
+int stf_checkpoint_view(steif_context *ctx, unsigned char *bytes, size_t count,
+                        stf_opened *file)
+{
+  *file = (stf_opened){.bytes = bytes};
+  return look(ctx, "image", count, false, file);
 }
 
 void stf_checkpoint_close(steif_context *ctx, stf_opened *file)

@@ -53,10 +53,14 @@ int stf_checkpoint_open(steif_context *ctx, const char *name, unsigned char *byt
                         size_t count, stf_opened *file);
 void stf_checkpoint_close(steif_context *ctx, stf_opened *file);
 
-/* A solver that goes on from such bytes, which stay the caller's; NULL with the message set. */
-steif_solver *stf_checkpoint_revive(steif_context *ctx, const steif_problem *problem,
-                                    const steif_options *options, const unsigned char *bytes,
-                                    size_t count);
+/* The same without a checksum, for bytes that stay with us; and a look at them, which stay the caller's. */
+int stf_checkpoint_image(steif_solver *s, unsigned char **bytes, size_t *count);
+int stf_checkpoint_view(steif_context *ctx, unsigned char *bytes, size_t count,
+                        stf_opened *file);
+/* The solver *s, NULL: a new one, goes on from such an image. After failures *s is freed. */
+int stf_checkpoint_revive(steif_context *ctx, const steif_problem *problem,
+                          const steif_options *options, unsigned char *bytes, size_t count,
+                          steif_solver **s);
 
 /* disk.c: a file as one block; and a block as a file that takes its name when it is whole. */
 int stf_disk_read(steif_context *ctx, const char *path, unsigned char **bytes, size_t *count);

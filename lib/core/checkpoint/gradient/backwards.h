@@ -45,6 +45,7 @@ typedef struct stf_adjoint {
     *K; /* dense, of small systems or where sweeps do not converge; NULL: none yet */
   int *pivot;
   bool direct, forward; /* the stages' own matrix is factored; K x = r is being solved */
+  bool by_rows;         /* K^T is factored by rows */
   N_Vector *residual, *omega, product, total;
   long solves, forward_solves, factors;
   bool krylov;             /* stage_krylov.c, with factors of one real shift ... */

@@ -20,8 +20,9 @@ typedef struct stf_journey {
   steif_options options;
   const char *method;
   steif_gradient *out;
-  steif_solver *runner; /* makes steps; the first one is the run */
-  long stands;          /* before which step the runner stands */
+  steif_solver *runner;    /* makes steps; the first one is the run */
+  long stands;             /* before which step the runner stands */
+  bool reused, always_new; /* it had been elsewhere before its image; that did not serve */
   stf_logged *log;
   long steps, room;      /* of the log */
   sunrealtype *record;   /* `window` of them ... */
@@ -29,6 +30,8 @@ typedef struct stf_journey {
   bool whole;            /* all steps so far are recorded */
   stf_run_image *image;
   int images, images_most;
+  long stride, origin; /* of images on the way forward: at origin + k stride; 0: none yet */
+  long base, until;    /* the steps that are being gone back through */
   size_t limit, bytes, on_images;
   stf_transition_keeper keeper;
   stf_passed *passed; /* events and breaks; `left` of them are still to be gone back through */
@@ -52,6 +55,24 @@ int stf_journey_end(stf_journey *J);
 int stf_journey_forward(stf_journey *J);
 int stf_journey_back(stf_journey *J);
 void stf_journey_close(stf_journey *J);
+
+/* Of the above: step k once more; what may still be taken of the limit beside a log of so many steps and the images; how much
+ * has been. */
+int stf_journey_again(stf_journey *J, long k, sunrealtype *record);
+size_t stf_journey_rest(const stf_journey *J, long log);
+void stf_journey_took(stf_journey *J);
+
+/* run_images.c: the image of the start; that of the runner before step `at`; after a step forward perhaps one; the last one
+ * goes; the runner goes on from there; unless it stands there. Bytes of tangents beside one. */
+int stf_images_open(stf_journey *J);
+int stf_images_save(stf_journey *J, long at);
+int stf_images_on_the_way(stf_journey *J);
+void stf_images_drop(stf_journey *J);
+int stf_images_revive(stf_journey *J);
+int stf_images_restore(stf_journey *J);
+size_t stf_images_beside(const stf_journey *J);
+/* reversal.c: back through all steps, none of which is recorded. */
+int stf_reversal(stf_journey *J);
 
 /* event_passages.c: events and breaks of the run go into J->passed; what has happened in the step just made; back through a
  * record and what came after its step; through what happened at the start; and J->passed is released. */

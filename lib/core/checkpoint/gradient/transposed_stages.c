@@ -8,10 +8,11 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "backwards.h"
 #include "lapack.h"
+#include "lu.h"
 #include <math.h>
 
-/* m n of systems that are dense at once, and that may become it; sweeps. */
-enum { SMALL = 48, LARGEST = 1500, SWEEPS = 60 };
+/* m n of systems that are dense at once, and that may become it; sweeps. Up to ROWS the columns of K are rows of K^T. */
+enum { SMALL = 48, ROWS = 100, LARGEST = 1500, SWEEPS = 60 };
 /* Of GMRES with factors of another step; ratio of shifts that they serve. */
 enum { MANY = 10 };
 static const sunrealtype ratio_most = 1.7;
@@ -77,15 +78,20 @@ static int factor_dense(stf_adjoint *a, sunrealtype t)
 {
   const int size = (int)(a->m * a->n);
   int info;
+  a->by_rows = size <= ROWS;
   STEIF_TRY(claim_dense(a));
-  for (size_t i = 0; i < (size_t)size * (size_t)size; i++) a->K[i] = 0;
   for (int j = 0; j < a->m; j++)
     for (int k = 0; k < a->m; k++) {
       double *block = a->K + j * a->n + (size_t)(k * a->n) * (size_t)size;
+      for (sunindextype i = 0; i < a->n; i++)
+        for (sunindextype l = 0; l < a->n; l++) block[l + i * size] = 0;
       stf_add_dense(a->at.E[j], a->n, a->B[j * a->m + k], block, size);
       if (j == k) stf_add_dense(a->at.A[j], a->n, -1, block, size);
     }
-  dgetrf_(&size, &size, a->K, &size, a->pivot, &info);
+  if (a->by_rows)
+    info = !stf_rows_best()->factor(size, a->K, a->pivot);
+  else
+    dgetrf_(&size, &size, a->K, &size, a->pivot, &info);
   a->factors++, a->direct = true;
   STEIF_CHECK(!info, a->ctx, STEIF_SINGULAR,
               "the matrix of the stages of the step from t = %.12g is singular backwards: take "
@@ -145,12 +151,17 @@ static int solve_dense(stf_adjoint *a, N_Vector *r, N_Vector *w)
   const int size = (int)(a->m * a->n), n = (int)a->n, one = 1;
   double *x = a->side;
   int info;
+  count_solve(a);
   for (int j = 0; j < a->m; j++)
     for (int i = 0; i < n; i++) x[j * n + i] = STF_ARRAY(r[j])[i];
-  dgetrs_(a->forward ? "N" : "T", &size, &one, a->K, &size, a->pivot, x, &size, &info, 1);
+  if (a->by_rows && a->forward)
+    stf_rows_best()->transposed(size, a->K, a->pivot, x);
+  else if (a->by_rows)
+    stf_rows_best()->substitute(size, 1, a->K, a->pivot, x);
+  else
+    dgetrs_(a->forward ? "N" : "T", &size, &one, a->K, &size, a->pivot, x, &size, &info, 1);
   for (int j = 0; j < a->m; j++)
     for (int i = 0; i < n; i++) STF_ARRAY(w[j])[i] = x[j * n + i];
-  count_solve(a);
   return STEIF_OK;
 }
 

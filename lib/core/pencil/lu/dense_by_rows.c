@@ -61,6 +61,37 @@ INLINE bool factor(int n, sunrealtype *A, int *pivot)
   return true;
 }
 
+INLINE sunrealtype product(int n, const sunrealtype *restrict a, const sunrealtype *restrict x)
+{
+  v4 sum = {0};
+  int i = 0;
+  for (; i + 4 <= n; i += 4) sum += *(const v4 *)(a + i) * *(const v4 *)(x + i);
+  sunrealtype all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  for (; i < n; i++) all += a[i] * x[i];
+  return all;
+}
+
+INLINE void substitute_one(int n, const sunrealtype *A, const int *pivot, sunrealtype *b)
+{
+  for (int k = 0; k < n; k++)
+    if (pivot[k] != k) swap_rows(1, b + pivot[k], b + k);
+  for (int i = 1; i < n; i++) b[i] -= product(i, A + i * n, b);
+  for (int i = n; i-- > 0;)
+    b[i] = (b[i] - product(n - 1 - i, A + i * n + i + 1, b + i + 1)) * A[i * n + i];
+}
+
+/* U^T z = b, L^T v = z, and the exchanges in the opposite order. */
+INLINE void substitute_transposed(int n, const sunrealtype *A, const int *pivot, sunrealtype *b)
+{
+  for (int k = 0; k < n; k++) {
+    b[k] *= A[k * n + k];
+    minus(n - k - 1, b[k], A + k * n + k + 1, b + k + 1);
+  }
+  for (int k = n; k-- > 1;) minus(k, b[k], A + k * n, b);
+  for (int k = n; k-- > 0;)
+    if (pivot[k] != k) swap_rows(1, b + pivot[k], b + k);
+}
+
 INLINE void substitute(int n, int m, const sunrealtype *A, const int *pivot, sunrealtype *B)
 {
   for (int k = 0; k < n; k++)
@@ -135,7 +166,15 @@ INLINE void divide(int rows, int m, const sunrealtype *R, sunrealtype *X)
   attribute static void substitute_##isa(int n, int m, const sunrealtype *A, const int *pivot, \
                                          sunrealtype *B)                                       \
   {                                                                                            \
-    substitute(n, m, A, pivot, B);                                                             \
+    if (m == 1)                                                                                \
+      substitute_one(n, A, pivot, B);                                                          \
+    else                                                                                       \
+      substitute(n, m, A, pivot, B);                                                           \
+  }                                                                                            \
+  attribute static void transposed_##isa(int n, const sunrealtype *A, const int *pivot,        \
+                                         sunrealtype *b)                                       \
+  {                                                                                            \
+    substitute_transposed(n, A, pivot, b);                                                     \
   }                                                                                            \
   attribute static bool squares_##isa(int d, int m, const sunrealtype *W, sunrealtype *R)      \
   {                                                                                            \
@@ -145,7 +184,8 @@ INLINE void divide(int rows, int m, const sunrealtype *R, sunrealtype *X)
   {                                                                                            \
     divide(rows, m, R, X);                                                                     \
   }                                                                                            \
-  static const stf_rows isa = {factor_##isa, substitute_##isa, squares_##isa, divide_##isa};
+  static const stf_rows isa = {factor_##isa, substitute_##isa, transposed_##isa,               \
+                               squares_##isa, divide_##isa};
 
 ROWS(plain, )
 #ifdef STF_SIMD_X86

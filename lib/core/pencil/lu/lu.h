@@ -3,7 +3,7 @@
  *   dense unrolled     n <= 16, real and complex: loops of constant length, no call of a library
  *   dense blocked      the real ones of 8 < n <= 16, by blocks of four rows (behind dense unrolled)
  *   dense bit-set      n <= 64, real, with many zeros: they are skipped, sets of rows are bits of words
- *   dense by rows      real matrices by rows, n to about 100, with products and triangles beside them
+ *   dense by rows      real matrices by rows, n to about 100, with transposes, products and triangles beside them
  *   dense LAPACK       all others
  *   band unblocked     kl + ku <= 24, real and complex
  *   multifrontal       sparse, real, n >= 200: dense blocks along the elimination tree
@@ -65,6 +65,8 @@ typedef struct stf_rows {
   /* LU in place with rows exchanged; false when a pivot is 0 or NaN. B := A^{-1} B, n x m. */
   bool (*factor)(int n, sunrealtype *A, int *pivot);
   void (*substitute)(int n, int m, const sunrealtype *A, const int *pivot, sunrealtype *B);
+  /* b := A^{-T} b. */
+  void (*transposed)(int n, const sunrealtype *A, const int *pivot, sunrealtype *b);
   /* R^T R = W^T W, R upper triangular; false when that is not positive. */
   bool (*squares)(int d, int m, const sunrealtype *W, sunrealtype *R);
   /* X := X R^{-1}. */

@@ -7,35 +7,94 @@
 #include "multifrontal.h"
 #include "simd.h"
 
-#define INLINE static inline __attribute__((always_inline))
+/* What stands at out_k is taken off the products of four columns with each of N right-hand sides, side by side in x. */
+#define FOUR(N)                                                                                \
+  INLINE void four##N(int count, const double *a, sunindextype ld, const double *x,            \
+                      double *const out[4])                                                    \
+  {                                                                                            \
+    const double *b = a + ld, *c = b + ld, *d = c + ld;                                        \
+    v##N sum[4] = {{0}};                                                                       \
+    for (int i = 0; i < count; i++) {                                                          \
+      const v##N u = *(const v##N *)(x + N * i);                                               \
+      sum[0] += u * a[i], sum[1] += u * b[i], sum[2] += u * c[i], sum[3] += u * d[i];          \
+    }                                                                                          \
+    for (int k = 0; k < 4; k++) *(v##N *)out[k] -= sum[k];                                     \
+  }                                                                                            \
+  INLINE void one##N(int count, const double *a, const double *x, double *out)                 \
+  {                                                                                            \
+    v##N sum[2] = {{0}};                                                                       \
+    int i = 0;                                                                                 \
+    for (; i + 2 <= count; i += 2) {                                                           \
+      sum[0] += *(const v##N *)(x + N * i) * a[i];                                             \
+      sum[1] += *(const v##N *)(x + N * (i + 1)) * a[i + 1];                                   \
+    }                                                                                          \
+    if (i < count) sum[0] += *(const v##N *)(x + N * i) * a[i];                                \
+    *(v##N *)out -= sum[0] + sum[1];                                                           \
+  }
+FOUR(4)
+FOUR(8)
 
-/* sum_q -= the product of a column with each of `of` right-hand sides, which lie side by side. */
-INLINE void less(const int of, int count, const double *restrict a, const double *restrict x,
-                 double *restrict out)
+INLINE void four1(int count, const double *a, sunindextype ld, const double *x,
+                  double *const out[4])
 {
-  double sum[4][STF_FRONTS_COLUMNS] = {{0}};
+  const double *b = a + ld, *c = b + ld, *d = c + ld;
+  double sum[4] = {0};
+  for (int i = 0; i < count; i++)
+    sum[0] += a[i] * x[i], sum[1] += b[i] * x[i], sum[2] += c[i] * x[i], sum[3] += d[i] * x[i];
+  for (int k = 0; k < 4; k++) *out[k] -= sum[k];
+}
+
+INLINE void one1(int count, const double *a, const double *x, double *out)
+{
+  double sum[4] = {0};
   int i = 0;
   for (; i + 4 <= count; i += 4)
-    for (int k = 0; k < 4; k++)
-      for (int q = 0; q < of; q++) sum[k][q] += a[i + k] * x[of * (i + k) + q];
-  for (; i < count; i++)
-    for (int q = 0; q < of; q++) sum[0][q] += a[i] * x[of * i + q];
-  for (int q = 0; q < of; q++) out[q] -= (sum[0][q] + sum[1][q]) + (sum[2][q] + sum[3][q]);
+    for (int k = 0; k < 4; k++) sum[k] += a[i + k] * x[i + k];
+  for (; i < count; i++) sum[0] += a[i] * x[i];
+  *out -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+INLINE void less_four(const int of, int count, const double *a, sunindextype ld,
+                      const double *x, double *const out[4])
+{
+  if (of == 1)
+    four1(count, a, ld, x, out);
+  else if (of == 4)
+    four4(count, a, ld, x, out);
+  else
+    four8(count, a, ld, x, out);
+}
+
+INLINE void less(const int of, int count, const double *a, const double *x, double *out)
+{
+  if (of == 1)
+    one1(count, a, x, out);
+  else if (of == 4)
+    one4(count, a, x, out);
+  else
+    one8(count, a, x, out);
 }
 
 INLINE void through_upper(const int of, const stf_front *g, const int *rows, const double *L,
                           double *X)
 {
-  const sunindextype ld = g->width + g->below;
-  const double *U = L + ld * g->width;
+  const sunindextype ld = g->width + g->below, width = g->width;
+  const double *U = L + ld * width;
   double *x = X + (sunindextype)of * g->first;
   for (int k = 0; k < g->width; k++) {
     const double *column = L + ld * k;
     less(of, k, column, x, x + of * k);
     for (int q = 0; q < of; q++) x[of * k + q] *= column[k];
   }
-  for (int i = 0; i < g->below; i++)
-    less(of, g->width, U + (sunindextype)i * g->width, x, X + (sunindextype)of * rows[i]);
+  int i = 0;
+  for (; i + 4 <= g->below; i += 4) {
+    double *const out[] = {X + (sunindextype)of * rows[i], X + (sunindextype)of * rows[i + 1],
+                           X + (sunindextype)of * rows[i + 2],
+                           X + (sunindextype)of * rows[i + 3]};
+    less_four(of, g->width, U + i * width, width, x, out);
+  }
+  for (; i < g->below; i++)
+    less(of, g->width, U + i * width, x, X + (sunindextype)of * rows[i]);
 }
 
 INLINE void through_lower(const int of, const stf_front *g, const int *rows, const double *L,
@@ -45,12 +104,15 @@ INLINE void through_lower(const int of, const stf_front *g, const int *rows, con
   double *x = X + (sunindextype)of * g->first;
   for (int i = 0; i < g->below; i++)
     for (int q = 0; q < of; q++) work[of * i + q] = X[(sunindextype)of * rows[i] + q];
-  for (int k = g->width; k-- > 0;) {
-    const double *column = L + ld * k;
-    less(of, g->below, column + g->width, work, x + of * k);
-    less(of, g->width - 1 - k, column + k + 1, x + of * (k + 1), x + of * k);
+  int k = 0;
+  for (; k + 4 <= g->width; k += 4) {
+    double *const out[] = {x + of * k, x + of * (k + 1), x + of * (k + 2), x + of * (k + 3)};
+    less_four(of, g->below, L + ld * k + g->width, ld, work, out);
   }
-  for (int k = g->width; k-- > 0;)
+  for (; k < g->width; k++) less(of, g->below, L + ld * k + g->width, work, x + of * k);
+  for (k = g->width; k-- > 0;)
+    less(of, g->width - 1 - k, L + ld * k + k + 1, x + of * (k + 1), x + of * k);
+  for (k = g->width; k-- > 0;)
     for (int q = 0; q < of && pivot[k] != k; q++) {
       const double t = x[of * k + q];
       x[of * k + q] = x[of * pivot[k] + q], x[of * pivot[k] + q] = t;
