@@ -63,9 +63,7 @@ int main(void)
   steif_options opt = steif_defaults();
   opt.rtol = 1e-9, opt.atol = 1e-15;
   steif_context *ctx = steif_context_new(NULL);
-  steif_gradient g = {
-    .memory =
-      1 << 20}; /* a limit in bytes; images of the run take the place of what does not fit */
+  steif_gradient g = {.memory = 60000}; /* bytes */
   if (steif_gradient_find(ctx, &p, "radau:s=3", &opt, &J, &g)) {
     puts(steif_message(ctx));
     return 1;
