@@ -1,6 +1,7 @@
 /* columns.c: right-hand sides in vectors to columns of one array and back.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "pencil.h"
+#include "simd.h"
 #include <stdint.h>
 #include <string.h>
 
@@ -10,21 +11,24 @@ int stf_columns_open(steif_pencil *p)
   return p->work ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
+/* Sums of x - x are 0 or NaN; none waits for another. */
 bool stf_all_finite(const double *x, size_t count)
 {
-  enum { SUMS = 16 };
-  double sum[SUMS] = {0}; /* of x - x: 0, or NaN */
+  v4 sum[4] = {{0}, {0}, {0}, {0}};
+  double rest = 0;
   size_t i = 0;
-  if (count < 4 * SUMS) { /* none waits for another */
-    unsigned wrong = 0;
-    for (; i < count; i++) wrong |= x[i] - x[i] != 0;
-    return !wrong;
+  for (; i + 16 <= count; i += 16)
+    for (size_t j = 0; j < 4; j++) {
+      const v4 at = *(const v4 *)(x + i + 4 * j);
+      sum[j] += at - at;
+    }
+  for (; i + 4 <= count; i += 4) {
+    const v4 at = *(const v4 *)(x + i);
+    sum[0] += at - at;
   }
-  for (; i + SUMS <= count; i += SUMS)
-    for (size_t j = 0; j < SUMS; j++) sum[j] += x[i + j] - x[i + j];
-  for (; i < count; i++) sum[0] += x[i] - x[i];
-  for (size_t j = 1; j < SUMS; j++) sum[0] += sum[j];
-  return sum[0] == 0;
+  for (; i < count; i++) rest += x[i] - x[i];
+  sum[0] += sum[1] + sum[2] + sum[3];
+  return sum[0][0] + sum[0][1] + sum[0][2] + sum[0][3] + rest == 0;
 }
 
 /* The distance between columns when the vectors are neighbours in memory already, or 0. Separate

@@ -11,22 +11,12 @@ static const stf_model *model_of(const steif_problem *p)
   return p && p->destroy == stf_model_close ? p->user : NULL;
 }
 
-static long of_code(const stf_vector *code, size_t from)
-{
-  long count = 0;
-  for (size_t i = from; i < code->count; i++)
-    count += 1 + (STF_AT(*code, stf_step_code, i)->kind >= STF_OP_TIMES_PLUS);
-  return count;
-}
-
 static long operations(const stf_quantity *q)
 {
-  long count = 0;
-  for (size_t i = 0; i < q->tapes.count; i++) {
-    const stf_tape *t = STF_AT(q->tapes, stf_tape, i);
-    count += of_code(&t->code, t->fixed) + (long)stf_passes(&t->box) * of_code(&t->wide, 0);
-  }
-  return count;
+  int64_t count = 0;
+  for (size_t i = 0; i < q->tapes.count; i++)
+    count += STF_AT(q->tapes, stf_tape, i)->operations;
+  return (long)count;
 }
 
 int steif_model_describe(steif_context *ctx, const steif_problem *p, steif_model_facts *facts)

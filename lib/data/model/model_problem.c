@@ -16,8 +16,8 @@ static stf_feed feed_at(const stf_model *m, sunrealtype t, N_Vector y, N_Vector 
 {
   stf_feed feed = m->feed;
   feed.t = t;
-  feed.y = y ? N_VGetArrayPointer(y) : NULL;
-  feed.yp = yp ? N_VGetArrayPointer(yp) : NULL;
+  feed.y = y ? stf_array(y) : NULL;
+  feed.yp = yp ? stf_array(yp) : NULL;
   return feed;
 }
 
@@ -55,7 +55,7 @@ static int blame(stf_model *m, const stf_feed *feed, const double *f)
 static int run(sunrealtype t, N_Vector y, N_Vector yp, N_Vector out, stf_model *m)
 {
   stf_feed feed = feed_at(m, t, y, yp);
-  double *to = N_VGetArrayPointer(out);
+  double *to = stf_array(out);
   stf_quantity_run(m, &m->f, &feed, to);
   return stf_all_finite(to, (size_t)m->n) || retried(m, &feed, to) ? 0 : blame(m, &feed, to);
 }
@@ -154,7 +154,7 @@ static int g(sunrealtype t, int derivative, N_Vector out, void *user)
     for (size_t k = 0; k < block->equations.count; k++) {
       const stf_equation *e = STF_AT(block->equations, stf_equation, k);
       const int code =
-        differentiate(m, block, e, &feed, derivative, N_VGetArrayPointer(out), &known);
+        differentiate(m, block, e, &feed, derivative, stf_array(out), &known);
       if (code < 0) return code;
     }
   }

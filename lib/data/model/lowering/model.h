@@ -236,10 +236,6 @@ int stf_build_tapes(stf_model *m);
 /* quantity.c */
 int stf_compile_quantity(stf_model *m, const stf_block *block, const stf_vector *stores,
                          stf_quantity *q);
-/* passes.c: how many passes a box has, and the value a + stride . counters in
- * pass k. */
-int64_t stf_passes(const stf_box *box);
-int32_t stf_at_pass(const stf_box *box, int64_t k, int32_t a, const int32_t *stride);
 void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed *feed,
                       double *out);
 /* What parameters determine, anew. */

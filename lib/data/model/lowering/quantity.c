@@ -17,24 +17,41 @@ int stf_compile_quantity(stf_model *m, const stf_block *block, const stf_vector 
   return STEIF_OK;
 }
 
-/* How often each of the outputs is written; false: one of them not once. */
+/* Whether none of the outputs at from, from + 1, ... has been written before. */
+static bool mark(uint8_t *seen, int64_t from, int64_t count)
+{
+  for (int64_t k = from; k < from + count; k++) {
+    if (seen[k]) return false;
+    seen[k] = 1;
+  }
+  return true;
+}
+
+static bool mark_tape(const stf_tape *t, uint8_t *seen, int64_t *written)
+{
+  const int64_t passes = t->box.dims ? stf_passes(&t->box) : 0;
+  for (size_t k = 0; k < t->results.count; k++) {
+    const stf_stretch *r = STF_AT(t->results, stf_stretch, k);
+    if (!mark(seen, r->a, r->count)) return false;
+    *written += r->count;
+  }
+  for (size_t k = 0; k < t->stores.count; k++) {
+    const stf_store *s = STF_AT(t->stores, stf_store, k);
+    for (int64_t pass = 0; pass < passes; pass++) {
+      const int32_t at = s->slot ? s->slot[pass] : stf_at_pass(&t->box, pass, s->a, s->stride);
+      if (!mark(seen, at, 1)) return false;
+    }
+    *written += passes;
+  }
+  return true;
+}
+
+/* Each of the outputs is written, and only once. */
 static bool once(const stf_quantity *q, int64_t size, uint8_t *seen)
 {
   int64_t written = 0;
-  for (size_t i = 0; i < q->tapes.count; i++) {
-    const stf_tape *t = STF_AT(q->tapes, stf_tape, i);
-    const int64_t passes = stf_passes(&t->box);
-    for (size_t k = 0; k < t->stores.count; k++) {
-      const stf_store *s = STF_AT(t->stores, stf_store, k);
-      for (int64_t pass = 0; pass < passes; pass++) {
-        const int32_t at =
-          s->slot ? s->slot[pass] : stf_at_pass(&t->box, pass, s->a, s->stride);
-        if (seen[at]) return false;
-        seen[at] = 1;
-        written++;
-      }
-    }
-  }
+  for (size_t i = 0; i < q->tapes.count; i++)
+    if (!mark_tape(STF_AT(q->tapes, stf_tape, i), seen, &written)) return false;
   return written == size;
 }
 

@@ -59,9 +59,15 @@ static const char *const value_of[STF_OP_KINDS] = {
 #undef STF_ONE
 };
 
-static void mark_used(const stf_vector *code, bool *used)
+static void mark_used(const stf_tape *t, bool *used)
 {
-  for (size_t i = 0; i < code->count; i++) used[STF_AT(*code, stf_step_code, i)->kind] = true;
+  const int32_t *s = t->code.data, *end = s + t->code.count, *factors;
+  for (stf_step_code step; s < end;) {
+    s = stf_tape_decode(s, &step, &factors);
+    used[step.kind] = true;
+  }
+  for (size_t i = 0; i < t->wide.count; i++)
+    used[STF_AT(t->wide, stf_step_code, i)->kind] = true;
 }
 
 static void array(stf_writer *w, const char *name, size_t which, size_t count, const double *x)
@@ -106,11 +112,11 @@ void stf_write_functions(stf_writer *w, const stf_model *m, size_t count,
   for (size_t i = 0; i < count; i++)
     for (size_t k = 0; k < quantities[i]->tapes.count; k++) {
       const stf_tape *t = STF_AT(quantities[i]->tapes, stf_tape, k);
-      mark_used(&t->code, used);
-      mark_used(&t->wide, used);
+      mark_used(t, used);
     }
   if (used[STF_OP_LOOKUP] || used[STF_OP_TILT]) tables(w, m, used);
-  if (used[STF_OP_TIMES_PLUS] || used[STF_OP_TIMES_MINUS] || used[STF_OP_MINUS_TIMES])
+  if (used[STF_OP_TIMES_PLUS] || used[STF_OP_TIMES_MINUS] || used[STF_OP_MINUS_TIMES] ||
+      used[STF_OP_PAIRS] || used[STF_OP_TRIPLES])
     stf_write(w, "static inline double plus(double a, double b) { return a + b; }\n");
   for (int k = 0; k < STF_OP_KINDS; k++) {
     if (!used[k] || !value_of[k] || infix[k] || k == STF_OP_NEGATIVE) continue;
@@ -157,8 +163,6 @@ static const char *array_of(int kind)
                                  : "p";
 }
 
-static bool nested(const stf_store *s, int dims) { return dims && !s->slot; }
-
 /* a + stride . counters */
 static void place(stf_writer *w, int32_t a, const int32_t *stride, int dims)
 {
@@ -170,36 +174,59 @@ static void place(stf_writer *w, int32_t a, const int32_t *stride, int dims)
       stf_write(w, " + %d * i%d", (int)stride[d], d);
 }
 
-static void scalar_load(stf_writer *w, const stf_load *l)
+static void scalar_load(stf_writer *w, const stf_stretch *l)
 {
-  if (l->kind == STF_OP_TIME)
-    stf_write(w, "  const double r%d = t;\n", (int)l->to);
+  for (int k = 0; k < (int)l->count; k++)
+    if (l->kind == STF_OP_TIME)
+      stf_write(w, "  const double r%d = t;\n", (int)l->at);
+    else
+      stf_write(w, "  const double r%d = %s[%d];\n", (int)l->at + k, array_of(l->kind),
+                (int)l->a + k);
+}
+
+/* plus(plus(r1 * r2, r3 * r4), r5 * r6) */
+static void products(stf_writer *w, const stf_step_code *s, const int32_t *factor)
+{
+  const bool triples = s->kind == STF_OP_TRIPLES;
+  for (int32_t i = 1; i < s->c; i++) stf_write_text(w, "plus(");
+  for (int32_t i = 0; i < s->c; i++, factor += triples ? 3 : 2) {
+    stf_write(w, "%sr%d * r%d", i ? ", " : "", (int)factor[0], (int)factor[1]);
+    if (triples) stf_write(w, " * r%d", (int)factor[2]);
+    if (i) stf_write_text(w, ")");
+  }
+  stf_write_text(w, ";\n");
+}
+
+static void step(stf_writer *w, const stf_step_code *s, const int32_t *factors)
+{
+  const int32_t from[3] = {s->a, s->b, s->c};
+  char name[3][20];
+  stf_write(w, "  const double r%d = ", (int)s->to);
+  for (int k = 0; k < 3; k++) snprintf(name[k], sizeof *name, "r%d", (int)from[k]);
+  if (factors)
+    products(w, s, factors);
   else
-    stf_write(w, "  const double r%d = %s[%d];\n", (int)l->to, array_of(l->kind), (int)l->a);
+    operation(w, s, name[0], name[1], name[2]);
 }
 
 static void scalars(stf_writer *w, const stf_tape *t, bool fixed)
 {
-  const stf_load *l = t->loads.data;
-  const stf_step_code *s = t->code.data;
+  const stf_stretch *l = t->loads.data;
   const size_t loads[2] = {fixed ? 0 : t->fixed_loads, fixed ? t->fixed_loads : t->loads.count};
-  const size_t codes[2] = {fixed ? 0 : t->fixed, fixed ? t->fixed : t->code.count};
-  char name[3][20];
+  const int32_t *code = t->code.data, *s = code + (fixed ? 0 : t->fixed),
+                *end = code + (fixed ? t->fixed : t->code.count), *factors;
   for (size_t i = loads[0]; i < loads[1]; i++) scalar_load(w, l + i);
-  for (size_t i = codes[0]; i < codes[1]; i++) {
-    const int32_t from[3] = {s[i].a, s[i].b, s[i].c};
-    for (int k = 0; k < 3; k++) snprintf(name[k], sizeof *name, "r%d", (int)from[k]);
-    stf_write(w, "  const double r%d = ", (int)s[i].to);
-    operation(w, s + i, name[0], name[1], name[2]);
+  for (stf_step_code next; s < end;) {
+    s = stf_tape_decode(s, &next, &factors);
+    step(w, &next, factors);
   }
 }
 
 static void numbers(stf_writer *w, const stf_tape *t)
 {
-  const stf_load *l = t->numbers.data;
   for (size_t i = 0; i < t->numbers.count; i++) {
-    stf_write(w, "  const double r%d = ", (int)l[i].to);
-    stf_write_number(w, *STF_AT(t->values, double, l[i].a));
+    stf_write(w, "  const double r%zu = ", i);
+    stf_write_number(w, *STF_AT(t->numbers, double, i));
     stf_write(w, ";\n");
   }
 }
@@ -207,30 +234,40 @@ static void numbers(stf_writer *w, const stf_tape *t)
 /* What parameters determine, from the registers that the library has prepared. */
 static void given(stf_writer *w, const stf_tape *t)
 {
-  const stf_load *l = t->loads.data;
-  const stf_step_code *s = t->code.data;
+  const stf_stretch *l = t->loads.data;
+  const int32_t *s = t->code.data, *end = s + t->fixed, *factors;
   for (size_t i = 0; i < t->fixed_loads; i++)
-    stf_write(w, "  const double r%d = r[%d];\n", (int)l[i].to, (int)l[i].to);
-  for (size_t i = 0; i < t->fixed; i++)
-    stf_write(w, "  const double r%d = r[%d];\n", (int)s[i].to, (int)s[i].to);
+    for (int k = l[i].at; k < l[i].at + l[i].count; k++)
+      stf_write(w, "  const double r%d = r[%d];\n", k, k);
+  for (stf_step_code next; s < end;) {
+    s = stf_tape_decode(s, &next, &factors);
+    stf_write(w, "  const double r%d = r[%d];\n", (int)next.to, (int)next.to);
+  }
+}
+
+static const char *sign(const stf_tape *t) { return t->assigns ? "=" : "+="; }
+
+static void results(stf_writer *w, const stf_tape *t)
+{
+  for (size_t i = 0; i < t->results.count; i++) {
+    const stf_stretch *r = STF_AT(t->results, stf_stretch, i);
+    for (int k = 0; k < (int)r->count; k++)
+      stf_write(w, "  out[%d] %s r%d;\n", (int)r->a + k, sign(t), (int)r->at + k);
+  }
 }
 
 static void stores(stf_writer *w, const stf_dialect *d, const stf_tape *t, size_t tape)
 {
-  const char *sign = t->assigns ? "=" : "+=";
   for (size_t i = 0; i < t->stores.count; i++) {
     const stf_store *s = STF_AT(t->stores, stf_store, i);
-    const char letter = t->box.dims ? 'w' : 'r';
     stf_write(w, "  out[");
-    if (!t->box.dims)
-      stf_write(w, "%d", (int)(s->slot ? s->slot[0] : s->a));
-    else if (nested(s, t->box.dims))
+    if (!s->slot)
       place(w, s->a, s->stride, t->box.dims);
     else if (d->standalone)
       stf_write(w, "slot_%s_%zu_%zu[k]", d->name, tape, i);
     else
       stf_write(w, "s%zu[k]", i);
-    stf_write(w, "] %s %c%d;\n", sign, letter, (int)s->from);
+    stf_write(w, "] %s w%d;\n", sign(t), (int)s->from);
   }
 }
 
@@ -329,7 +366,7 @@ static void one(stf_writer *w, const stf_dialect *d, const stf_tape *t, size_t t
   if (t->box.dims)
     loops(w, d, t, tape);
   else
-    stores(w, d, t, tape);
+    results(w, t);
   stf_write(w, "}\n\n");
 }
 
@@ -338,7 +375,7 @@ size_t stf_write_quantity(stf_writer *w, const stf_dialect *d, const stf_quantit
   size_t count = 0;
   for (size_t i = 0; i < q->tapes.count; i++) {
     const stf_tape *t = STF_AT(q->tapes, stf_tape, i);
-    const size_t statements = t->code.count + t->wide.count + t->stores.count;
+    const size_t statements = t->code.count / 4 + t->wide.count + t->stores.count;
     if (d->most && statements > (size_t)d->most) continue;
     one(w, d, t, i);
     count++;

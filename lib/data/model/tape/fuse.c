@@ -1,7 +1,7 @@
 /* fuse.c: a product that one sum alone needs is made by the instruction of the sum: a third fewer instructions.
  * Product and sum stay two operations, each rounded.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "tape.h"
+#include "assembly.h"
 
 typedef struct uses {
   stf_vector count, maker; /* int32_t of each register; maker: 1 + instruction */
@@ -30,9 +30,9 @@ static stf_step_code *product(const uses *u, const stf_vector *code, int32_t reg
   return s->kind == STF_OP_MULTIPLY ? s : NULL;
 }
 
-static void fuse(const uses *u, const stf_vector *code, size_t first, size_t end)
+static void fuse(const uses *u, const stf_vector *code, size_t first)
 {
-  for (size_t i = first; i < end; i++) {
+  for (size_t i = first; i < code->count; i++) {
     stf_step_code *s = STF_AT(*code, stf_step_code, i);
     if (s->kind != STF_OP_ADD && s->kind != STF_OP_SUBTRACT) continue;
     stf_step_code *left = product(u, code, s->a, first);
@@ -43,47 +43,49 @@ static void fuse(const uses *u, const stf_vector *code, size_t first, size_t end
                      : left                ? STF_OP_TIMES_MINUS
                                            : STF_OP_MINUS_TIMES;
     *s = (stf_step_code){kind, s->to, p->a, p->b, left ? s->b : s->a};
-    p->kind = STF_OP_NUMBER; /* none */
+    stf_drop(p);
   }
 }
 
-static size_t without_gaps(stf_vector *code, size_t fixed)
+static void without_gaps(stf_vector *code)
 {
-  size_t kept = 0, kept_fixed = 0;
+  size_t kept = 0;
   for (size_t i = 0; i < code->count; i++) {
     const stf_step_code s = *STF_AT(*code, stf_step_code, i);
-    if (s.kind == STF_OP_NUMBER) continue;
-    *STF_AT(*code, stf_step_code, kept++) = s;
-    kept_fixed += i < fixed;
+    if (s.kind != STF_OP_NUMBER) *STF_AT(*code, stf_step_code, kept++) = s;
   }
   code->count = kept;
-  return kept_fixed;
 }
 
-int stf_tape_fuse(steif_context *ctx, stf_tape *t)
+static int lanes(stf_assembly *a)
 {
-  const bool loops = t->box.dims > 0;
-  uses scalar = {{0}, {0}}, lane = {{0}, {0}};
-  int code = stf_vector_resize(ctx, &scalar.count, (size_t)t->registers + 1, sizeof(int32_t));
-  if (!code)
-    code = stf_vector_resize(ctx, &scalar.maker, (size_t)t->registers + 1, sizeof(int32_t));
-  if (!code) code = stf_vector_resize(ctx, &lane.count, (size_t)t->lanes + 1, sizeof(int32_t));
-  if (!code) code = stf_vector_resize(ctx, &lane.maker, (size_t)t->lanes + 1, sizeof(int32_t));
+  stf_tape *t = a->tape;
+  uses u = {{0}, {0}};
+  int code = stf_vector_resize(a->ctx, &u.count, (size_t)t->lanes + 1, sizeof(int32_t));
+  if (!code) code = stf_vector_resize(a->ctx, &u.maker, (size_t)t->lanes + 1, sizeof(int32_t));
   if (!code) {
-    note(&scalar, &t->code);
-    note(&lane, &t->wide);
+    note(&u, &t->wide);
     for (size_t i = 0; i < t->stores.count; i++)
-      ++*count_of(loops ? &lane : &scalar, STF_AT(t->stores, stf_store, i)->from);
-    for (size_t i = 0; i < t->broadcasts.count; i++)
-      ++*count_of(&scalar, STF_AT(t->broadcasts, stf_step_code, i)->a);
-    fuse(&scalar, &t->code, t->fixed, t->code.count);
-    fuse(&lane, &t->wide, 0, t->wide.count);
-    t->fixed = without_gaps(&t->code, t->fixed);
-    without_gaps(&t->wide, 0);
+      ++*count_of(&u, STF_AT(t->stores, stf_store, i)->from);
+    fuse(&u, &t->wide, 0);
+    without_gaps(&t->wide);
   }
-  stf_vector_free(ctx, &scalar.count);
-  stf_vector_free(ctx, &scalar.maker);
-  stf_vector_free(ctx, &lane.count);
-  stf_vector_free(ctx, &lane.maker);
+  stf_vector_free(a->ctx, &u.count);
+  stf_vector_free(a->ctx, &u.maker);
   return code;
+}
+
+int stf_tape_fuse(stf_assembly *a)
+{
+  stf_tape *t = a->tape;
+  STEIF_TRY(stf_vector_resize(a->ctx, &a->uses, (size_t)t->registers + 1, sizeof(int32_t)));
+  STEIF_TRY(stf_vector_resize(a->ctx, &a->maker, (size_t)t->registers + 1, sizeof(int32_t)));
+  const uses u = {a->uses, a->maker};
+  note(&u, &a->code);
+  for (size_t i = 0; i < t->results.count; i++)
+    ++*count_of(&u, STF_AT(t->results, stf_stretch, i)->at);
+  for (size_t i = 0; i < t->broadcasts.count; i++)
+    ++*count_of(&u, STF_AT(t->broadcasts, stf_step_code, i)->a);
+  fuse(&u, &a->code, a->fixed);
+  return lanes(a);
 }

@@ -1,11 +1,11 @@
 /* tape_compile.c: the nodes that outputs reach, in the order of their numbers,
  * as instructions. SPDX-License-Identifier: BSD-3-Clause */
-#include "tape.h"
-#include <string.h>
+#include "assembly.h"
 
 typedef struct compiler {
   const stf_formulas *g;
   stf_tape *tape;
+  stf_assembly assembly;
   stf_vector scalar, lane; /* 1 + register of each node; 0: none yet */
   stf_vector live;         /* uint8_t */
 } compiler;
@@ -37,17 +37,25 @@ static void mark(compiler *c, size_t count, const stf_store *outputs)
 
 static int number(compiler *c, const stf_node *n, int32_t to)
 {
-  stf_load *l = push(c, &c->tape->numbers, sizeof *l);
-  double *value = l ? push(c, &c->tape->values, sizeof *value) : NULL;
-  if (!value) return STEIF_NO_MEMORY;
-  *l = (stf_load){.kind = STF_OP_NUMBER, .to = to, .a = (int32_t)c->tape->values.count - 1};
+  double *value = push(c, &c->tape->numbers, sizeof *value);
+  int32_t *at = value ? push(c, &c->assembly.number_at, sizeof *at) : NULL;
+  if (!at) return STEIF_NO_MEMORY;
   *value = n->number;
+  *at = to;
   return STEIF_OK;
 }
 
-static int load(compiler *c, stf_vector *to, const stf_node *n, int32_t reg)
+static int load(compiler *c, const stf_node *n, int32_t reg)
 {
-  stf_load *l = push(c, to, sizeof *l);
+  stf_stretch *l = push(c, &c->tape->loads, sizeof *l);
+  if (!l) return STEIF_NO_MEMORY;
+  *l = (stf_stretch){n->kind, reg, n->kind == STF_OP_TIME ? 0 : n->a, 1};
+  return STEIF_OK;
+}
+
+static int wide_load(compiler *c, const stf_node *n, int32_t reg)
+{
+  stf_load *l = push(c, &c->tape->wide_loads, sizeof *l);
   if (!l) return STEIF_NO_MEMORY;
   *l = (stf_load){.kind = n->kind, .to = reg, .a = n->a};
   if (n->kind >= STF_OP_STATE && n->kind <= STF_OP_MEMORY) {
@@ -75,10 +83,10 @@ static int scalar_node(compiler *c, int32_t i)
   const int32_t to = c->tape->registers++;
   *scalar(c, i) = to + 1;
   if (n->kind == STF_OP_NUMBER) return number(c, n, to);
-  if (n->kind < STF_OP_NEGATIVE) return load(c, &c->tape->loads, n, to);
+  if (n->kind < STF_OP_NEGATIVE) return load(c, n, to);
   const int count = stf_children(n, child);
   for (int k = 0; k < count; k++) from[k] = *scalar(c, child[k]) - 1;
-  return instruction(c, &c->tape->code, n, to, from);
+  return instruction(c, &c->assembly.code, n, to, from);
 }
 
 /* A lane register with a scalar value in it. */
@@ -103,7 +111,7 @@ static int lane_node(compiler *c, int32_t i)
   }
   const int32_t to = c->tape->lanes++;
   *lane(c, i) = to + 1;
-  if (n->kind < STF_OP_NEGATIVE) return load(c, &c->tape->wide_loads, n, to);
+  if (n->kind < STF_OP_NEGATIVE) return wide_load(c, n, to);
   return instruction(c, &c->tape->wide, n, to, from);
 }
 
@@ -121,49 +129,51 @@ static int nodes(compiler *c)
       if (mine == turn) STEIF_TRY(turn < 2 ? scalar_node(c, i) : lane_node(c, i));
     }
     if (turn > 0) continue;
-    c->tape->fixed = c->tape->code.count;
+    c->assembly.fixed = c->assembly.code.count;
     c->tape->fixed_loads = c->tape->loads.count;
   }
   return STEIF_OK;
 }
 
-static int stores(compiler *c, size_t count, const stf_store *outputs)
+static int store(compiler *c, const stf_store *output)
 {
-  for (size_t i = 0; i < count; i++) {
-    stf_store *s = push(c, &c->tape->stores, sizeof *s);
-    if (!s) return STEIF_NO_MEMORY;
-    *s = outputs[i];
-    if (s->slot && !c->tape->box.dims) {
-      s->a = s->slot[0];
-      s->slot = NULL;
-    }
-    s->wide = c->tape->box.dims > 0;
-    const int32_t node = outputs[i].from;
-    s->from = !s->wide                        ? *scalar(c, node) - 1
-              : wide(stf_node_at(c->g, node)) ? *lane(c, node) - 1
-                                              : widened(c, node);
-    if (s->from < 0) return STEIF_NO_MEMORY;
-  }
+  stf_store *s = push(c, &c->tape->stores, sizeof *s);
+  if (!s) return STEIF_NO_MEMORY;
+  *s = *output;
+  s->from = wide(stf_node_at(c->g, output->from)) ? *lane(c, output->from) - 1
+                                                  : widened(c, output->from);
+  return s->from < 0 ? STEIF_NO_MEMORY : STEIF_OK;
+}
+
+static int result(compiler *c, const stf_store *output)
+{
+  stf_stretch *s = push(c, &c->tape->results, sizeof *s);
+  if (!s) return STEIF_NO_MEMORY;
+  *s = (stf_stretch){.at = *scalar(c, output->from) - 1,
+                     .a = output->slot ? output->slot[0] : output->a,
+                     .count = 1};
   return STEIF_OK;
 }
 
-/* Of the loads that every call makes. */
-static void states_first(stf_tape *t)
+static int translate(compiler *c, size_t count, const stf_store *outputs)
 {
-  stf_load *l = t->loads.data;
-  t->state_loads = t->fixed_loads;
-  for (size_t i = t->fixed_loads; i < t->loads.count; i++) {
-    const stf_load own = l[i];
-    if (own.kind != STF_OP_STATE) continue;
-    l[i] = l[t->state_loads];
-    l[t->state_loads++] = own;
-  }
+  stf_tape *t = c->tape;
+  STEIF_TRY(nodes(c));
+  for (size_t i = 0; i < count; i++)
+    STEIF_TRY(t->box.dims ? store(c, outputs + i) : result(c, outputs + i));
+  t->operations = (int64_t)(c->assembly.code.count - c->assembly.fixed) +
+                  (t->box.dims ? stf_passes(&t->box) * (int64_t)t->wide.count : 0);
+  STEIF_TRY(stf_tape_fuse(&c->assembly));
+  STEIF_TRY(stf_tape_sum(&c->assembly));
+  STEIF_TRY(stf_tape_arrange(&c->assembly));
+  STEIF_TRY(stf_tape_encode(&c->assembly));
+  return stf_vector_resize(c->g->ctx, &t->at, (size_t)t->lanes, sizeof(double *));
 }
 
 int stf_tape_compile(const stf_formulas *g, const stf_box *box, size_t count,
                      const stf_store *outputs, stf_tape *tape)
 {
-  compiler c = {.g = g, .tape = tape};
+  compiler c = {.g = g, .tape = tape, .assembly = {.ctx = g->ctx, .tape = tape}};
   const size_t nodes_count = g->nodes.count;
   *tape = (stf_tape){.box = *box};
   int code = stf_vector_resize(g->ctx, &c.scalar, nodes_count, sizeof(int32_t));
@@ -171,23 +181,26 @@ int stf_tape_compile(const stf_formulas *g, const stf_box *box, size_t count,
   if (!code) code = stf_vector_resize(g->ctx, &c.live, nodes_count, 1);
   if (!code) {
     mark(&c, count, outputs);
-    code = nodes(&c);
+    code = translate(&c, count, outputs);
   }
-  if (!code) code = stores(&c, count, outputs);
-  if (!code) code = stf_tape_fuse(g->ctx, tape);
-  if (!code) states_first(tape);
-  if (!code) code = stf_vector_resize(g->ctx, &tape->at, (size_t)tape->lanes, sizeof(double *));
-  stf_vector_free(g->ctx, &c.scalar);
-  stf_vector_free(g->ctx, &c.lane);
-  stf_vector_free(g->ctx, &c.live);
+  stf_vector *all[] = {&c.scalar,
+                       &c.lane,
+                       &c.live,
+                       &c.assembly.uses,
+                       &c.assembly.maker,
+                       &c.assembly.number_at,
+                       &c.assembly.negatives,
+                       &c.assembly.code,
+                       &c.assembly.factors};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) stf_vector_free(g->ctx, all[i]);
   if (code) stf_tape_free(g->ctx, tape);
   return code;
 }
 
 void stf_tape_free(steif_context *ctx, stf_tape *t)
 {
-  stf_vector *all[] = {&t->code,       &t->wide,       &t->numbers, &t->values, &t->loads,
-                       &t->wide_loads, &t->broadcasts, &t->stores,  &t->at};
+  stf_vector *all[] = {&t->numbers,    &t->loads, &t->code,   &t->results, &t->wide_loads,
+                       &t->broadcasts, &t->wide,  &t->stores, &t->at};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) stf_vector_free(ctx, all[i]);
 }
 

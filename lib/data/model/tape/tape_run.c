@@ -8,27 +8,110 @@
 /* A call between them: no compiler takes the product and the sum for one operation. */
 INLINE double plus(double a, double b) { return a + b; }
 
-static void run_scalar(const stf_step_code *s, const stf_step_code *end, double *r,
-                       const stf_lookup *l)
+/* Sums of products of registers. */
+INLINE double sum_of_pairs(const int32_t *factor, int32_t count, const double *r)
 {
-  for (; s < end; s++) {
-    const double a = r[s->a];
-    switch (s->kind) {
-    case STF_OP_ADD: r[s->to] = a + r[s->b]; break;
-    case STF_OP_SUBTRACT: r[s->to] = a - r[s->b]; break;
-    case STF_OP_MULTIPLY: r[s->to] = a * r[s->b]; break;
-    case STF_OP_DIVIDE: r[s->to] = a / r[s->b]; break;
-    case STF_OP_TIMES_PLUS: r[s->to] = plus(a * r[s->b], r[s->c]); break;
-    case STF_OP_TIMES_MINUS: r[s->to] = plus(a * r[s->b], -r[s->c]); break;
-    case STF_OP_MINUS_TIMES: r[s->to] = plus(r[s->c], -(a * r[s->b])); break;
-    case STF_OP_NEGATIVE: r[s->to] = -a; break;
-    case STF_OP_SELECT: r[s->to] = a != 0 ? r[s->b] : r[s->c]; break;
-    case STF_OP_LOOKUP: r[s->to] = stf_lookup_value(l + s->b, a); break;
-    case STF_OP_TILT: r[s->to] = stf_lookup_slope(l + s->b, a); break;
-    default: r[s->to] = stf_operate(s->kind, a, stf_operands(s->kind) > 1 ? r[s->b] : 0, 0);
+  double sum = r[factor[0]] * r[factor[1]];
+  for (; --count; factor += 2) sum = plus(sum, r[factor[2]] * r[factor[3]]);
+  return sum;
+}
+
+INLINE double sum_of_triples(const int32_t *factor, int32_t count, const double *r)
+{
+  double sum = r[factor[0]] * r[factor[1]] * r[factor[2]];
+  for (; --count; factor += 3) sum = plus(sum, r[factor[3]] * r[factor[4]] * r[factor[5]]);
+  return sum;
+}
+
+/* Functions, and what is rare; returns the next instruction. */
+static const int32_t *run_other(const int32_t *s, double *r, const stf_lookup *l)
+{
+  const double a = r[s[2]];
+  double *to = r + s[1];
+  switch (s[0]) {
+  case STF_OP_SELECT: *to = a != 0 ? r[s[3]] : r[s[4]]; return s + 5;
+  case STF_OP_LOOKUP: *to = stf_lookup_value(l + s[3], a); return s + 4;
+  case STF_OP_TILT: *to = stf_lookup_slope(l + s[3], a); return s + 4;
+  default:
+    if (stf_operands(s[0]) == 1) {
+      *to = stf_operate(s[0], a, 0, 0);
+      return s + 3;
+    }
+    *to = stf_operate(s[0], a, r[s[3]], 0);
+    return s + 4;
+  }
+}
+
+#define A r[s[2]]
+#define B r[s[3]]
+#define C r[s[4]]
+#define PAIR(k) (r[s[2 + 2 * (k)]] * r[s[3 + 2 * (k)]])
+/* s: kind, register of the value, operands. */
+static void run_scalar(const int32_t *s, const int32_t *end, double *r, const stf_lookup *l)
+{
+  while (s < end) {
+    double *to = r + s[1];
+    switch (s[0]) {
+    case STF_OP_ADD:
+      *to = A + B;
+      s += 4;
+      break;
+    case STF_OP_SUBTRACT:
+      *to = A - B;
+      s += 4;
+      break;
+    case STF_OP_MULTIPLY:
+      *to = A * B;
+      s += 4;
+      break;
+    case STF_OP_DIVIDE:
+      *to = A / B;
+      s += 4;
+      break;
+    case STF_OP_TIMES_PLUS:
+      *to = plus(A * B, C);
+      s += 5;
+      break;
+    case STF_OP_TIMES_MINUS:
+      *to = plus(A * B, -C);
+      s += 5;
+      break;
+    case STF_OP_MINUS_TIMES:
+      *to = plus(C, -(A * B));
+      s += 5;
+      break;
+    case STF_OP_NEGATIVE:
+      *to = -A;
+      s += 3;
+      break;
+    case STF_OP_PAIRS_2:
+      *to = plus(PAIR(0), PAIR(1));
+      s += 6;
+      break;
+    case STF_OP_PAIRS_3:
+      *to = plus(plus(PAIR(0), PAIR(1)), PAIR(2));
+      s += 8;
+      break;
+    case STF_OP_PAIRS_4:
+      *to = plus(plus(plus(PAIR(0), PAIR(1)), PAIR(2)), PAIR(3));
+      s += 10;
+      break;
+    case STF_OP_PAIRS:
+      *to = sum_of_pairs(s + 3, s[2], r);
+      s += 3 + 2 * (ptrdiff_t)s[2];
+      break;
+    case STF_OP_TRIPLES:
+      *to = sum_of_triples(s + 3, s[2], r);
+      s += 3 + 3 * (ptrdiff_t)s[2];
+      break;
+    default: s = run_other(s, r, l);
     }
   }
 }
+#undef A
+#undef B
+#undef C
+#undef PAIR
 
 /* One instruction on `count` passes. */
 INLINE void run_lane(const stf_step_code *s, const double *const *at, double *lanes, int count,
@@ -83,23 +166,31 @@ static const double *array_of(const stf_feed *f, int kind)
   return kind == STF_OP_STATE    ? f->y
          : kind == STF_OP_SLOPE  ? f->yp
          : kind == STF_OP_MEMORY ? f->memory
+         : kind == STF_OP_TIME   ? &f->t
                                  : f->p;
 }
 
-static double loaded(const stf_feed *f, const stf_load *l)
+static void load(const stf_tape *t, size_t from, size_t to, const stf_feed *feed, double *space)
 {
-  return l->kind == STF_OP_TIME ? f->t : array_of(f, l->kind)[l->a];
+  const stf_stretch *l = t->loads.data;
+  for (size_t i = from; i < to; i++) {
+    const double *x = array_of(feed, l[i].kind) + l[i].a;
+    memcpy(space + l[i].at, x, (size_t)l[i].count * sizeof *x);
+  }
+}
+
+static void run_code(const stf_tape *t, size_t from, size_t to, const stf_feed *feed,
+                     double *space)
+{
+  const int32_t *code = t->code.data;
+  if (to > from) run_scalar(code + from, code + to, space, feed->lookups);
 }
 
 void stf_tape_prepare(const stf_tape *t, const stf_feed *feed, double *space)
 {
-  const stf_load *l = t->numbers.data;
-  for (size_t i = 0; i < t->numbers.count; i++)
-    space[l[i].to] = *STF_AT(t->values, double, l[i].a);
-  l = t->loads.data;
-  for (size_t i = 0; i < t->fixed_loads; i++) space[l[i].to] = feed->p[l[i].a];
-  const stf_step_code *s = t->code.data;
-  if (s) run_scalar(s, s + t->fixed, space, feed->lookups);
+  if (t->numbers.count) memcpy(space, t->numbers.data, t->numbers.count * sizeof *space);
+  load(t, 0, t->fixed_loads, feed, space);
+  run_code(t, 0, t->fixed, feed, space);
 }
 
 /* ---- passes
@@ -209,28 +300,33 @@ static void run_passes(const stf_tape *t, const stf_feed *feed, double *lanes, d
   every_pass(t, feed, lanes, out);
 }
 
-void stf_tape_run(const stf_tape *t, const stf_feed *feed, double *space, double *out)
+static void run_loops(const stf_tape *t, const stf_feed *feed, double *space, double *out)
 {
   double *lanes = space + t->registers;
   const double **at = t->at.data;
   for (int32_t i = 0; i < t->lanes; i++) at[i] = lanes + (size_t)i * STF_PASSES;
-  const stf_load *l = t->loads.data;
-  const double *y = feed->y;
-  for (size_t i = t->fixed_loads; i < t->state_loads; i++) space[l[i].to] = y[l[i].a];
-  for (size_t i = t->state_loads; i < t->loads.count; i++) space[l[i].to] = loaded(feed, l + i);
-  const stf_step_code *s = t->code.data;
-  if (s) run_scalar(s + t->fixed, s + t->code.count, space, feed->lookups);
+  const stf_step_code *b = t->broadcasts.data;
+  for (size_t i = 0; i < t->broadcasts.count; i++)
+    for (int k = 0; k < STF_PASSES; k++)
+      lanes[(size_t)b[i].to * STF_PASSES + (size_t)k] = space[b[i].a];
+  run_passes(t, feed, lanes, out);
+}
+
+void stf_tape_run(const stf_tape *t, const stf_feed *feed, double *space, double *out)
+{
+  load(t, t->fixed_loads, t->loads.count, feed, space);
+  run_code(t, t->fixed, t->code.count, feed, space);
   if (t->box.dims) {
-    const stf_step_code *b = t->broadcasts.data;
-    for (size_t i = 0; i < t->broadcasts.count; i++)
-      for (int k = 0; k < STF_PASSES; k++)
-        lanes[(size_t)b[i].to * STF_PASSES + (size_t)k] = space[b[i].a];
-    run_passes(t, feed, lanes, out);
+    run_loops(t, feed, space, out);
     return;
   }
-  const stf_store *o = t->stores.data;
-  if (t->assigns)
-    for (size_t i = 0; i < t->stores.count; i++) out[o[i].a] = space[o[i].from];
-  else
-    for (size_t i = 0; i < t->stores.count; i++) out[o[i].a] += space[o[i].from];
+  const stf_stretch *o = t->results.data;
+  for (size_t i = 0; i < t->results.count; i++) {
+    const double *r = space + o[i].at;
+    double *restrict to = out + o[i].a;
+    if (t->assigns)
+      memcpy(to, r, (size_t)o[i].count * sizeof *to);
+    else
+      for (int32_t k = 0; k < o[i].count; k++) to[k] += r[k];
+  }
 }

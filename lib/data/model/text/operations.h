@@ -77,6 +77,12 @@ enum stf_kind {
   STF_OP_TIMES_PLUS,
   STF_OP_TIMES_MINUS,
   STF_OP_MINUS_TIMES,
+  /* c products of two or three factors, listed from b on, added one after the other */
+  STF_OP_PAIRS,
+  STF_OP_TRIPLES,
+  STF_OP_PAIRS_2, /* two, three, four */
+  STF_OP_PAIRS_3,
+  STF_OP_PAIRS_4,
   STF_OP_KINDS,
   /* of the text only */
   STF_OP_NAME = STF_OP_KINDS, /* a: word; count: primes */

@@ -1,6 +1,6 @@
 /* passes.c: the passes of nested loops, counted through.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "model.h"
+#include "tape.h"
 
 int64_t stf_passes(const stf_box *box)
 {
