@@ -153,8 +153,7 @@ static int g(sunrealtype t, int derivative, N_Vector out, void *user)
     const stf_block *block = *STF_AT(m->blocks, stf_block *, i);
     for (size_t k = 0; k < block->equations.count; k++) {
       const stf_equation *e = STF_AT(block->equations, stf_equation, k);
-      const int code =
-        differentiate(m, block, e, &feed, derivative, stf_array(out), &known);
+      const int code = differentiate(m, block, e, &feed, derivative, stf_array(out), &known);
       if (code < 0) return code;
     }
   }

@@ -46,68 +46,36 @@ static const int32_t *run_other(const int32_t *s, double *r, const stf_lookup *l
 #define B r[s[3]]
 #define C r[s[4]]
 #define PAIR(k) (r[s[2 + 2 * (k)]] * r[s[3 + 2 * (k)]])
+/* An instruction of so many words. */
+#define CASE(kind, value, words)                                                               \
+  case STF_OP_##kind:                                                                          \
+    *to = value;                                                                               \
+    s += words;                                                                                \
+    break;
 /* s: kind, register of the value, operands. */
 static void run_scalar(const int32_t *s, const int32_t *end, double *r, const stf_lookup *l)
 {
   while (s < end) {
     double *to = r + s[1];
     switch (s[0]) {
-    case STF_OP_ADD:
-      *to = A + B;
-      s += 4;
-      break;
-    case STF_OP_SUBTRACT:
-      *to = A - B;
-      s += 4;
-      break;
-    case STF_OP_MULTIPLY:
-      *to = A * B;
-      s += 4;
-      break;
-    case STF_OP_DIVIDE:
-      *to = A / B;
-      s += 4;
-      break;
-    case STF_OP_TIMES_PLUS:
-      *to = plus(A * B, C);
-      s += 5;
-      break;
-    case STF_OP_TIMES_MINUS:
-      *to = plus(A * B, -C);
-      s += 5;
-      break;
-    case STF_OP_MINUS_TIMES:
-      *to = plus(C, -(A * B));
-      s += 5;
-      break;
-    case STF_OP_NEGATIVE:
-      *to = -A;
-      s += 3;
-      break;
-    case STF_OP_PAIRS_2:
-      *to = plus(PAIR(0), PAIR(1));
-      s += 6;
-      break;
-    case STF_OP_PAIRS_3:
-      *to = plus(plus(PAIR(0), PAIR(1)), PAIR(2));
-      s += 8;
-      break;
-    case STF_OP_PAIRS_4:
-      *to = plus(plus(plus(PAIR(0), PAIR(1)), PAIR(2)), PAIR(3));
-      s += 10;
-      break;
-    case STF_OP_PAIRS:
-      *to = sum_of_pairs(s + 3, s[2], r);
-      s += 3 + 2 * (ptrdiff_t)s[2];
-      break;
-    case STF_OP_TRIPLES:
-      *to = sum_of_triples(s + 3, s[2], r);
-      s += 3 + 3 * (ptrdiff_t)s[2];
-      break;
+      CASE(ADD, A + B, 4)
+      CASE(SUBTRACT, A - B, 4)
+      CASE(MULTIPLY, A * B, 4)
+      CASE(DIVIDE, A / B, 4)
+      CASE(TIMES_PLUS, plus(A * B, C), 5)
+      CASE(TIMES_MINUS, plus(A * B, -C), 5)
+      CASE(MINUS_TIMES, plus(C, -(A * B)), 5)
+      CASE(NEGATIVE, -A, 3)
+      CASE(PAIRS_2, plus(PAIR(0), PAIR(1)), 6)
+      CASE(PAIRS_3, plus(plus(PAIR(0), PAIR(1)), PAIR(2)), 8)
+      CASE(PAIRS_4, plus(plus(plus(PAIR(0), PAIR(1)), PAIR(2)), PAIR(3)), 10)
+      CASE(PAIRS, sum_of_pairs(s + 3, s[2], r), 3 + 2 * (ptrdiff_t)s[2])
+      CASE(TRIPLES, sum_of_triples(s + 3, s[2], r), 3 + 3 * (ptrdiff_t)s[2])
     default: s = run_other(s, r, l);
     }
   }
 }
+#undef CASE
 #undef A
 #undef B
 #undef C
