@@ -35,12 +35,15 @@ static int run(struct call *call)
 static const struct option options[] = {
   {"--parameters", WORD, "P,...", "names of the parameters, or all", "all"},
   {"--adjoint", FLAG, NULL, "the gradient of --functional by all parameters, going back", NULL},
-  {"--end", WORD, "E", "gradient of an expression at the end, added to --functional", NULL},
+  {"--end", WORD, "E", "gradient of expressions at the end, 'y1; y2', added to --functional",
+   NULL},
   {"--hessian", WORD, "P=V,...", "of a gradient: its derivative along this direction", NULL},
   {"--memory", COUNT, "BYTES", "for gradients (default: 1 GiB)", NULL},
   {"--points", COUNT, "N", "times shown, at equal distances to the end", "1"},
   {"--check", FLAG, NULL, "compare with differences of runs on the same mesh", NULL},
-  {"--functional", WORD, "int G", "integral of an expression in t, unknowns and parameters",
+  {"--functional", WORD, "int G",
+   "integral of an expression in t, unknowns and parameters; with --adjoint several: 'int y1; "
+   "int y2'",
    NULL},
   {"--rtol", POSITIVE, "R", "relative tolerance of y and of its derivatives", "1e-6"},
   {"--atol", POSITIVE, "A", "absolute tolerance (default: R times the problem's scale)", NULL},

@@ -248,6 +248,18 @@ string(JSON gradient GET "${out}" gradient 0)
 if(NOT disagreement LESS 1e-6 OR NOT gradient MATCHES "^-0[.]3788895")
   message(SEND_ERROR "sensitivity: the gradient ${gradient} is off differences by ${disagreement}")
 endif()
+execute_process(COMMAND ${PROGRAM} sensitivity rober radau:s=3 --end "y1; y2" --t1 40 --rtol 1e-8
+                        --check --json OUTPUT_VARIABLE out)
+string(JSON disagreement GET "${out}" disagreement)
+string(JSON slope GET "${out}" gradient 0 0) # dy1/dk1 at 40, as above
+if(NOT disagreement LESS 1e-8 OR NOT slope MATCHES "^-4[.]24755")
+  message(SEND_ERROR "sensitivity: two ends: ${slope}, off differences by ${disagreement}")
+endif()
+execute_process(COMMAND ${PROGRAM} sensitivity rober radau:s=3 --end "y1; y2" --functional "int y1"
+                RESULT_VARIABLE got ERROR_VARIABLE err OUTPUT_QUIET)
+if(NOT got EQUAL 2 OR NOT err MATCHES "as many of both")
+  message(SEND_ERROR "sensitivity: one integral and two ends: ${got}, ${err}")
+endif()
 expect(2 sensitivity rober radau:s=3 --adjoint ERR "--functional")
 # Expressions with parameters, their derivatives by both exact; and -1533.628723783 of the second ones.
 expect(0 sensitivity rober radau:s=3 --functional "int k1*y1*exp(-y3)" --end "sin(y1)*k2^2" --t1 40

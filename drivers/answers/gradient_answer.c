@@ -62,9 +62,9 @@ static int find_mesh(struct call *call, struct gradient *a)
   return code ? code : go_on(call, a);
 }
 
-/* The value of a run on the mesh of the problem found once more, p_k moved by d. */
+/* The values of a run on the mesh of the problem found once more, p_k moved by d, c times onto `sum`. */
 static int moved(struct call *call, struct gradient *a, const steif_options *o, int k, double d,
-                 double *value)
+                 double c, double *sum)
 {
   steif_problem p;
   double old;
@@ -80,10 +80,16 @@ static int moved(struct call *call, struct gradient *a, const steif_options *o, 
   if (!code && steif_gradient_find(call->ctx, &p, call->word[1], o, &a->functional.of, &g))
     code = fail(call);
   a->functional.now = a->problem;
-  if (!code) *value = g.value[0];
+  for (int i = 0; !code && i < g.count; i++) sum[i] += c * g.value[i];
   steif_gradient_free(call->ctx, &g);
   steif_problem_clear(call->ctx, &p);
   return code;
+}
+
+static double scale_of(const steif_parameters *q, int k)
+{
+  const double p = q->scale ? q->scale[k] : fabs(q->value[k]);
+  return p > 0 ? p : 1;
 }
 
 /* Central differences with d and d / 2, extrapolated; d within what 4 runs of 15 digits can tell. */
@@ -91,22 +97,21 @@ static int compare(struct call *call, struct gradient *a, const steif_options *o
                    const steif_gradient *g)
 {
   const steif_parameters *q = a->problem->parameters;
-  double size = 0;
+  double size[FUNCTIONALS] = {0};
   int code = EXIT_OK;
-  for (int k = 0; k < g->parameters; k++) {
-    const double p = q->scale ? q->scale[k] : fabs(q->value[k]);
-    size = fmax(size, fabs(g->dp[k]) * (p > 0 ? p : 1));
-  }
+  for (int i = 0; i < g->count; i++)
+    for (int k = 0; k < g->parameters; k++)
+      size[i] = fmax(size[i], fabs(g->dp[i * g->parameters + k]) * scale_of(q, k));
   for (int k = 0; !code && k < g->parameters; k++) {
-    const double p = q->scale ? q->scale[k] : fabs(q->value[k]), scale = p > 0 ? p : 1;
-    const double d = 2e-3 * scale, by[] = {d / 2, -d / 2, d, -d}, c[] = {8, -8, -1, 1};
-    double quotient = 0, value = 0;
-    for (int j = 0; !code && j < 4; j++) {
-      code = moved(call, a, o, k, by[j], &value);
-      quotient += c[j] * value / (6 * d);
-    }
-    if (!code && size > 0)
-      a->disagreement = fmax(a->disagreement, fabs(g->dp[k] - quotient) * scale / size);
+    const double scale = scale_of(q, k), d = 2e-3 * scale;
+    const double by[] = {d / 2, -d / 2, d, -d}, c[] = {8, -8, -1, 1};
+    double quotient[FUNCTIONALS] = {0};
+    for (int j = 0; !code && j < 4; j++)
+      code = moved(call, a, o, k, by[j], c[j] / (6 * d), quotient);
+    for (int i = 0; !code && i < g->count; i++)
+      if (size[i] > 0)
+        a->disagreement = fmax(
+          a->disagreement, fabs(g->dp[i * g->parameters + k] - quotient[i]) * scale / size[i]);
   }
   return code;
 }
@@ -144,36 +149,54 @@ static void costs(steif_report *r, const steif_gradient_cost *c)
 static void rows(steif_report *r, const struct gradient *a)
 {
   const steif_parameters *q = a->problem->parameters;
-  for (int k = 0; k < a->found.parameters; k++) {
+  const int P = a->found.parameters;
+  for (int j = 0; j < a->found.count * P; j++) {
+    const int k = j % P;
     char own[STEIF_SPEC_WORD];
     snprintf(own, sizeof own, "p%d", k + 1);
-    const double typical = q->scale ? q->scale[k] : fabs(q->value[k]);
     steif_report_row(r, "rows");
+    if (a->found.count > 1) steif_report_text(r, "rows.of", a->functional.label[j / P]);
     steif_report_text(r, "rows.parameter", q->name ? q->name[k] : own);
     steif_report_real(r, "rows.p", q->value[k]);
-    steif_report_real(r, "rows.gradient", a->found.dp[k]);
-    steif_report_real(r, "rows.scaled", a->found.dp[k] * (typical > 0 ? typical : 1));
-    if (a->product) steif_report_real(r, "rows.product", a->product[k]);
+    steif_report_real(r, "rows.gradient", a->found.dp[j]);
+    steif_report_real(r, "rows.scaled", a->found.dp[j] * scale_of(q, k));
+    if (a->product) steif_report_real(r, "rows.product", a->product[j]);
   }
+}
+
+/* One functional as a list, several as rows of a matrix. */
+static void lists(steif_report *r, const struct gradient *a, const char *name, size_t columns,
+                  const double *x)
+{
+  if (a->found.count == 1)
+    steif_report_list(r, name, columns, x);
+  else
+    steif_report_matrix(r, name, (size_t)a->found.count, columns, x);
 }
 
 static void fill(steif_report *r, const struct call *call, const void *result)
 {
   const struct gradient *a = result;
   const steif_gradient *g = &a->found;
+  const size_t P = (size_t)g->parameters;
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
-  steif_report_real(r, "value", g->value[0]);
-  steif_report_real(r, "error_estimate", g->error_estimate[0]);
-  if (g->parameters) {
-    steif_report_list(r, "p", (size_t)g->parameters, a->problem->parameters->value);
-    steif_report_list(r, "gradient", (size_t)g->parameters, g->dp);
+  if (g->count == 1) {
+    steif_report_real(r, "value", g->value[0]);
+    steif_report_real(r, "error_estimate", g->error_estimate[0]);
+  } else {
+    steif_report_list(r, "value", (size_t)g->count, g->value);
+    steif_report_list(r, "error_estimate", (size_t)g->count, g->error_estimate);
+  }
+  if (P) {
+    steif_report_list(r, "p", P, a->problem->parameters->value);
+    lists(r, a, "gradient", P, g->dp);
   }
   if (a->product) {
-    steif_report_list(r, "v", (size_t)g->parameters, a->v);
-    steif_report_list(r, "product", (size_t)g->parameters, a->product);
+    steif_report_list(r, "v", P, a->v);
+    lists(r, a, "product", P, a->product);
   }
-  steif_report_list(r, "lambda0", (size_t)g->n, g->dy0);
+  lists(r, a, "lambda0", (size_t)g->n, g->dy0);
   rows(r, a);
   costs(r, &g->cost);
   if (a->checked) steif_report_real(r, "disagreement", a->disagreement);
@@ -183,7 +206,8 @@ static int differentiate_twice(struct call *call, struct gradient *a)
 {
   const steif_problem *p = a->problem;
   const size_t P = p->parameters ? (size_t)p->parameters->count : 0;
-  a->v = calloc(P + 1, sizeof *a->v), a->product = calloc(P + 1, sizeof *a->product);
+  a->v = calloc(P + 1, sizeof *a->v);
+  a->product = calloc((size_t)a->functional.of.count * P + 1, sizeof *a->product);
   if (!a->v || !a->product) return no_memory(call, "a direction", "leave --hessian out");
   const int code = direction_read(call, p, "--hessian", a->v);
   if (code) return code;

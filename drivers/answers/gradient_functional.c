@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "gradient_functional.h"
 #include "answers.h"
+#include <stdlib.h>
 #include <string.h>
 
 static int scratch(struct gradient_functional *f, N_Vector y)
@@ -14,9 +15,10 @@ static int scratch(struct gradient_functional *f, N_Vector y)
   return 0;
 }
 
-static int value(struct gradient_functional *f, int at_end, double t, N_Vector y, double *g)
+static int value(struct gradient_functional *f, int at_end, int i, double t, N_Vector y,
+                 double *g)
 {
-  const struct asked *a = &f->asked[at_end];
+  const struct asked *a = &f->asked[at_end][i];
   if (a->is_sum) {
     *g = sum_at(&a->sum, N_VGetArrayPointer(y));
     return 0;
@@ -25,19 +27,25 @@ static int value(struct gradient_functional *f, int at_end, double t, N_Vector y
   return expression_value(f->now->parameters, &a->model, t, y, f->out, g);
 }
 
-static int integrand(double t, N_Vector y, double *g, void *user)
+static int values(struct gradient_functional *f, int at_end, double t, N_Vector y, double *g)
 {
-  return value(user, 0, t, y, g);
+  int code = 0;
+  for (int i = 0; !code && i < f->of.count; i++) code = value(f, at_end, i, t, y, &g[i]);
+  return code;
 }
 
-static int end(double t, N_Vector y, double *g, void *user) { return value(user, 1, t, y, g); }
+static int integrand(double t, N_Vector y, double *g, void *user)
+{
+  return values(user, 0, t, y, g);
+}
+
+static int end(double t, N_Vector y, double *g, void *user) { return values(user, 1, t, y, g); }
 
 /* Of the model F = y' - f, whose products with the first unit vector are -df_1/dy and -df_1/dp. */
 static int slopes(double t, N_Vector y, int i, int at_end, N_Vector dy, double *dp, void *user)
 {
   struct gradient_functional *f = user;
-  const struct asked *a = &f->asked[at_end];
-  (void)i;
+  const struct asked *a = &f->asked[at_end][i];
   if (a->is_sum) {
     sum_slope(&a->sum, N_VGetArrayPointer(y), N_VGetArrayPointer(dy));
     return 0;
@@ -58,16 +66,39 @@ static int read_asked(struct call *call, const steif_problem *p, const char *tex
   return a->is_sum ? EXIT_OK : expression_open(call, p, text, &a->model);
 }
 
+/* "int y1; int y3" or "y1; y2", the second after what was asked before. */
+static int read_all(struct call *call, const steif_problem *p, struct gradient_functional *f,
+                    int at_end, const char *text)
+{
+  char *copy = strdup(text);
+  int count = 0, code = copy ? EXIT_OK : no_memory(call, "the functionals", "ask for fewer");
+  f->asked[at_end] = calloc(FUNCTIONALS, sizeof *f->asked[at_end]);
+  if (!code && !f->asked[at_end]) code = no_memory(call, "the functionals", "ask for fewer");
+  for (char *part = code ? NULL : strtok(copy, ";"); !code && part; part = strtok(NULL, ";")) {
+    part += strspn(part, " ");
+    if (count == FUNCTIONALS) code = bad_usage(call, "more than %d functionals", FUNCTIONALS);
+    if (!code && !at_end && strncmp(part, "int ", 4))
+      code = bad_usage(call, "--functional '%s': an integral is written 'int y1'", part);
+    if (!code && !f->label[count] && !(f->label[count] = strdup(part)))
+      code = no_memory(call, "the functionals", "ask for fewer");
+    if (!code) code = read_asked(call, p, at_end ? part : part + 4, &f->asked[at_end][count++]);
+  }
+  free(copy);
+  if (!code && f->of.count && count != f->of.count)
+    code = bad_usage(call, "%d integrals and %d values at the end: give as many of both",
+                     f->of.count, count);
+  f->of.count = count;
+  return code;
+}
+
 int gradient_functional_open(struct call *call, const steif_problem *p,
                              struct gradient_functional *f)
 {
   const char *integral = word_of(call, "--functional"), *last = word_of(call, "--end");
   f->now = p, f->ctx = call->ctx;
-  f->of = (steif_functional){.count = 1, .slopes = slopes, .user = f};
-  if (integral && strncmp(integral, "int ", 4))
-    return bad_usage(call, "--functional '%s': an integral is written 'int y1'", integral);
-  int code = integral ? read_asked(call, p, integral + 4, &f->asked[0]) : EXIT_OK;
-  if (!code && last) code = read_asked(call, p, last, &f->asked[1]);
+  f->of = (steif_functional){.slopes = slopes, .user = f};
+  int code = integral ? read_all(call, p, f, 0, integral) : EXIT_OK;
+  if (!code && last) code = read_all(call, p, f, 1, last);
   if (integral) f->of.integrand = integrand;
   if (last) f->of.end = end;
   return code;
@@ -75,8 +106,13 @@ int gradient_functional_open(struct call *call, const steif_problem *p,
 
 void gradient_functional_close(struct call *call, struct gradient_functional *f)
 {
-  for (int i = 0; i < 2; i++)
-    if (f->asked[i].model.user) steif_problem_clear(call->ctx, &f->asked[i].model);
+  for (int at_end = 0; at_end < 2; at_end++) {
+    for (int i = 0; f->asked[at_end] && i < FUNCTIONALS; i++)
+      if (f->asked[at_end][i].model.user)
+        steif_problem_clear(call->ctx, &f->asked[at_end][i].model);
+    free(f->asked[at_end]);
+  }
+  for (int i = 0; i < FUNCTIONALS; i++) free(f->label[i]);
   if (f->first) N_VDestroy(f->first);
   if (f->none) N_VDestroy(f->none);
   if (f->out) N_VDestroy(f->out);

@@ -11,10 +11,13 @@ struct asked {
   struct sum sum;
   steif_problem model;
 };
+enum { FUNCTIONALS = 32 };
 struct gradient_functional {
   steif_context *ctx;
   const steif_problem *now; /* whose parameters count */
-  struct asked asked[2];    /* the integrand, and what is asked at the end */
+  struct asked *asked
+    [2]; /* integrands, and what is asked at the end, `of.count` of each; NULL: nothing is */
+  char *label[FUNCTIONALS]; /* what was asked, as text */
   steif_functional of;
   N_Vector first, none, out;
 };

@@ -128,6 +128,63 @@ static void derivative_of_the_run(void)
   steif_context_free(&ctx);
 }
 
+static int alone; /* functional that is asked for, 0: both */
+
+/* The square above and a sum over all unknowns; or one of them. */
+static int pair(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  sunrealtype both[] = {0, 0};
+  square(t, y, both, user);
+  for (sunindextype i = 0; i < NV_LENGTH_S(y); i++)
+    both[1] += (sunrealtype)(i + 1) * NV_Ith_S(y, i) * NV_Ith_S(y, i);
+  g[0] = both[alone == 2];
+  if (!alone) g[1] = both[1];
+  return 0;
+}
+
+static sunrealtype apart(const sunrealtype *x, const sunrealtype *y, sunindextype n)
+{
+  sunrealtype most = 0, size = 0;
+  for (sunindextype i = 0; i < n; i++)
+    most = fmax(most, fabs(x[i] - y[i])), size = fmax(size, fabs(y[i]));
+  return most / size;
+}
+
+/* Two functionals in one solve are those of two runs. */
+static void several_at_once(void)
+{
+  static const char *const of[] = {"radau:s=3", "be", "bdf", "dirk:hw43"};
+  steif_context *ctx = steif_context_new(NULL);
+  struct subject s;
+  for (int storage = 0; storage < 4; storage++)
+    for (int m = 0; m < 4; m++) {
+      if (storage == 3)
+        subject_lotka(&s);
+      else
+        subject_brusselator(&s, storage == 2   ? STEIF_SPARSE
+                                : storage == 1 ? STEIF_BAND
+                                               : STEIF_DENSE);
+      const int P = s.parameters.count;
+      steif_gradient g[3] = {{0}};
+      for (alone = 0; alone < 3; alone++) {
+        const steif_functional J = {.count = alone ? 1 : 2, .integrand = pair, .end = pair};
+        steif_options o = steif_defaults();
+        o.h = 0.0625, o.t1 = 1;
+        CU_ASSERT_FATAL(!steif_gradient_find(ctx, &s.problem, of[m], &o, &J, &g[alone]));
+      }
+      alone = 0;
+      for (int i = 0; i < 2; i++) {
+        CHECK(apart(g[0].dp + i * P, g[i + 1].dp, P) < 1e-12);
+        CHECK(apart(g[0].dy0 + i * g[0].n, g[i + 1].dy0, g[0].n) < 1e-12);
+        CHECK(g[0].value[i] == g[i + 1].value[0]);
+      }
+      CHECK(apart(g[1].dp, g[2].dp, P) > 1e-3);
+      for (int i = 0; i < 3; i++) steif_gradient_free(ctx, &g[i]);
+    }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_duality[] = {{"forward and adjoint agree to rounding", duality},
                                   {"the derivative is that of the run", derivative_of_the_run},
+                                  {"several functionals at once", several_at_once},
                                   CU_TEST_INFO_NULL};

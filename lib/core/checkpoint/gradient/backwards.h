@@ -53,14 +53,14 @@ typedef struct stf_adjoint {
   sunrealtype tolerance;
   const steif_table *table;
   N_Vector *basis[STF_BASIS + 1], *extra, *nothing;
-  N_Vector *behind;     /* w of the step behind, by channels; NULL: none */
-  sunrealtype h_behind; /* 0: not yet */
-  int channel;          /* to be solved for */
-  long sweeps;          /* of the last solve; `slow`: with these factors too many */
+  N_Vector *behind;      /* w of the step behind, by channels; NULL: none */
+  sunrealtype h_behind;  /* 0: not yet */
+  int channel, channels; /* to be solved for; of right-hand sides at once */
+  long sweeps;           /* of the last solve; `slow`: with these factors too many */
   bool slow, fresh;
 } stf_adjoint;
 int stf_adjoint_open(stf_pool *pool, stf_system *system, int m, const steif_table *table,
-                     stf_adjoint *a);
+                     int channels, stf_adjoint *a);
 /* Large sparse stages: what may be left of residuals, relative; then a solve, 1: it does not converge. */
 int stf_stage_krylov_open(stf_adjoint *a, const steif_table *table, sunrealtype tolerance,
                           int channels);
@@ -70,6 +70,8 @@ int stf_adjoint_residuals(stf_adjoint *a, N_Vector *r, N_Vector *w);
 /* Factors after the matrices at the points are filled: B/h of the method, m x m by rows. */
 int stf_adjoint_factor(stf_adjoint *a, sunrealtype t, sunrealtype h, const sunrealtype *B);
 int stf_adjoint_solve(stf_adjoint *a, N_Vector *r, N_Vector *w);
+/* The same of all channels, m vectors each. */
+int stf_adjoint_solve_all(stf_adjoint *a, N_Vector *r, N_Vector *w);
 /* K x = r, with the same factors. */
 int stf_adjoint_solve_forward(stf_adjoint *a, N_Vector *r, N_Vector *x);
 /* out += c M^T x, which 'E' or 'A' at a point. */
@@ -127,7 +129,8 @@ typedef struct stf_backwards {
   stf_stage_polynomial u;
   stf_adjoint adjoint;
   stf_slopes *slopes;
-  N_Vector *Y, *Yp, *r, *w, before, work, error;
+  N_Vector *Y, *Yp, *r, before, work, error;
+  N_Vector *w, *right;      /* m of each channel; right: of r, in the order of w */
   N_Vector *lambda, *kappa; /* of y and, in chains, of the last slope; by channels */
   N_Vector *past[STF_PAST]; /* BDF: of values before */
   N_Vector *gy;

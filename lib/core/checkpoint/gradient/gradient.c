@@ -100,7 +100,9 @@ static int claim(stf_backwards *B)
   STEIF_TRY(vectors(B, B->points, &B->Y));
   STEIF_TRY(vectors(B, B->points, &B->Yp));
   STEIF_TRY(vectors(B, (stages + 1) * B->channels, &B->r));
-  STEIF_TRY(vectors(B, stages, &B->w));
+  STEIF_TRY(vectors(B, stages * B->channels, &B->w));
+  B->right = stf_pool_array(B->pool, (size_t)stages * channels, sizeof *B->right);
+  if (!B->right) return STEIF_NO_MEMORY;
   N_Vector *scratch[] = {&B->before, &B->work, &B->error};
   for (size_t i = 0; i < STF_COUNT(scratch); i++)
     if (!(*scratch[i] = stf_pool_vector(B->pool, B->space.like))) return STEIF_NO_MEMORY;
@@ -143,7 +145,7 @@ static int open_back(stf_journey *J)
   if (J->line) B->width += 2 * (size_t)B->n * (size_t)B->points;
   STEIF_TRY(claim(B));
   const int m = B->kind == STF_TRACE_COLLOCATION ? B->table->s : 1;
-  STEIF_TRY(stf_adjoint_open(B->pool, system, m, B->table, &B->adjoint));
+  STEIF_TRY(stf_adjoint_open(B->pool, system, m, B->table, B->count, &B->adjoint));
   STEIF_TRY(open_large(J));
   if (m == 1 && B->kind == STF_TRACE_COLLOCATION)
     STEIF_TRY(stf_transform_build(B->pool, B->ctx, B->table, &B->adjoint.transform));

@@ -57,12 +57,15 @@ static sunrealtype *weights(stf_backwards *B, sunrealtype c)
   return B->other + 2 * B->count;
 }
 
-/* Derivatives of the matrices of stage j, at `point`, times B->w[j] of channel i. */
+/* Equations that are solved at once. */
+static int stages_of(const stf_backwards *B) { return B->adjoint.m; }
+
+/* Derivatives of the matrices of stage j, at `point`, times w_j of channel i. */
 static int bend(stf_backwards *B, int i, sunrealtype t, int point, int j)
 {
   stf_pushed *D = B->tangent;
   const N_Vector at[] = {B->Y[point], B->Yp[point], D->Y[point], D->Yp[point]};
-  return stf_bend(B, i, t, at, B->w[j], D->bend_E[j], D->bend_A[j]);
+  return stf_bend(B, i, t, at, B->w[i * stages_of(B) + j], D->bend_E[j], D->bend_A[j]);
 }
 
 /* ---- collocation ------------------------------------------------------------------------------ */
@@ -82,15 +85,14 @@ static void right_sides(stf_backwards *B, int i, N_Vector *right)
     stf_axpy(space, 1, B->extra[B->table->s * B->count + i], B->lambda[i]);
 }
 
-static int pull_channel(stf_backwards *B, const stf_head *head, int i, N_Vector *right)
+/* lambda and mu of channel i by its w. */
+static int pull_channel(stf_backwards *B, const stf_head *head, int i, N_Vector *w)
 {
   const steif_table *T = B->table;
-  B->adjoint.channel = i;
-  STEIF_TRY(stf_adjoint_solve(&B->adjoint, right, B->w));
   for (int j = 0; j < T->s; j++) {
     const sunrealtype t = head->t + T->c[j] * head->h;
-    stf_adjoint_add(&B->adjoint, j, 'A', 1, B->w[j], B->lambda[i]);
-    STEIF_TRY(stf_pull_parameters(B, i, t, B->Y[j], B->Yp[j], B->w[j]));
+    stf_adjoint_add(&B->adjoint, j, 'A', 1, w[j], B->lambda[i]);
+    STEIF_TRY(stf_pull_parameters(B, i, t, B->Y[j], B->Yp[j], w[j]));
   }
   return STEIF_OK;
 }
@@ -131,19 +133,20 @@ static int pull_collocation(stf_backwards *B, const stf_head *head)
   const steif_table *T = B->table;
   const int s = T->s;
   const sunrealtype h = head->h;
-  N_Vector right[STEIF_STAGES];
   STEIF_TRY(stf_factor_collocation(B, head));
   for (int j = 0; j < s; j++) {
     N_Vector *r = B->r + j * B->channels;
     for (int i = 0; i < B->channels; i++) stf_zero(&B->space, r[i]);
     STEIF_TRY(quadrature(B, weights(B, h * T->b[j]), head->t + T->c[j] * h, j, r));
   }
-  for (int i = 0; i < B->count; i++) {
-    right_sides(B, i, right);
-    STEIF_TRY(pull_channel(B, head, i, right));
-    if (!B->tangent) continue;
-    STEIF_TRY(bend_stages(B, head, i, right));
-    STEIF_TRY(pull_channel(B, head, B->count + i, right));
+  for (int i = 0; i < B->count; i++) right_sides(B, i, B->right + i * s);
+  STEIF_TRY(stf_adjoint_solve_all(&B->adjoint, B->right, B->w));
+  for (int i = 0; i < B->count; i++) STEIF_TRY(pull_channel(B, head, i, B->w + i * s));
+  for (int i = 0; B->tangent && i < B->count; i++) {
+    STEIF_TRY(bend_stages(B, head, i, B->right));
+    N_Vector *w = B->w + (B->count + i) * s;
+    STEIF_TRY(stf_adjoint_solve(&B->adjoint, B->right, w));
+    STEIF_TRY(pull_channel(B, head, B->count + i, w));
   }
   B->adjoint.h_behind = h;
   return STEIF_OK;
@@ -151,22 +154,31 @@ static int pull_collocation(stf_backwards *B, const stf_head *head)
 
 /* ---- one stage after another ------------------------------------------------------------------ */
 
-/* x, what comes to Y_m, through the equation of stage m. */
-static int pull_equation(stf_backwards *B, int i, int m, sunrealtype t, sunrealtype shift,
-                         N_Vector slope, N_Vector x)
+/* x of channel i, what comes to Y_m, by its w. */
+static int add_equation(stf_backwards *B, int i, int m, sunrealtype t, N_Vector x)
+{
+  stf_adjoint_add(&B->adjoint, 0, 'A', 1, B->w[i], x);
+  return stf_pull_parameters(B, i, t, B->Y[m], B->Yp[m], B->w[i]);
+}
+
+/* x of all channels through the equation of stage m, whose slopes they come to. */
+static int pull_equation(stf_backwards *B, int m, sunrealtype t, sunrealtype shift,
+                         N_Vector *slope, N_Vector *x)
 {
   const stf_pushed *D = B->tangent;
-  const bool dot = i >= B->count;
-  stf_sum(&B->space, shift, slope, 1, x, slope);
-  if (dot) {
+  const stf_space *space = &B->space;
+  for (int i = 0; i < B->channels; i++) stf_sum(space, shift, slope[i], 1, x[i], slope[i]);
+  STEIF_TRY(stf_adjoint_solve_all(&B->adjoint, slope, B->w));
+  for (int i = 0; i < B->count; i++) STEIF_TRY(add_equation(B, i, m, t, x[i]));
+  for (int i = B->count; i < B->channels; i++) {
     STEIF_TRY(bend(B, i - B->count, t, m, 0));
-    if (D->E) stf_axpy(&B->space, -shift, D->bend_E[0], slope);
-    stf_axpy(&B->space, 1, D->bend_A[0], slope);
-    stf_axpy(&B->space, 1, D->bend_A[0], x);
+    if (D->E) stf_axpy(space, -shift, D->bend_E[0], slope[i]);
+    stf_axpy(space, 1, D->bend_A[0], slope[i]);
+    stf_axpy(space, 1, D->bend_A[0], x[i]);
+    STEIF_TRY(stf_adjoint_solve(&B->adjoint, slope + i, B->w + i));
+    STEIF_TRY(add_equation(B, i, m, t, x[i]));
   }
-  STEIF_TRY(stf_adjoint_solve(&B->adjoint, &slope, B->w));
-  stf_adjoint_add(&B->adjoint, 0, 'A', 1, B->w[0], x);
-  return stf_pull_parameters(B, i, t, B->Y[m], B->Yp[m], B->w[0]);
+  return STEIF_OK;
 }
 
 /* B->r: what comes to the slopes K_j, by stages and channels. */
@@ -182,15 +194,12 @@ static int pull_stage(stf_backwards *B, const stf_head *head, int m)
   if (gamma > 0) {
     STEIF_TRY(stf_matrices_at_fill(&B->adjoint.at, 0, t, B->Y[m], B->Yp[m]));
     STEIF_TRY(stf_adjoint_factor(&B->adjoint, t, h, &shift));
+    STEIF_TRY(pull_equation(B, m, t, shift, B->r + m * B->channels, x));
   }
-  for (int k = 0; k < B->channels; k++) {
-    const int i =
-      B->tangent ? k / 2 + k % 2 * B->count : k; /* a channel, then its derivative */
-    N_Vector *slopes = B->r + i;
-    if (gamma > 0) STEIF_TRY(pull_equation(B, i, m, t, shift, slopes[m * B->channels], x[i]));
+  for (int i = 0; i < B->channels; i++) {
     stf_axpy(space, 1, x[i], B->lambda[i]);
     for (int j = 0; j < m; j++)
-      stf_axpy(space, h * T->A[m * T->s + j], x[i], slopes[j * B->channels]);
+      stf_axpy(space, h * T->A[m * T->s + j], x[i], B->r[j * B->channels + i]);
   }
   return STEIF_OK;
 }
@@ -219,7 +228,7 @@ static int pull_chain(stf_backwards *B, const stf_head *head)
 
 /* ---- BDF ---------------------------------------------------------------------------------------- */
 
-/* B->w[0] := w of channel i. */
+/* mu of channel i by its w, which of derivatives is found first. */
 static int pull_value(stf_backwards *B, int i, int at, sunrealtype t, sunrealtype shift)
 {
   const stf_pushed *D = B->tangent;
@@ -227,9 +236,9 @@ static int pull_value(stf_backwards *B, int i, int at, sunrealtype t, sunrealtyp
     STEIF_TRY(bend(B, i - B->count, t, at, 0));
     if (D->E) stf_axpy(&B->space, -shift, D->bend_E[0], B->lambda[i]);
     stf_axpy(&B->space, 1, D->bend_A[0], B->lambda[i]);
+    STEIF_TRY(stf_adjoint_solve(&B->adjoint, &B->lambda[i], B->w + i));
   }
-  STEIF_TRY(stf_adjoint_solve(&B->adjoint, &B->lambda[i], B->w));
-  return stf_pull_parameters(B, i, t, B->Y[at], B->Yp[at], B->w[0]);
+  return stf_pull_parameters(B, i, t, B->Y[at], B->Yp[at], B->w[i]);
 }
 
 /* One step of length h to t + h at point `at`; q = sum of (alpha_j/alpha_0) q of the past + (h/alpha_0) g. */
@@ -243,11 +252,11 @@ static int pull_bdf_step(stf_backwards *B, int at, sunrealtype t, sunrealtype h,
   STEIF_TRY(stf_adjoint_factor(&B->adjoint, t, h, &shift));
   for (int i = 0; i < B->count; i++) c[i] = h / alpha[0] * B->nu[i];
   STEIF_TRY(quadrature(B, c, t + h, at, B->lambda));
-  for (int k = 0; k < B->channels; k++) {
-    const int i = B->tangent ? k / 2 + k % 2 * B->count : k;
+  STEIF_TRY(stf_adjoint_solve_all(&B->adjoint, B->lambda, B->w));
+  for (int i = 0; i < B->channels; i++) {
     STEIF_TRY(pull_value(B, i, at, t + h, shift));
     stf_zero(space, B->work);
-    stf_adjoint_add(&B->adjoint, 0, 'E', 1, B->w[0], B->work);
+    stf_adjoint_add(&B->adjoint, 0, 'E', 1, B->w[i], B->work);
     if (i >= B->count && B->tangent->E) stf_axpy(space, 1, B->tangent->bend_E[0], B->work);
     for (int j = 1; j <= order; j++) stf_axpy(space, -alpha[j] / h, B->work, B->past[j][i]);
     stf_zero(space, B->lambda[i]);

@@ -36,7 +36,7 @@ static int claim_dense(stf_adjoint *a)
   if (a->K) return STEIF_OK;
   a->K = stf_pool_array(a->pool, size * size, sizeof *a->K);
   a->pivot = stf_pool_array(a->pool, size, sizeof *a->pivot);
-  a->side = stf_pool_array(a->pool, size, sizeof *a->side);
+  a->side = stf_pool_array(a->pool, size * (size_t)a->channels, sizeof *a->side);
   return a->K && a->pivot && a->side ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
@@ -54,9 +54,10 @@ static int open_transform(stf_adjoint *a, const steif_table *table)
 }
 
 int stf_adjoint_open(stf_pool *pool, stf_system *system, int m, const steif_table *table,
-                     stf_adjoint *a)
+                     int channels, stf_adjoint *a)
 {
   *a = (stf_adjoint){.ctx = system->ctx, .pool = pool, .space = &system->space, .m = m};
+  a->channels = channels;
   a->n = system->space.n, a->middle = m / 2;
   STEIF_TRY(stf_matrices_at_open(pool, system, m, &a->at));
   if (m > 1) STEIF_TRY(open_transform(a, table));
@@ -146,22 +147,28 @@ static void count_solve(stf_adjoint *a)
     a->solves++;
 }
 
-static int solve_dense(stf_adjoint *a, N_Vector *r, N_Vector *w)
+/* `count` right-hand sides of m vectors each, side by side. */
+static int solve_dense(stf_adjoint *a, int count, N_Vector *r, N_Vector *w)
 {
-  const int size = (int)(a->m * a->n), n = (int)a->n, one = 1;
+  const int size = (int)(a->m * a->n), n = (int)a->n, m = a->m;
   double *x = a->side;
   int info;
-  count_solve(a);
-  for (int j = 0; j < a->m; j++)
-    for (int i = 0; i < n; i++) x[j * n + i] = STF_ARRAY(r[j])[i];
+  const int across = a->by_rows ? count : 1, down = a->by_rows ? 1 : size;
+  for (int q = 0; q < count; q++) count_solve(a);
+  for (int q = 0; q < count; q++)
+    for (int j = 0; j < m; j++)
+      for (int i = 0; i < n; i++)
+        x[(j * n + i) * across + q * down] = STF_ARRAY(r[q * m + j])[i];
   if (a->by_rows && a->forward)
     stf_rows_best()->transposed(size, a->K, a->pivot, x);
   else if (a->by_rows)
-    stf_rows_best()->substitute(size, 1, a->K, a->pivot, x);
+    stf_rows_best()->substitute(size, count, a->K, a->pivot, x);
   else
-    dgetrs_(a->forward ? "N" : "T", &size, &one, a->K, &size, a->pivot, x, &size, &info, 1);
-  for (int j = 0; j < a->m; j++)
-    for (int i = 0; i < n; i++) STF_ARRAY(w[j])[i] = x[j * n + i];
+    dgetrs_(a->forward ? "N" : "T", &size, &count, a->K, &size, a->pivot, x, &size, &info, 1);
+  for (int q = 0; q < count; q++)
+    for (int j = 0; j < m; j++)
+      for (int i = 0; i < n; i++)
+        STF_ARRAY(w[q * m + j])[i] = x[(j * n + i) * across + q * down];
   return STEIF_OK;
 }
 
@@ -291,7 +298,7 @@ static int large(stf_adjoint *a, N_Vector *r, N_Vector *w)
 
 static int solve(stf_adjoint *a, N_Vector *r, N_Vector *w)
 {
-  if (a->direct) return solve_dense(a, r, w);
+  if (a->direct) return solve_dense(a, 1, r, w);
   const int code = a->krylov ? large(a, r, w) : iterate(a, r, w);
   if (code <= 0) return code;
   STEIF_CHECK(a->m * a->n <= LARGEST, a->ctx, STEIF_NO_CONVERGENCE,
@@ -299,7 +306,27 @@ static int solve(stf_adjoint *a, N_Vector *r, N_Vector *w)
               "its stages differ too much; make the steps smaller",
               a->forward ? "differentiated" : "transposed", a->h);
   STEIF_TRY(factor_dense(a, NAN));
-  return solve_dense(a, r, w);
+  return solve_dense(a, 1, r, w);
+}
+
+/* One stage, by its own factors. */
+static int solve_stage(stf_adjoint *a, N_Vector *r, N_Vector *w)
+{
+  for (int q = 0; q < a->channels; q++) {
+    stf_copy(a->space, r[q], w[q]);
+    count_solve(a);
+  }
+  return steif_pencil_solve_transposed(a->pencil, 0, a->channels, w, NULL);
+}
+
+int stf_adjoint_solve_all(stf_adjoint *a, N_Vector *r, N_Vector *w)
+{
+  a->forward = false;
+  if (a->direct) return solve_dense(a, a->channels, r, w);
+  if (a->m == 1 && !a->krylov) return solve_stage(a, r, w);
+  for (a->channel = 0; a->channel < a->channels; a->channel++)
+    STEIF_TRY(solve(a, r + a->channel * a->m, w + a->channel * a->m));
+  return STEIF_OK;
 }
 
 int stf_adjoint_solve(stf_adjoint *a, N_Vector *r, N_Vector *w)
