@@ -15,7 +15,7 @@ if(MPI_C_FOUND AND TARGET SUNDIALS::nvecparallel)
       add_test(NAME mpi_${part}_${ranks}
                COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
                        --bind-to none $<TARGET_FILE:test_mpi> ${part})
-      set_tests_properties(mpi_${part}_${ranks} PROPERTIES LABELS mpi TIMEOUT 60 RUN_SERIAL ON ENVIRONMENT
+      set_tests_properties(mpi_${part}_${ranks} PROPERTIES LABELS mpi TIMEOUT 300 RUN_SERIAL ON ENVIRONMENT
         "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
     endforeach()
   endforeach()
@@ -35,7 +35,7 @@ if(steif_mpi)
       add_test(NAME ranks_${part}_${ranks}
                COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
                        --bind-to none $<TARGET_FILE:test_ranks> ${part})
-      set_tests_properties(ranks_${part}_${ranks} PROPERTIES LABELS mpi TIMEOUT 60 RUN_SERIAL ON ENVIRONMENT
+      set_tests_properties(ranks_${part}_${ranks} PROPERTIES LABELS mpi TIMEOUT 300 RUN_SERIAL ON ENVIRONMENT
         "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
     endforeach()
   endforeach()
@@ -45,7 +45,7 @@ if(steif_mpi)
     add_test(NAME ranks_example_${ranks}
              COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
                      --bind-to none $<TARGET_FILE:example_heat3d_ranks>)
-    set_tests_properties(ranks_example_${ranks} PROPERTIES LABELS mpi TIMEOUT 60 RUN_SERIAL ON ENVIRONMENT
+    set_tests_properties(ranks_example_${ranks} PROPERTIES LABELS mpi TIMEOUT 300 RUN_SERIAL ON ENVIRONMENT
       "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
   endforeach()
   foreach(ranks 3)
@@ -53,14 +53,14 @@ if(steif_mpi)
              COMMAND ${CMAKE_COMMAND} -DMPIEXEC=${MPIEXEC_EXECUTABLE} -DRANKS=${ranks}
                      -DSTEIF=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/sweep_ranks_${ranks}
                      -P ${PROJECT_SOURCE_DIR}/tests/ranks/sweep_ranks.cmake)
-    set_tests_properties(ranks_sweep_${ranks} PROPERTIES LABELS mpi TIMEOUT 60 RUN_SERIAL ON ENVIRONMENT
+    set_tests_properties(ranks_sweep_${ranks} PROPERTIES LABELS mpi TIMEOUT 300 RUN_SERIAL ON ENVIRONMENT
       "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
   endforeach()
   foreach(ranks 1 3)
     add_test(NAME ranks_program_${ranks}
              COMMAND ${CMAKE_COMMAND} -DMPIEXEC=${MPIEXEC_EXECUTABLE} -DRANKS=${ranks}
                      -DSTEIF=$<TARGET_FILE:steif_program> -P ${PROJECT_SOURCE_DIR}/tests/ranks/program_ranks.cmake)
-    set_tests_properties(ranks_program_${ranks} PROPERTIES LABELS mpi TIMEOUT 60 RUN_SERIAL ON ENVIRONMENT
+    set_tests_properties(ranks_program_${ranks} PROPERTIES LABELS mpi TIMEOUT 300 RUN_SERIAL ON ENVIRONMENT
       "OMPI_MCA_mpi_yield_when_idle=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
   endforeach()
 else()
