@@ -36,17 +36,30 @@ static int weights(sunrealtype t, N_Vector y, int i, int at_end, N_Vector dy, su
 
 static const steif_functional J = {.count = 1, .integrand = sum, .end = sum, .slopes = weights};
 
+static int set(steif_context *ctx, steif_problem *p, int k, sunrealtype x)
+{
+  const steif_parameters *q = p->parameters;
+  if (q->name) return steif_model_set(ctx, p, q->name[k], x);
+  q->value[k] = x;
+  return STEIF_OK;
+}
+
+static sunrealtype size_of(const steif_problem *p, int k)
+{
+  return p->parameters->scale ? p->parameters->scale[k] : p->parameters->value[k];
+}
+
 /* The value with p_k moved by d, and where g is given the gradient. */
 static sunrealtype value(steif_context *ctx, steif_problem *p, const char *method,
                          const steif_options *o, int k, sunrealtype d, steif_gradient *g)
 {
   steif_gradient own = {0};
   const sunrealtype here = p->parameters->value[k];
-  CU_ASSERT_FATAL(d == 0 || !steif_model_set(ctx, p, p->parameters->name[k], here + d));
+  CU_ASSERT_FATAL(d == 0 || !set(ctx, p, k, here + d));
   const int code = steif_gradient_find(ctx, p, method, o, &J, &own);
   if (code) printf("\n  %s: %s", p->name, steif_message(ctx));
   CU_ASSERT_FATAL(code == STEIF_OK);
-  CU_ASSERT_FATAL(d == 0 || !steif_model_set(ctx, p, p->parameters->name[k], here));
+  CU_ASSERT_FATAL(d == 0 || !set(ctx, p, k, here));
   const sunrealtype J0 = own.value[0];
   if (g)
     *g = own;
@@ -65,6 +78,7 @@ static void differ(steif_context *ctx, steif_problem *p, const char *method, sun
   sunrealtype size = 0;
   CU_ASSERT_FATAL(m != NULL);
   o.rtol = rtol, o.t1 = t1, o.observe = note, o.observer = m;
+  o.initial = p->index && !p->parameters->name ? STEIF_AS_GIVEN : STEIF_REPAIR;
   note(NULL, p->t0, NULL, m);
   steif_solver *s = steif_solver_new(ctx, p, method, &o);
   CU_ASSERT_FATAL(s && steif_solve_to(s, t1) == STEIF_OK);
@@ -76,9 +90,9 @@ static void differ(steif_context *ctx, steif_problem *p, const char *method, sun
   o.observe = NULL, o.mesh = m->t, o.mesh_size = m->count, o.newton = 1e-6;
   value(ctx, p, method, &o, 0, 0, &g);
   for (int k = 0; k < g.parameters; k++)
-    if (list[k] != '.') size = fmax(size, fabs(g.dp[k] * p->parameters->value[k]));
+    if (list[k] != '.') size = fmax(size, fabs(g.dp[k] * size_of(p, k)));
   for (int k = 0; k < g.parameters; k++) {
-    const sunrealtype pk = p->parameters->value[k], x = d * pk;
+    const sunrealtype pk = size_of(p, k), x = d * pk;
     CHECK((list[k] == '.') == isnan(g.dp[k]));
     if (list[k] == '.') continue;
     const sunrealtype quotient =
@@ -167,6 +181,97 @@ static void car_axis(void)
   steif_context_free(&ctx);
 }
 
+/* IDAS' example of a slider-crank, stabilised (index 2): the integral of its kinetic energy to 10 by k and c, in 113 bits. */
+static const char crank[] =
+  "param k = 1, c = 1, a = 0.5, J1 = 1, m2 = 1, J2 = 2, l0 = 1, F = 1\n"
+  "state q = 1.5707963267948966, x ~ 0.86602540378443865, p ~ -0.52359877559829887\n"
+  "state qd = 0, xd = 0, pd = 0, r, s, mu, nu\n"
+  "let s21 = sin(p - q)\n"
+  "let l = sqrt(x^2 - x*(cos(p) + a*cos(q)) + (1 + a^2)/4 + a*cos(p - q)/2)\n"
+  "let ld = (2*x*xd - xd*(cos(p) + a*cos(q)) + x*(sin(p)*pd + a*sin(q)*qd)"
+  " - a*s21*(pd - qd)/2)/(2*l)\n"
+  "let f = (k*(l - l0) + c*ld)/l\n"
+  "q' = qd - a*sin(q)*mu + a*cos(q)*nu\nx' = xd - mu\np' = pd - sin(p)*mu + cos(p)*nu\n"
+  "J1*qd' = -f*a*(s21/2 + x*sin(q))/2 - a*sin(q)*r + a*cos(q)*s\n"
+  "m2*xd' = f*(cos(p)/2 - x + a*cos(q)/2) + F - r\n"
+  "J2*pd' = -f*(x*sin(p) - a*s21/2)/2 - F*sin(p) - sin(p)*r + cos(p)*s\n"
+  "x - cos(p) - a*cos(q) = 0\n-sin(p) - a*sin(q) = 0\n"
+  "a*sin(q)*qd + xd + sin(p)*pd = 0\n-a*cos(q)*qd - cos(p)*pd = 0\ntime 0 to 10\n";
+
+static int kinetic(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  const sunrealtype *v = NV_DATA_S(y) + 3;
+  (void)t, (void)user;
+  g[0] = (v[0] * v[0] + v[1] * v[1] + 2 * v[2] * v[2]) / 2;
+  return 0;
+}
+
+static int momenta(sunrealtype t, N_Vector y, int i, int at_end, N_Vector dy, sunrealtype *dp,
+                   void *user)
+{
+  const sunrealtype *v = NV_DATA_S(y) + 3;
+  (void)t, (void)i, (void)at_end, (void)dp, (void)user;
+  NV_Ith_S(dy, 3) = v[0], NV_Ith_S(dy, 4) = v[1], NV_Ith_S(dy, 5) = 2 * v[2];
+  return 0;
+}
+
+static void slider_crank(void)
+{
+  static const int active[] = {0, 1};
+  const steif_functional energy = {.count = 1, .integrand = kinetic, .slopes = momenta};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_gradient g = {0};
+  steif_options o = steif_defaults();
+  o.rtol = 1e-10, o.active = active, o.active_count = 2;
+  parsed(ctx, crank, &p);
+  CU_ASSERT_FATAL(!steif_gradient_find(ctx, &p, "radau:s=5", &o, &energy, &g));
+  CLOSE(g.value[0], 3.33660679948278, 1e-8);
+  CLOSE(g.dp[0], 0.33344810612844, 1e-8);
+  CLOSE(g.dp[1], -0.36375403397095, 1e-8);
+  steif_gradient_free(ctx, &g);
+  differ(ctx, &p, "radau:s=3", 1e-5, 1, "kc......", 1e-3, 1e-8);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
+/* Andrews' mechanism with more torque of the motor and viscous friction of its axle. */
+enum { AXLE = 7, MOTOR = 14 };
+typedef struct mechanism {
+  steif_problem given;
+  sunrealtype p[2];
+} mechanism;
+
+static int driven(sunrealtype t, N_Vector y, N_Vector f, void *user)
+{
+  const mechanism *m = user;
+  const int code = m->given.f(t, y, f, m->given.user);
+  NV_Ith_S(f, MOTOR) += m->p[1] * NV_Ith_S(y, AXLE) - m->p[0];
+  return code;
+}
+
+static int driven_by(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  (void)t, (void)yp, (void)user;
+  N_VConst(0, out);
+  NV_Ith_S(out, MOTOR) = k ? -NV_Ith_S(y, AXLE) : 1;
+  return 0;
+}
+
+static void andrews(void)
+{
+  static const sunrealtype scale[] = {0.033, 1e-4};
+  steif_context *ctx = steif_context_new(NULL);
+  mechanism m = {.p = {0, 0}};
+  const steif_parameters q = {.count = 2, .value = m.p, .scale = scale, .dFdp = driven_by};
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, "andrews", &m.given));
+  steif_problem p = m.given;
+  p.f = driven, p.user = &m, p.parameters = &q;
+  differ(ctx, &p, "radau:s=3", 1e-5, 0.01, "tf", 1e-3, 1e-7);
+  steif_problem_clear(ctx, &m.given);
+  steif_context_free(&ctx);
+}
+
 /* ---- circuits ----------------------------------------------------------------------------------------- */
 
 static const char ring[] =
@@ -199,6 +304,16 @@ static void ring_modulator(void)
   steif_context_free(&ctx);
 }
 
+static void transistors(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, EXAMPLES "/transamp.steif", &p));
+  differ(ctx, &p, "radau:s=3", 1e-5, 0.005, "......12345", 1e-4, 1e-8);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
 /* ---- large sparse stages: factors of few steps, against band matrices with factors of each ------------- */
 
 static void sparse_stages(void)
@@ -223,6 +338,9 @@ static void sparse_stages(void)
 
 CU_TestInfo tests_of_differences[] = {{"double pendulum of index 3", double_pendulum},
                                       {"car axis of index 3", car_axis},
+                                      {"slider-crank of index 2", slider_crank},
+                                      {"Andrews' mechanism of index 3", andrews},
                                       {"ring modulator", ring_modulator},
+                                      {"transistor amplifier", transistors},
                                       {"large sparse stages", sparse_stages},
                                       CU_TEST_INFO_NULL};
