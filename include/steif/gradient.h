@@ -25,7 +25,7 @@
  * BDF do not read algebraic components, and of index 3 a velocity off the constraint is projected.
  *
  * Memory. The forward run keeps its stages while they fit into `memory`; else it logs 24 bytes a step and keeps images of
- * the solver, in memory or in files, every few steps (8, 16, 32, ...). With sqrt(steps) of them each step is made again once.
+ * the solver, in memory or in files, every few steps (16, 32, ...). With sqrt(steps) of them each step is made again once.
  * Where fewer fit, segments are repeated from images placed by the binomial schedule of A. Griewank and A. Walther (ACM
  * TOMS 26, 2000). Repeated steps come to the same bits, which a hash of each step is asked for
  * (STEIF_UNSUPPORTED names the step otherwise): results do not depend on the limit.

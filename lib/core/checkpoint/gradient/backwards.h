@@ -77,10 +77,11 @@ int stf_adjoint_solve_forward(stf_adjoint *a, N_Vector *r, N_Vector *x);
 /* out += c M^T x, which 'E' or 'A' at a point. */
 void stf_adjoint_add(const stf_adjoint *a, int point, char which, sunrealtype c, N_Vector x,
                      N_Vector out);
-/* matrix_columns.c: out += c M^T x; entries of c M added to a dense matrix, ld apart. M NULL: identity. */
+/* matrix_columns.c: out += c M^T x; entries of c M added to a dense matrix, rows `step` and columns ld apart. M NULL: identity. */
 void stf_add_transposed(SUNMatrix M, sunindextype n, sunrealtype c, const sunrealtype *x,
                         sunrealtype *out);
-void stf_add_dense(SUNMatrix M, sunindextype n, sunrealtype c, double *to, sunindextype ld);
+void stf_add_dense(SUNMatrix M, sunindextype n, sunrealtype c, double *to, sunindextype step,
+                   sunindextype ld);
 
 /* A run along a line of parameters and start values: dots are derivatives by theta, at 0. */
 typedef struct stf_pushed {

@@ -57,15 +57,16 @@ void stf_add_transposed(SUNMatrix M, sunindextype n, sunrealtype c, const sunrea
   }
 }
 
-void stf_add_dense(SUNMatrix M, sunindextype n, sunrealtype c, double *to, sunindextype ld)
+void stf_add_dense(SUNMatrix M, sunindextype n, sunrealtype c, double *to, sunindextype step,
+                   sunindextype ld)
 {
   for (sunindextype j = 0; j < n; j++, to += ld) {
     if (!M) {
-      to[j] += c;
+      to[step * j] += c;
       continue;
     }
     const column v = column_of(M, j);
     for (sunindextype k = 0; k < v.count; k++)
-      to[v.row ? v.row[k] : v.first + k] += c * v.value[k];
+      to[step * (v.row ? v.row[k] : v.first + k)] += c * v.value[k];
   }
 }

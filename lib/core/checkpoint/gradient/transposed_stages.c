@@ -81,13 +81,14 @@ static int factor_dense(stf_adjoint *a, sunrealtype t)
   int info;
   a->by_rows = size <= ROWS;
   STEIF_TRY(claim_dense(a));
+  for (sunindextype j = 0; j < size; j++)
+    for (sunindextype i = 0; i < size; i++) a->K[i + j * size] = 0;
   for (int j = 0; j < a->m; j++)
     for (int k = 0; k < a->m; k++) {
-      double *block = a->K + j * a->n + (size_t)(k * a->n) * (size_t)size;
-      for (sunindextype i = 0; i < a->n; i++)
-        for (sunindextype l = 0; l < a->n; l++) block[l + i * size] = 0;
-      stf_add_dense(a->at.E[j], a->n, a->B[j * a->m + k], block, size);
-      if (j == k) stf_add_dense(a->at.A[j], a->n, -1, block, size);
+      double *block = a->K + j + (sunindextype)k * size;
+      stf_add_dense(a->at.E[j], a->n, a->B[j * a->m + k], block, a->m,
+                    (sunindextype)a->m * size);
+      if (j == k) stf_add_dense(a->at.A[j], a->n, -1, block, a->m, (sunindextype)a->m * size);
     }
   if (a->by_rows)
     info = !stf_rows_best()->factor(size, a->K, a->pivot);
@@ -147,7 +148,7 @@ static void count_solve(stf_adjoint *a)
     a->solves++;
 }
 
-/* `count` right-hand sides of m vectors each, side by side. */
+/* `count` right-hand sides of m vectors each, side by side. Stage j of unknown i is at i m + j: the zeros of A stay. */
 static int solve_dense(stf_adjoint *a, int count, N_Vector *r, N_Vector *w)
 {
   const int size = (int)(a->m * a->n), n = (int)a->n, m = a->m;
@@ -158,7 +159,7 @@ static int solve_dense(stf_adjoint *a, int count, N_Vector *r, N_Vector *w)
   for (int q = 0; q < count; q++)
     for (int j = 0; j < m; j++)
       for (int i = 0; i < n; i++)
-        x[(j * n + i) * across + q * down] = STF_ARRAY(r[q * m + j])[i];
+        x[(i * m + j) * across + q * down] = STF_ARRAY(r[q * m + j])[i];
   if (a->by_rows && a->forward)
     stf_rows_best()->transposed(size, a->K, a->pivot, x);
   else if (a->by_rows)
@@ -168,7 +169,7 @@ static int solve_dense(stf_adjoint *a, int count, N_Vector *r, N_Vector *w)
   for (int q = 0; q < count; q++)
     for (int j = 0; j < m; j++)
       for (int i = 0; i < n; i++)
-        STF_ARRAY(w[q * m + j])[i] = x[(j * n + i) * across + q * down];
+        STF_ARRAY(w[q * m + j])[i] = x[(i * m + j) * across + q * down];
   return STEIF_OK;
 }
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-enum { MOST = 1000, FIRST_STRIDE = 8 };
+enum { MOST = 1000, FIRST_STRIDE = 16 };
 
 int stf_images_open(stf_journey *J)
 {
