@@ -2,7 +2,7 @@
 #   cmake -DMPIEXEC= -DRANKS= -DSTEIF= -P program_ranks.cmake
 function(run expected pattern)
   execute_process(COMMAND ${MPIEXEC} -np ${RANKS} --oversubscribe --bind-to none ${STEIF} ${ARGN} --parallel
-                  OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code TIMEOUT 40)
+                  OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code TIMEOUT 200)
   string(REGEX MATCHALL "${pattern}" found "${out}${err}")
   list(LENGTH found count)
   if(NOT code EQUAL expected OR NOT count EQUAL 1)
@@ -27,7 +27,7 @@ run(2 "no method .abx." compare heat2d:n=8 bdf abx)
 # start.
 execute_process(COMMAND ${MPIEXEC} -np ${RANKS} --oversubscribe --bind-to none ${STEIF} compare heat2d:n=12 bdf radau:s=3
                         cvode ida arkode --rtols 1e-4,1e-5 --t1 0.02 --parallel --json
-                OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code TIMEOUT 60)
+                OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code TIMEOUT 200)
 string(JSON rows ERROR_VARIABLE wrong LENGTH "${out}" rows)
 if(NOT code EQUAL 0 OR NOT rows EQUAL 10)
   message(FATAL_ERROR "compare: exit code ${code}, ${rows} rows:\n${out}${err}")

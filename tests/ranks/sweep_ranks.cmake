@@ -8,7 +8,7 @@ set(ranks ${MPIEXEC} -np ${RANKS} --oversubscribe --bind-to none)
 
 function(run expected pattern)
   execute_process(COMMAND ${ranks} ${STEIF} ${ARGN} --parallel WORKING_DIRECTORY ${FOLDER}
-                  OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code TIMEOUT 40)
+                  OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code TIMEOUT 200)
   string(REGEX MATCHALL "${pattern}" found "${out}${err}")
   list(LENGTH found count)
   if(NOT code EQUAL expected OR NOT count EQUAL 1)
