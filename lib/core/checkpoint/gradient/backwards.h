@@ -61,9 +61,10 @@ typedef struct stf_adjoint {
 } stf_adjoint;
 int stf_adjoint_open(stf_pool *pool, stf_system *system, int m, const steif_table *table,
                      int channels, stf_adjoint *a);
-/* Large sparse stages: what may be left of residuals, relative; then a solve, 1: it does not converge. */
+/* Large sparse stages: what may be left of residuals, relative; smooth: w of one
+ * stage is like that of the step behind; then a solve, 1: it does not converge. */
 int stf_stage_krylov_open(stf_adjoint *a, const steif_table *table, sunrealtype tolerance,
-                          int channels);
+                          int channels, bool smooth);
 int stf_stage_krylov(stf_adjoint *a, N_Vector *r, N_Vector *w);
 /* a->residual := r - K^T w, or r - K w. */
 int stf_adjoint_residuals(stf_adjoint *a, N_Vector *r, N_Vector *w);

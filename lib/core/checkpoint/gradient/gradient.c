@@ -129,7 +129,7 @@ static int open_large(stf_journey *J)
   if (!large || J->line || (!s->step.adaptive && B->n < LARGE)) return STEIF_OK;
   return stf_stage_krylov_open(
     &B->adjoint, B->table, s->step.adaptive ? fmax(1e-3 * s->options.rtol, rounding) : rounding,
-    B->channels);
+    B->channels, B->kind == STF_TRACE_BDF);
 }
 
 static int open_back(stf_journey *J)

@@ -261,6 +261,7 @@ static int pull_bdf_step(stf_backwards *B, int at, sunrealtype t, sunrealtype h,
     for (int j = 1; j <= order; j++) stf_axpy(space, -alpha[j] / h, B->work, B->past[j][i]);
     stf_zero(space, B->lambda[i]);
   }
+  B->adjoint.h_behind = 1 / shift;
   for (int i = 0; i < B->count; i++) {
     const sunrealtype nu = B->nu[i];
     for (int j = 1; j <= order; j++) B->nu[j * B->count + i] -= alpha[j] / alpha[0] * nu;

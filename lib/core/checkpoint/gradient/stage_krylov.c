@@ -13,7 +13,7 @@
 enum { ROUNDS = 4 };
 
 int stf_stage_krylov_open(stf_adjoint *a, const steif_table *table, sunrealtype tolerance,
-                          int channels)
+                          int channels, bool smooth)
 {
   const stf_transform *T = &a->transform;
   int widest = 0;
@@ -24,7 +24,7 @@ int stf_stage_krylov_open(stf_adjoint *a, const steif_table *table, sunrealtype 
   for (int i = 0; i <= STF_BASIS; i++)
     if (!(a->basis[i] = stf_pool_vectors(a->pool, a->m, a->space->like)))
       return STEIF_NO_MEMORY;
-  if (a->m == 1) return STEIF_OK;
+  if (a->m == 1 && !smooth) return STEIF_OK;
   a->behind = stf_pool_vectors(a->pool, a->m * channels, a->space->like);
   return a->behind ? STEIF_OK : STEIF_NO_MEMORY;
 }
@@ -145,11 +145,15 @@ static int advance(stf_adjoint *a, int k)
 }
 
 /* w := what the polynomial through the stages of the step behind, of length h', says of this one: w_j is about h b_j
- * times the adjoint at c_j. */
+ * times the adjoint at c_j. Of BDF h/alpha_0 takes the place of h b_j, and the adjoint is that of the step behind. */
 static void guess(stf_adjoint *a, N_Vector *from, N_Vector *w)
 {
   const steif_table *T = a->table;
   sunrealtype node[STEIF_STAGES], value[STEIF_STAGES];
+  if (a->m == 1) {
+    stf_scale(a->space, 1 / (a->B[0] * a->h_behind), from[0], w[0]);
+    return;
+  }
   for (int m = 0; m < a->m; m++) node[m] = a->h + T->c[m] * a->h_behind;
   for (int j = 0; j < a->m; j++) {
     stf_interpolate(a->m - 1, node, T->c[j] * a->h, value);
@@ -160,8 +164,8 @@ static void guess(stf_adjoint *a, N_Vector *from, N_Vector *w)
 
 static bool guesses(const stf_adjoint *a)
 {
-  bool all = a->m > 1 && !a->forward && a->behind && a->h_behind > 0;
-  for (int j = 0; all && j < a->m; j++) all = a->table->b[j] != 0;
+  bool all = !a->forward && a->behind && a->h_behind > 0;
+  for (int j = 0; all && a->m > 1 && j < a->m; j++) all = a->table->b[j] != 0;
   return all;
 }
 
