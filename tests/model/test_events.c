@@ -166,7 +166,60 @@ static void a_corner_of_a_constraint_is_crossed(void)
   fixture_close(&s);
 }
 
+/* Infinitely many bounces in a finite time, with and without drag: whatever the method and the tolerance, the ball
+ * never falls through the ground, and the run ends near the time that the sum of the bounces has. */
+static void a_ball_does_not_sink_into_the_ground(void)
+{
+  static const char *const methods[] = {"auto", "radau:s=3", "dopri87", "bdf", "cvode"};
+  static const double rtols[] = {1e-4, 1e-6, 1e-7, 1e-8, 1e-10};
+  static const char *const values[] = {":e=0.5,c=0", ":e=0.7,c=0.02", ":e=0.8,c=0.1"};
+  const char *text =
+    "param e = 0.7, c = 0.02, g = 9.81\nstate h = 1.5, v = 0, x = 0, u = 3\n"
+    "let w = sqrt(u^2 + v^2)\nh' = v\nv' = -g - c*w*v\nx' = u\nu' = -c*w*u\n"
+    "when h < 0:\n u = u - 0.2*(1 + e)*abs(v)*sign(u)\n v = -e*v\nend\ntime 0 to 8\n";
+  for (int k = 0; k < 3; k++) {
+    fixture s;
+    CU_ASSERT_FATAL(!fixture_text(&s, text, values[k]));
+    for (int m = 0; m < 5; m++)
+      for (int r = 0; r < 5; r++) {
+        steif_options o = steif_defaults();
+        o.rtol = rtols[r];
+        steif_solver *solver = steif_solver_new(s.ctx, &s.p, methods[m], &o);
+        CHECK(steif_solve_to(solver, 8) == STEIF_STEP_SIZE);
+        CHECK(strstr(steif_message(s.ctx), "crowd together") != NULL);
+        CHECK(NV_Ith_S(steif_solution(solver), 0) > -1e-9);
+        if (k == 0) CHECK(fabs(steif_time(solver) - 3 * sqrt(3 / 9.81)) < 0.05);
+        steif_solver_free(&solver);
+      }
+    fixture_close(&s);
+  }
+}
+
+/* Without loss it bounces for ever from the same height, and the ground stays where it is: after the n-th bounce
+ * the time is (2n + 1) sqrt(2 h/g). */
+static void a_thousand_bounces_find_the_ground_where_it_is(void)
+{
+  fixture s;
+  double y[2];
+  CU_ASSERT_FATAL(!fixture_text(&s,
+                                "state h = 0.5, v = 0\ndiscrete n = 0\nh' = v\nv' = -1\n"
+                                "when h < 0:\n v = -v\n n = n + 1\nend\n"
+                                "when n > 999.5: stop \"enough\"\ntime 0 to 3000\n",
+                                ""));
+  steif_options o = steif_defaults();
+  o.rtol = 1e-10;
+  steif_solver *solver = steif_solver_new(s.ctx, &s.p, "radau:s=3", &o);
+  CHECK(steif_solve_to(solver, 3000) == STEIF_EVENT);
+  CLOSE_FLOOR(steif_time(solver), 1999, 1e-11, 1);
+  y[0] = NV_Ith_S(steif_solution(solver), 0);
+  CHECK(fabs(y[0]) < 1e-11);
+  steif_solver_free(&solver);
+  fixture_close(&s);
+}
+
 CU_TestInfo tests_of_events[] = {
+  {"a ball does not sink", a_ball_does_not_sink_into_the_ground},
+  {"a thousand bounces", a_thousand_bounces_find_the_ground_where_it_is},
   {"a tank runs empty", a_tank_runs_empty},
   {"a corner of a constraint", a_corner_of_a_constraint_is_crossed},
   {"kinks", kinks_are_events},

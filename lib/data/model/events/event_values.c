@@ -17,13 +17,17 @@ void stf_event_values(const stf_model *m, double t, const double *y, double *g)
 
 /* After an event g is as small as rounding and may stay so, where a relation stops what it watches: it is
  * moved to its new side by a few units of rounding of the largest |g| since the last event, so that it
- * does not fire again by noise. */
+ * does not fire again by noise. Once g is far on that side the shift is taken back, or each event that brings
+ * g back to the same side, such as a ball's next bounce, would lie deeper than the one before. */
 int stf_event_callback(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
+  static const double far = 1e3;
   const stf_model *m = user;
   stf_event_values(m, t, N_VGetArrayPointer(y), g);
   for (int32_t i = 0; i < m->switches; i++) {
     m->event_range[i] = fmax(m->event_range[i], fabs(g[i]));
+    if (g[i] * m->event_shift[i] > 0 && fabs(g[i]) > far * fabs(m->event_shift[i]))
+      m->event_shift[i] = 0;
     g[i] += m->event_shift[i];
   }
   return 0;

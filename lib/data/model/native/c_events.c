@@ -56,6 +56,7 @@ static const char rules[] =
   "  event_values(t, N_VGetArrayPointer(y), g);\n"
   "  for (int i = 0; i < SWITCHES; i++) {\n"
   "    run.range[i] = fmax(run.range[i], fabs(g[i]));\n"
+  "    if (g[i] * run.shift[i] > 0 && fabs(g[i]) > 1e3 * fabs(run.shift[i])) run.shift[i] = 0;\n"
   "    g[i] += run.shift[i];\n"
   "  }\n"
   "  return 0;\n"
