@@ -48,6 +48,7 @@ const struct verb verb_sweep = {
   .usage = "PROBLEM METHOD --p NAME=FROM:TO:COUNT[:log] [--p ... --random N --threads T]",
   .least = 2,
   .most = 2,
+  .picture = true,
   .option = options,
   .rule = rules,
   .run = run,

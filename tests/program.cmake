@@ -55,9 +55,43 @@ expect(5 solve e5 auto --rtol 1e-6 OUT "stats.rounding +[0-9]" ERR "ok, but roun
 expect(2 solve vdpol bdf:p=17 ERR "p=17")
 expect(2 compare vdpol be radou ERR "radau")
 expect(2 solve vdpol be --rtolx 1e-3 ERR "did you mean --rtol[?]")
+expect(2 solve vdpol be --RTOL 1e-3 ERR "did you mean --rtol[?]")
+expect(2 solve vdpol be --tend 3 ERR "no option --tend; here it is --t1")
+expect(2 sweep vdpol be --p mu=1,2 --dt 0.1 ERR "here it is --h;")
+expect(2 solve vdpol RK45 ERR "the nearest here is 'dopri87'")
+expect(2 solve vdpol BDF ERR "the nearest here is 'bdf'")
+expect(2 solve vdpol ode15s ERR "the nearest here is 'bdf'")
+expect(2 solve vdpol Lobatto ERR "did you mean 'lobatto3c'")
+expect(2 solve vdpol radua ERR "did you mean 'radau'")
 expect(2 solve vdpol be --h 0.1 --rtol 1e-3 ERR "--h and --rtol contradict")
 expect(2 solve vdpol be --h 0.1 --atol 1e-3 ERR "contradict")
 expect(2 compare vdpol be --h 0.1 --hs 0.2 ERR "contradict")
+
+# What is wrong within a file is not blamed on its name; a name without the ending of its file is told.
+file(WRITE ${FOLDER}/slope.steif "state y = 2\ndy/dt = -y\ntime 0 to 1\n")
+expect(3 solve slope.steif auto ERR "derivative of 'y' is written y'.*STEIF_UNKNOWN_NAME.\n$")
+expect(2 solve slope auto ERR "the file here is slope.steif")
+file(REMOVE ${FOLDER}/slope.steif)
+
+# Of events that follow each other ever faster nothing else is blamed, the exact Jacobian of a model least of all.
+file(WRITE ${FOLDER}/sliding_ball.steif "param g = 9.81, e = 0.7, c = 0.02
+state x = 0, h = 1.5, u = 3, v = 0
+let w = sqrt(u^2 + v^2)
+x' = u
+h' = v
+u' = -c*w*u
+v' = -g - c*w*v
+when h < 0:
+  u = u - 0.2*(1 + e)*abs(v)*sign(u)
+  v = -e*v
+end
+time 0 to 5
+")
+foreach(rtol 1e-6 1e-8 1e-10)
+  expect(1 solve sliding_ball.steif auto --rtol ${rtol}
+         ERR "crowd together.*The events 'line 8' are the cause: they follow each other ever faster\n$")
+endforeach()
+file(REMOVE ${FOLDER}/sliding_ball.steif)
 
 # Remedies are options and verbs here, not members and functions of C.
 expect(1 solve hires radau:s=3 --max-steps 5 OUT "raise[ \n]+--max-steps" ERR "limit: raise --max-steps")

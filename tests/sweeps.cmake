@@ -116,3 +116,22 @@ foreach(verb "solve;./rober;radau:s=3" "diagnose;./rober:k1=0.05" "model;./rober
   expect(0 ${verb})
 endforeach()
 expect(3 solve ./none auto ERR "cannot read.*./none")
+
+# Pictures: a curve for each value of all parameters but the last, a panel for each unknown; over time a curve for
+# each member.
+expect(0 sweep vdpol auto --p mu=1,2,3 --t1 2 --plot one.svg)
+expect(0 sweep ${MODELS}/rober.steif auto --p k1=0.02,0.04 --p k2=1e3:1e4:5:log --t1 1 --plot two.svg)
+expect(0 sweep ${MODELS}/rober.steif auto --p k1=0.02,0.04 --t1 1 --points 9 --plot time.svg)
+expect(0 sweep ${MODELS}/rober.steif auto --random 9 --p k1=0.02:0.04 --t1 1 --collect stats --plot random.svg)
+foreach(shown "one;0" "two;6" "time;6" "random;0")
+  list(GET shown 0 name)
+  list(GET shown 1 curves)
+  file(READ ${FOLDER}/${name}.svg picture)
+  string(REGEX MATCHALL "k1=0.0[24]" labels "${picture}")
+  list(LENGTH labels count)
+  if(NOT count EQUAL curves OR NOT picture MATCHES "<svg.*</svg>")
+    message(SEND_ERROR "sweep --plot ${name}: ${count} labels, expected ${curves}")
+  endif()
+endforeach()
+expect(2 sweep rober auto --p k1=0.01:0.07:20 --t1 10 --resume whole.csv --plot part.svg ERR "leave --resume out")
+expect(1 sweep vdpol auto --p mu=1,2 --t1 1 --plot none/one.svg ERR "cannot write")

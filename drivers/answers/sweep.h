@@ -6,7 +6,7 @@
 #include "integration.h"
 #include <stdint.h>
 
-enum { AXES = 8, AXIS_VALUES = 64, COLUMN = 128 };
+enum { AXES = 8, AXIS_VALUES = 64, COLUMN = 128, SWEEP_PANELS = 8 };
 
 /* --p NAME=FROM:TO:COUNT[:log] or NAME=V,V,...; with --random NAME=FROM:TO[:log] or a list. */
 struct axis {
@@ -58,7 +58,8 @@ struct shares {
   void *of;
 };
 
-struct old_rows; /* of --resume */
+struct old_rows;      /* of --resume */
+struct sweep_picture; /* of --plot */
 struct sweep {
   struct call *call;
   const steif_problem *problem;
@@ -72,7 +73,8 @@ struct sweep {
   FILE *csv; /* NULL: none */
   char *line;
   size_t room;
-  struct old_rows *old;     /* NULL: none */
+  struct old_rows *old; /* NULL: none */
+  struct sweep_picture *picture;
   long long rows, done, ok; /* written; members */
   int first_code;           /* of the first failure */
   long long first_member;
@@ -90,6 +92,14 @@ int sweep_rows_kept(struct sweep *s, char *const line[], size_t count);
 /* The status and the rest of a line. */
 const char *sweep_status(const struct sweep *s, const char *line);
 int sweep_foot(struct sweep *s, bool stopped);
+/* How many columns are collected. */
+size_t sweep_columns(const struct sweep *s);
+/* --plot: open (EXIT_OK or an exit code), rows as they come, save; without one nothing is done. */
+int sweep_picture_open(struct sweep *s);
+int sweep_picture_row(struct sweep *s, long long i, double t, const double *value);
+int sweep_picture_save(struct sweep *s,
+                       const char *(*column)(const struct sweep *s, size_t j, char *room));
+void sweep_picture_close(struct sweep *s);
 /* The header and the member of a line of the file. */
 size_t sweep_header(const struct sweep *s, char *text, size_t room);
 size_t sweep_begin(const struct sweep *s, long long i, char *text, size_t room);

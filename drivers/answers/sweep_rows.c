@@ -9,7 +9,7 @@
 static const char *const stats[] = {"steps", "rejected", "nfe", "nje", "nlu", "nsolve"};
 enum { STATS = sizeof stats / sizeof *stats };
 
-static size_t columns(const struct sweep *s)
+size_t sweep_columns(const struct sweep *s)
 {
   return s->collect == COLLECT_Y ? s->n : s->collect == COLLECT_DIGITS ? 2 : STATS;
 }
@@ -96,7 +96,7 @@ size_t sweep_header(const struct sweep *s, char *text, size_t room)
   add(&t, "member");
   for (int k = 0; k < s->axes.count; k++) add_quoted(&t, s->axes.name[k]);
   add(&t, ",status,t");
-  for (size_t j = 0; j < columns(s); j++) add_quoted(&t, column(s, j, name));
+  for (size_t j = 0; j < sweep_columns(s); j++) add_quoted(&t, column(s, j, name));
   add(&t, ",message");
   return t.used;
 }
@@ -118,7 +118,7 @@ static size_t csv_line(const struct sweep *s, long long i, const struct member_r
   struct text t = {s->line, s->room, sweep_begin(s, i, s->line, s->room)};
   add(&t, "%s", steif_code_name(code_of(r, row)));
   add_number(&t, *numbers_of(s, r, row));
-  for (size_t j = 0; j < columns(s); j++) add_number(&t, cell(s, r, row, j));
+  for (size_t j = 0; j < sweep_columns(s); j++) add_number(&t, cell(s, r, row, j));
   add_quoted(&t, message_of(r, row));
   return t.used;
 }
@@ -134,7 +134,7 @@ static void table_row(const struct sweep *s, long long i, const struct member_re
   printf("%8lld", i);
   for (int k = 0; k < s->axes.count; k++) printf(" %13.6g", value[k]);
   printf(" %-15s %13.6g", steif_code_name(code_of(r, row)), *numbers_of(s, r, row));
-  for (size_t j = 0; j < columns(s); j++) printf(" %13.6g", cell(s, r, row, j));
+  for (size_t j = 0; j < sweep_columns(s); j++) printf(" %13.6g", cell(s, r, row, j));
   printf("%s%s\n", *message ? "  " : "", message);
 }
 
@@ -144,7 +144,7 @@ static void table_head(const struct sweep *s)
   printf("%8s", "member");
   for (int k = 0; k < s->axes.count; k++) printf(" %13s", s->axes.name[k]);
   printf(" %-15s %13s", "status", "t");
-  for (size_t j = 0; j < columns(s); j++) printf(" %13s", column(s, j, name));
+  for (size_t j = 0; j < sweep_columns(s); j++) printf(" %13s", column(s, j, name));
   putchar('\n');
 }
 
@@ -160,7 +160,7 @@ static int json_row(const struct sweep *s, long long i, const struct member_reco
   for (int k = 0; k < s->axes.count; k++) steif_report_real(o, s->axes.name[k], value[k]);
   steif_report_text(o, "status", steif_code_name(code_of(r, row)));
   steif_report_real(o, "t", *numbers_of(s, r, row));
-  for (size_t j = 0; j < columns(s); j++)
+  for (size_t j = 0; j < sweep_columns(s); j++)
     if (whole(s))
       steif_report_whole(o, column(s, j, name), (long)cell(s, r, row, j));
     else
@@ -170,6 +170,14 @@ static int json_row(const struct sweep *s, long long i, const struct member_reco
   const int code = steif_report_write(o, STEIF_JSON, stdout);
   steif_report_free(&o);
   return code;
+}
+
+static int draw_row(struct sweep *s, long long i, const struct member_record *r, size_t row)
+{
+  double value[SWEEP_PANELS];
+  const size_t shown = sweep_columns(s) < SWEEP_PANELS ? sweep_columns(s) : SWEEP_PANELS;
+  for (size_t j = 0; s->picture && j < shown; j++) value[j] = cell(s, r, row, j);
+  return s->picture ? sweep_picture_row(s, i, *numbers_of(s, r, row), value) : 0;
 }
 
 static int count(struct sweep *s, const char *line)
@@ -196,6 +204,7 @@ int sweep_rows(struct sweep *s, long long i, const struct member_record *r)
   for (size_t row = 0; row < r->rows; row++) {
     if (s->call->json && json_row(s, i, r, row)) return 1;
     if (!s->call->json && !s->call->csv) table_row(s, i, r, row);
+    if (draw_row(s, i, r, row)) return 1;
     if (csv_line(s, i, r, row) >= s->room || count(s, s->line)) return 1;
   }
   if ((s->csv && fflush(s->csv)) || fflush(stdout)) return 1; /* who is killed keeps them */
@@ -272,6 +281,7 @@ int sweep_foot(struct sweep *s, bool stopped)
     code = show_result(s->call, facts, s);
   }
   fflush(stdout);
+  if (!code) code = sweep_picture_save(s, column);
   if (stopped)
     say(s->call, "interrupted; %lld of %lld members are finished%s [STEIF_STOPPED]", s->done,
         s->axes.members, s->call->csv ? ", and --resume goes on with the others" : "");

@@ -214,6 +214,7 @@ static int begin(struct sweep *s)
   if (!s->line) return no_memory(s->call, "a row", "collect digits or stats");
   const char *old = word_of(s->call, "--resume");
   if (old) code = old_open(s, old);
+  if (!code) code = sweep_picture_open(s);
   if (s->call->shares) code = s->call->shares->agree(code, s->call->shares->of);
   if (code) return code;
   return s->call->csv ? write_file(s, s->call->csv) : conclude(s, run_members(s));
@@ -232,6 +233,7 @@ int sweep_run(struct call *call, const steif_problem *p)
     call->csv = word_of(call, "--resume");
   const int code = begin(s);
   old_close(s);
+  sweep_picture_close(s);
   free(s->line);
   free(s);
   return code;

@@ -74,6 +74,38 @@ static int keep(struct call *call, const struct option *o, const char *text)
   return EXIT_OK;
 }
 
+/* The option that other programs call so. */
+static const char *known_elsewhere(const char *name, size_t length)
+{
+  static const char *const words[][2] = {{"--tend", "--t1"},
+                                         {"--t-end", "--t1"},
+                                         {"--tf", "--t1"},
+                                         {"--tmax", "--t1"},
+                                         {"--tfinal", "--t1"},
+                                         {"--tspan", "--t1"},
+                                         {"--tol", "--rtol"},
+                                         {"--reltol", "--rtol"},
+                                         {"--abstol", "--atol"},
+                                         {"--dt", "--h"},
+                                         {"--step", "--h"},
+                                         {"--stepsize", "--h"},
+                                         {"--max-step", "--h-max"},
+                                         {"--hmax", "--h-max"},
+                                         {"--first-step", "--h0"},
+                                         {"--t-eval", "--at"},
+                                         {"--out", "--csv"},
+                                         {"--output", "--csv"},
+                                         {"--save", "--csv"},
+                                         {"--param", "--set"},
+                                         {"--params", "--set"},
+                                         {"--sigma", "--sd"},
+                                         {"--seconds", "--max-seconds"}};
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    if (strlen(words[i][0]) == length && !strncmp(name, words[i][0], length))
+      return words[i][1];
+  return NULL;
+}
+
 /* argv[*i] begins with "--"; the value may follow "=" or be the next word. */
 static int one_option(struct call *call, int argc, char **argv, int *i)
 {
@@ -81,6 +113,10 @@ static int one_option(struct call *call, int argc, char **argv, int *i)
   const size_t length = text ? (size_t)(text - name) : strlen(name);
   char near[GUESS];
   const struct option *o = find(call->verb, name, length);
+  const char *other = o ? NULL : known_elsewhere(name, length);
+  if (other && find(call->verb, other, strlen(other)))
+    return bad_usage(call, "no option %.*s; here it is %s; 'steif %s --help' lists them all",
+                     (int)length, name, other, call->verb->name);
   if (!o)
     return bad_usage(call, "no option %.*s%s 'steif %s --help' lists them all", (int)length,
                      name, guess(name, name_at, call->verb, near), call->verb->name);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "message.h"
 #include "interruption.h"
+#include <ctype.h>
 #include <stdarg.h>
 #include <string.h>
 #include <steif/report.h>
@@ -155,21 +156,30 @@ void progress(const struct call *call, const char *format, ...)
   fflush(stderr);
 }
 
-/* Edit distance of words up to 63 letters. */
+static bool same(char a, char b)
+{
+  return tolower((unsigned char)a) == tolower((unsigned char)b);
+}
+
+/* Letters of words up to 63 left out, added, changed or swapped with their neighbours. */
 static int distance(const char *a, const char *b)
 {
   enum { MOST = 64 };
-  int row[MOST + 1], m = (int)strlen(b);
+  int rows[3][MOST + 1], *before = rows[0], *above = rows[1], *row = rows[2];
+  const int m = (int)strlen(b);
   if (m > MOST) return MOST * 2;
   for (int j = 0; j <= m; j++) row[j] = j;
   for (int i = 1; a[i - 1]; i++) {
-    int corner = row[0];
+    int *const oldest = before;
+    before = above, above = row, row = oldest;
     row[0] = i;
     for (int j = 1; j <= m; j++) {
-      const int change = corner + (a[i - 1] != b[j - 1]);
-      const int shift = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
-      corner = row[j];
-      row[j] = change < shift ? change : shift;
+      const int change = above[j - 1] + !same(a[i - 1], b[j - 1]);
+      int best = above[j] < row[j - 1] ? above[j] + 1 : row[j - 1] + 1;
+      const bool swapped =
+        i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]);
+      if (swapped && before[j - 2] + 1 < best) best = before[j - 2] + 1;
+      row[j] = change < best ? change : best;
     }
   }
   return row[m];

@@ -31,8 +31,13 @@ static void compile(struct call *call, const steif_problem *p)
 static int no_problem(struct call *call, const char *word)
 {
   const int code = fail(call);
-  const bool unknown = steif_status(call->ctx) == STEIF_UNKNOWN_NAME && !strchr(word, '/');
-  if (unknown && !access(word, R_OK))
+  const bool unknown = steif_status(call->ctx) == STEIF_UNKNOWN_NAME && !strchr(word, '/') &&
+                       !strstr(word, ".steif");
+  char file[300];
+  snprintf(file, sizeof file, "%.200s.steif", word);
+  if (unknown && !access(file, R_OK))
+    say(call, "the file here is %s", file);
+  else if (unknown && !access(word, R_OK))
     say(call, "'%s' is a file here: a model's name ends in .steif, or write ./%s", word, word);
   else if (unknown && call->words > 1 && strstr(call->word[1], ".steif"))
     say(call, "the problem comes before the method: %s %s", call->word[1], word);

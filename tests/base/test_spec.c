@@ -145,6 +145,10 @@ static void the_nearest_name_is_found(void)
   memset(huge, 'z', sizeof huge - 1), huge[sizeof huge - 1] = 0;
   CHECK(stf_nearest(huge, shelf, count, stride) == NULL);
   char guess[STF_GUESS];
+  CHECK(stf_distance("guass", "gauss") == 1 && stf_distance("ba", "ab") == 1);
+  CHECK(stf_distance("abcd", "abcd") == 0 && stf_distance("ABCD", "abcd") == 1);
+  CHECK(stf_distance("", "abc") == 3 && stf_distance("abc", "") == 3);
+  CHECK(stf_distance("kitten", "sitting") == 3 && stf_distance("Radua", "radau") == 1);
   CHECK(!strcmp(stf_guess("guass", shelf, count, stride, guess), "; did you mean 'gauss'?"));
   CHECK(!*stf_guess("nosuch", shelf, count, stride, guess));
 }

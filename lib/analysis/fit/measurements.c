@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <steif/fit.h>
+#include <steif/model.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,10 +90,18 @@ static int find_unknown(const table *T, int column, const char *name, sunindexty
   for (*i = 0; *i < T->problem->n; ++*i) {
     const char *known = unknown_name(T->problem, *i, room);
     const int distance = stf_distance(name, known);
-    if (distance == 0) return STEIF_OK;
+    if (!strcmp(name, known)) return STEIF_OK;
     if (distance < best) snprintf(near, sizeof near, "%s", known);
     if (distance < best) best = distance;
   }
+  const char *output;
+  for (size_t k = 0; (output = steif_model_output(T->problem, k)); k++)
+    if (!strcmp(name, output))
+      return REFUSE(
+        T, column, STEIF_BAD_INPUT,
+        "'%s' is an output of '%s', and unknowns are fitted: declare 'state %s' and the "
+        "equation %s = ... in its place",
+        name, T->problem->name, name, name);
   return REFUSE(T, column, STEIF_UNKNOWN_NAME,
                 "problem '%s' has no unknown '%s'; the nearest is '%s'", T->problem->name, name,
                 near);
@@ -104,9 +113,15 @@ static int one_name(table *T, int column, cell c)
   snprintf(name, sizeof name, "%.*s", (int)c.length, c.text);
   const bool sd = !strncmp(name, "sd_", 3);
   T->sd_of[column] = T->sd_at[column] = -1, T->sd[column] = 0, T->component[column] = -1;
-  if (column == 0 && !is(c, "t"))
+  if (column == 0 && strchr(name, ';'))
     return REFUSE(T, column, STEIF_BAD_INPUT,
-                  "the first line is 't' and names of unknowns, not '%s'", name);
+                  "columns are separated by ',' and numbers have a decimal point; '%s' has ';'",
+                  name);
+  if (column == 0 && !is(c, "t"))
+    return REFUSE(
+      T, column, STEIF_BAD_INPUT,
+      "the first line is 't' and names of unknowns, not '%s'; rename the column of the times",
+      name);
   if (column == 0) return STEIF_OK;
   STEIF_TRY(find_unknown(T, column, sd ? name + 3 : name, &T->component[column]));
   for (int k = 1; k < column; k++)

@@ -123,23 +123,32 @@ int stf_spec_only(steif_context *ctx, const steif_spec *spec, const char *const 
   return STEIF_OK;
 }
 
-/* Levenshtein distance, words cut at the length of a spec word. */
+static bool same(char a, char b)
+{
+  return tolower((unsigned char)a) == tolower((unsigned char)b);
+}
+
+/* Letters left out, added, changed or swapped with their neighbours; words cut at the length of a spec word.
+ * Capitals count once in all: 'BDF' is 1 away from 'bdf'. */
 int stf_distance(const char *a, const char *b)
 {
-  int row[STEIF_SPEC_WORD + 1];
+  int rows[3][STEIF_SPEC_WORD + 1], *before = rows[0], *above = rows[1], *row = rows[2];
   const int m = (int)strnlen(a, STEIF_SPEC_WORD), n = (int)strnlen(b, STEIF_SPEC_WORD);
   for (int j = 0; j <= n; j++) row[j] = j;
   for (int i = 1; i <= m; i++) {
-    int diagonal = row[0];
+    int *const oldest = before;
+    before = above, above = row, row = oldest;
     row[0] = i;
     for (int j = 1; j <= n; j++) {
-      const int above = row[j], change = diagonal + (a[i - 1] != b[j - 1]);
-      int best = change < above + 1 ? change : above + 1;
-      if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
-      row[j] = best, diagonal = above;
+      const int change = above[j - 1] + !same(a[i - 1], b[j - 1]);
+      int best = above[j] < row[j - 1] ? above[j] + 1 : row[j - 1] + 1;
+      const bool swapped =
+        i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]);
+      if (swapped && before[j - 2] + 1 < best) best = before[j - 2] + 1;
+      row[j] = change < best ? change : best;
     }
   }
-  return row[n];
+  return row[n] == 0 && strncmp(a, b, STEIF_SPEC_WORD) ? 1 : row[n];
 }
 
 const char *stf_nearest(const char *wrong, const void *list, size_t count, size_t stride)

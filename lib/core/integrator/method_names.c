@@ -4,6 +4,7 @@
 #include "integrator.h"
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 static const char automatic[] = "auto";
 
@@ -71,11 +72,44 @@ static bool spec_at(size_t i, char *text, size_t size)
 
 /* -- look-ups ---------------------------------------------------------------------------- */
 
+/* Names that other programs have for methods of the same kind. */
+static const char *known_elsewhere(const char *name)
+{
+  static const char *const words[][2] = {{"RK45", "dopri87"},
+                                         {"RK23", "dopri87"},
+                                         {"DOP853", "dopri87"},
+                                         {"dopri5", "dopri87"},
+                                         {"ode45", "dopri87"},
+                                         {"ode23", "dopri87"},
+                                         {"LSODA", "auto"},
+                                         {"lsode", "auto"},
+                                         {"ode15s", "bdf"},
+                                         {"ode15i", "bdf"},
+                                         {"vode", "bdf"},
+                                         {"dassl", "bdf"},
+                                         {"daspk", "bdf"},
+                                         {"ode23s", "rodas4"},
+                                         {"ode23t", "dirk:trbdf2"},
+                                         {"ode23tb", "dirk:trbdf2"},
+                                         {"Radau5", "radau:s=3"},
+                                         {"Radau", "radau:s=3"},
+                                         {"BDF", "bdf"},
+                                         {"Rosenbrock", "rodas5p"},
+                                         {"adams", "cvode:lmm=adams"}};
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    if (!strcasecmp(name, words[i][0])) return words[i][1];
+  return NULL;
+}
+
 /* The word before the colon of the spec in the list that is nearest to a wrong one. */
 static int unknown(steif_context *ctx, const steif_spec *spec)
 {
   char text[STEIF_SPEC_WORD], best[STEIF_SPEC_WORD] = "";
+  const char *other = known_elsewhere(spec->name);
   int least = 0;
+  STEIF_CHECK(!other, ctx, STEIF_UNKNOWN_NAME,
+              "no method '%s'; the nearest here is '%s'; 'steif list methods' shows all",
+              spec->name, other);
   for (size_t i = 0; spec_at(i, text, sizeof text); i++) {
     text[strcspn(text, ":")] = 0;
     const int distance = stf_distance(spec->name, text);

@@ -175,6 +175,7 @@ static int find_side(steif_solver *s, int i, sunrealtype t)
 int stf_event_below(steif_solver *s, int i, sunrealtype t, sunrealtype h)
 {
   stf_detector *w = s->events;
+  w->crowded = true;
   stf_event_name(s->problem, i, sizeof w->name, w->name);
   return STEIF_FAIL(s->ctx, STEIF_STEP_SIZE,
                     "events %s of problem '%s' crowd together at t = %.12g: after the last one "

@@ -31,6 +31,7 @@ typedef struct stf_detector {
   bool moved;       /* the last reaction changed y */
   bool silent;      /* the end of the step was shown to the observer before the reaction */
   sunrealtype last; /* time of the last restart */
+  bool crowded;     /* the run ended since they follow each other ever faster */
   int gathered;     /* restarts in a row with almost no time between them */
   char name[64];    /* of the last event */
 } stf_detector;

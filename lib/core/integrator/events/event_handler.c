@@ -55,8 +55,9 @@ static int check_gathering(steif_solver *s, sunrealtype t)
   const bool crowded = t - w->last <= close * (s->t1 - s->problem->t0);
   w->gathered = crowded ? w->gathered + 1 : 0;
   w->last = t;
+  w->crowded = w->gathered >= GATHER;
   STEIF_CHECK(
-    w->gathered < GATHER, s->ctx, STEIF_STEP_SIZE,
+    !w->crowded, s->ctx, STEIF_STEP_SIZE,
     "the last %d events (%s) of problem '%s' crowd together at t = %.12g: it slides "
     "along the surface of the event or bounces without end; give the model a rule for "
     "that (hysteresis, a sliding mode, rest below a small speed) or end the run there",

@@ -90,7 +90,7 @@ bool stf_reader_take(stf_reader *r, const char *text)
 int stf_reader_item(stf_reader *r, stf_statement *s)
 {
   STEIF_TRY(stf_reader_name(r, s));
-  STEIF_TRY(stf_reader_demand(r, '=', "'=' and a value"));
+  STEIF_TRY(stf_reader_demand(r, '=', "'=' and one value (arrays are states or functions)"));
   STEIF_TRY(stf_parse_number(&r->p, &s->value));
   stf_reader_unit(r, s);
   s->whole = stf_take_word(&r->p, STF_WORD_WHOLE);
@@ -213,7 +213,7 @@ static int table_source(stf_reader *r, stf_statement *s)
   if (stf_next(&r->p)->kind != STF_TOKEN_STRING) return stf_reader_list(r, STF_SAY_PAIR, pair);
   STEIF_TRY(stf_reader_string(r, s));
   if (!stf_reader_take(r, "column"))
-    return stf_expected(&r->p, "column and its name or number");
+    return stf_expected(&r->p, "column and its name or number, such as column 2,");
   stf_statement column = stf_reader_fresh(r, STF_SAY_PAIR);
   const stf_token *t = stf_next(&r->p);
   if (t->kind == STF_TOKEN_STRING) {
