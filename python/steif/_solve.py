@@ -54,6 +54,17 @@ class _Arrays:
         return self._view(address, (n,))
 
 
+def _kind(value):
+    return "None" if value is None else "the shape %s" % (np.shape(value),)
+
+
+def _wrong(what, value, n):
+    kind = np.asarray(value).dtype.kind if value is not None else "f"
+    if kind == "c":
+        return TypeError("%s is complex; write real and imaginary parts as unknowns of their own" % what)
+    return ValueError("%s returned %s, an array or list of %d numbers is needed" % (what, _kind(value), n))
+
+
 def _matrix(M):
     return M if hasattr(M, "tocsc") else np.asarray(M, dtype=float)
 
@@ -109,7 +120,15 @@ class _Run:
         vector, n = self.arrays.vector, self.n
 
         def work(t, y, out, user):
-            vector(out, n)[:] = f(t, vector(y, n), *args)
+            value = f(t, vector(y, n), *args)
+            to = vector(out, n)
+            try:
+                to[:] = value
+            except (ValueError, TypeError):
+                raise _wrong("f(t, y)", value, n) from None
+            short = n > 1 and (not hasattr(value, "__len__") or len(value) == 1)
+            if value is None or (short and np.size(value) != n):
+                raise _wrong("f(t, y)", value, n)
 
         self.give("f", _RHS, work)
 
@@ -124,7 +143,10 @@ class _Run:
                 fill_sparse(J, sparse_columns(_matrix(value(t, vector(y, n))), n, "jac"), "jac")
         else:
             def work(t, y, fy, J, user, a, b, d):
-                matrix(J, n)[:, :] = value(t, vector(y, n))
+                M = value(t, vector(y, n))
+                if np.shape(M) != (n, n):
+                    raise ValueError("jac returned %s, the shape %s is needed" % (_kind(M), (n, n)))
+                matrix(J, n)[:, :] = M
 
         self.give("jac", _JACOBIAN, work)
 
@@ -158,7 +180,11 @@ class _Run:
 
         def work(t, y, value, user):
             u = vector(y, n)
-            plain(value, count)[:] = [event(t, u, *args) for event in events]
+            for i, event in enumerate(events):
+                g = event(t, u, *args)
+                if np.size(g) != 1 or g is None:
+                    raise ValueError("event %d returned %s, one number is needed" % (i + 1, _kind(g)))
+                plain(value, count)[i] = g if np.ndim(g) == 0 else np.ravel(g)[0]
 
         self.give("event", _VALUES, work)
         self.problem.set("events", INT, count)
@@ -260,7 +286,15 @@ class _Run:
         return r
 
 
+def _positive(name, value):
+    if not float(value) > 0:
+        raise ValueError("%s is %g and must be above 0" % (name, value))
+    return float(value)
+
+
 def _tolerances(run, rtol, atol, n):
+    if rtol == 0:
+        raise ValueError("rtol is 0 and must be above 0, 1e-14 at least")
     run.options.set("rtol", REAL, float(rtol))
     if atol is None:
         return
@@ -304,12 +338,14 @@ def _known(context, spec, t_span):
 
 
 def _own(f, t_span, y0, args, jac, jac_sparsity, mass, events):
+    if t_span is None or y0 is None or not callable(f):
+        raise ValueError("solve needs f(t, y), (t0, t1) and y0, or the name of a problem")
     start = np.array(y0, dtype=float)
     if start.ndim != 1:
-        raise ValueError("y0 must have one dimension, it has %d" % start.ndim)
-    if t_span is None or not callable(f):
-        raise ValueError("solve needs f(t, y), (t0, t1) and y0, or the name of a problem")
+        raise ValueError("y0 must have one dimension, it has %d: write [1.0] for one unknown" % start.ndim)
     run = _Run(start.size)
+    if np.shape(t_span) != (2,):
+        raise ValueError("t_span must be (t0, t1), got %r" % (t_span,))
     t0, t1 = (float(t) for t in t_span)
     for member, kind, value in (("n", WHOLE, start.size), ("t0", REAL, t0), ("t1", REAL, t1)):
         run.problem.set(member, kind, value)
@@ -361,9 +397,10 @@ def solve(f, t_span=None, y0=None, *, method="auto", rtol=1e-6, atol=None, t_eva
             run, t0, t1 = _own(f, t_span, y0, tuple(args), jac, jac_sparsity, mass, events)
         _tolerances(run, rtol, atol, run.n)
         run.options.set("t1", REAL, t1)
-        for member, value in (("h", h), ("h0", first_step), ("h_max", max_step)):
+        for member, name, value in (("h", "h", h), ("h0", "first_step", first_step),
+                                    ("h_max", "max_step", max_step)):
             if value is not None:
-                run.options.set(member, REAL, float(value))
+                run.options.set(member, REAL, _positive(name, value))
         if max_steps is not None:
             run.options.set("max_steps", c.c_long, int(max_steps))
         times = _times(t_eval, t0, t1)

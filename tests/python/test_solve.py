@@ -147,6 +147,25 @@ class Solve(unittest.TestCase):
         np.testing.assert_allclose(s.y[:, -1], [math.exp(-1), math.exp(-1) / 2], rtol=1e-7)
 
 
+    def test_wrong_shapes_are_named(self):
+        f, y0 = lambda t, y: [y[1], -y[0]], [1, 0]
+        for wrong, sentence in (
+                (lambda: steif.solve(lambda t, y: [1, 2, 3], (0, 1), y0), "f.t, y. returned the shape .3,."),
+                (lambda: steif.solve(lambda t, y: 1.0, (0, 1), y0), "2 numbers"),
+                (lambda: steif.solve(lambda t, y: [1.0], (0, 1), y0), "2 numbers"),
+                (lambda: steif.solve(lambda t, y: None, (0, 1), y0), "returned None"),
+                (lambda: steif.solve(f, (0, 1), y0, events=lambda t, y: y), "event 1 returned the shape"),
+                (lambda: steif.solve(f, (0, 1), y0, method="bdf", jac=np.eye(3)), "jac returned"),
+                (lambda: steif.solve(f, (0, 1), y0, rtol=0), "rtol is 0"),
+                (lambda: steif.solve(f, (0, 1), y0, max_step=0), "max_step is 0"),
+                (lambda: steif.solve(f, 10, y0), "t_span"),
+                (lambda: steif.solve(f, (0, 1)), "and y0")):
+            with self.assertRaisesRegex(ValueError, sentence):
+                wrong()
+        with self.assertRaisesRegex(TypeError, "complex"):
+            steif.solve(lambda t, y: [1j, 0], (0, 1), y0)
+        self.assertTrue(steif.solve(lambda t, y: -y[0], (0, 1), [1.0]).success)
+
     def test_named_problems(self):
         s = steif.solve("rober", method="radau:s=3", rtol=1e-8)
         self.assertEqual(s.t[-1], 1e11)

@@ -75,29 +75,14 @@ static bool spec_at(size_t i, char *text, size_t size)
 /* Names that other programs have for methods of the same kind. */
 static const char *known_elsewhere(const char *name)
 {
-  static const char *const words[][2] = {{"RK45", "dopri87"},
-                                         {"RK23", "dopri87"},
-                                         {"DOP853", "dopri87"},
-                                         {"dopri5", "dopri87"},
-                                         {"ode45", "dopri87"},
-                                         {"ode23", "dopri87"},
-                                         {"LSODA", "auto"},
-                                         {"lsode", "auto"},
-                                         {"ode15s", "bdf"},
-                                         {"ode15i", "bdf"},
-                                         {"vode", "bdf"},
-                                         {"dassl", "bdf"},
-                                         {"daspk", "bdf"},
-                                         {"ode23s", "rodas4"},
-                                         {"ode23t", "dirk:trbdf2"},
-                                         {"ode23tb", "dirk:trbdf2"},
-                                         {"Radau5", "radau:s=3"},
-                                         {"Radau", "radau:s=3"},
-                                         {"BDF", "bdf"},
-                                         {"Rosenbrock", "rodas5p"},
-                                         {"adams", "cvode:lmm=adams"}};
+  static const char *const words[] = {
+    "rk45>dopri87",  "rk23>dopri87",      "dop853>dopri87", "dopri5>dopri87", "ode45>dopri87",
+    "ode23>dopri87", "radau5>radau",      "bdf>bdf",        "ode15s>bdf",     "ode15i>bdf",
+    "vode>bdf",      "dassl>bdf",         "daspk>bdf",      "lsoda>auto",     "lsode>auto",
+    "ode23s>rodas4", "ode23t>dirk:trbdf2"};
+  const size_t m = strlen(name);
   for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-    if (!strcasecmp(name, words[i][0])) return words[i][1];
+    if (!strncasecmp(name, words[i], m) && words[i][m] == '>') return words[i] + m + 1;
   return NULL;
 }
 
@@ -107,9 +92,6 @@ static int unknown(steif_context *ctx, const steif_spec *spec)
   char text[STEIF_SPEC_WORD], best[STEIF_SPEC_WORD] = "";
   const char *other = known_elsewhere(spec->name);
   int least = 0;
-  STEIF_CHECK(!other, ctx, STEIF_UNKNOWN_NAME,
-              "no method '%s'; the nearest here is '%s'; 'steif list methods' shows all",
-              spec->name, other);
   for (size_t i = 0; spec_at(i, text, sizeof text); i++) {
     text[strcspn(text, ":")] = 0;
     const int distance = stf_distance(spec->name, text);
@@ -117,13 +99,16 @@ static int unknown(steif_context *ctx, const steif_spec *spec)
     least = distance;
     strcpy(best, text);
   }
-  if (!stf_near(spec->name, best))
-    return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "no method '%s'; 'steif list methods' shows all",
-                      spec->name);
+  const bool near = !other && stf_near(spec->name, best);
+  const char *words = other ? "; here it is '" : near ? "; did you mean '" : "";
   return STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME,
-                    "no method '%s'; did you mean '%s'? 'steif list "
-                    "methods' shows all",
-                    spec->name, best);
+                    "no method '%s'%s%s%s 'steif list methods' shows all", spec->name, words,
+                    other  ? other
+                    : near ? best
+                           : "",
+                    other  ? "';"
+                    : near ? "'?"
+                           : ";");
 }
 
 /* PREFIX:TABLE,key=value and PREFIX:file=PATH: the spec of the table. */
