@@ -57,14 +57,14 @@ def renew(source, target):
 
 def build(folder, tests, jobs):
     targets = [f"test_{name}" for name in tests.split("|")]
-    return run(["cmake", "--build", "build", "-j", str(jobs), "--target", *targets], folder)
+    return run(["cmake", "--build", "tree/build", "-j", str(jobs), "--target", *targets], folder)
 
 
 def judge(folder, jobs, tests):
     if build(folder, tests, jobs).returncode:
         return "killed by the compiler"
     command = ["ctest", "-R", f"^({tests})$", "-j", str(jobs), "--timeout", "300", "--stop-on-failure"]
-    tested = run(command, os.path.join(folder, "build"))
+    tested = run(command, os.path.join(folder, "tree", "build"))
     failed = [line.split(" - ")[1].split()[0] for line in tested.stdout.splitlines() if " - " in line]
     return f"killed by {', '.join(failed)}" if tested.returncode else "SURVIVED"
 
@@ -91,10 +91,11 @@ def main():
     options.add_argument("--jobs", type=int, default=os.cpu_count())
     options.add_argument("folder")
     given = options.parse_args()
+    given.folder = os.path.abspath(given.folder)
     os.makedirs(given.folder, exist_ok=True)
     tree = copy(given.folder)
     all_rows = rows()
-    first = run(["cmake", "-S", tree, "-B", "build"], given.folder)
+    first = run(["cmake", "-S", tree, "-B", os.path.join(tree, "build")], given.folder)
     if first.returncode == 0:
         first = build(given.folder, "|".join({row[0] for row in all_rows}), given.jobs)
     if first.returncode:
