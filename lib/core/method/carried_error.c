@@ -29,6 +29,7 @@ int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool ex
   c->loose = c->always ? MOST : 0;
   c->growth = 1;
   c->least = fmin(MOST, rounding / s->options->rtol);
+  c->whole = 1 / s->options->rtol;
   c->e = stf_pool_vector(s->pool, s->y);
   c->work = stf_pool_vector(s->pool, s->y);
   c->other = stf_pool_vector(s->pool, s->y);
@@ -145,14 +146,23 @@ sunrealtype stf_carried_share(const stf_carried *c, sunrealtype wanted)
   return fmax(wanted, fmax(c->least, c->loose));
 }
 
-/* What is left of e after it has shrunk by much again, as in relaxation oscillations, is what low orders have
- * lost of it: half the sum, which has no signs, is nearer. */
+/* What is left of e after it has shrunk by this much may be what R, of low order, has lost of it, as in
+ * relaxation oscillations, whose errors grow beyond the solution itself. Less is lost where they never did and
+ * most are still remembered, as in orbits that pass close to each other. */
+static sunrealtype lost(const stf_carried *c)
+{
+  const sunrealtype much = 0.03, little = 1e-3, half = 0.5;
+  const bool linear = c->peak < c->whole && c->remembered > half * (sunrealtype)c->steps;
+  return linear ? little : much;
+}
+
+/* Where e is lost, half the sum, which has no signs, is nearer. */
 void stf_carried_tell(const stf_carried *c, sunrealtype wanted, stf_control *control)
 {
-  const sunrealtype lost = 0.03, half = 0.5;
+  const sunrealtype half = 0.5;
   const bool rough = c->exact || 2 * wanted < c->least;
   control->accumulated = rough ? fmin(c->size, c->sum) : 0;
-  control->reached = !c->exact                  ? control->accumulated
-                     : c->size > lost * c->peak ? c->size
-                                                : half * control->accumulated;
+  control->reached = !c->exact                     ? control->accumulated
+                     : c->size > lost(c) * c->peak ? c->size
+                                                   : half * control->accumulated;
 }

@@ -208,6 +208,7 @@ typedef struct stf_carried {
   sunrealtype size,
     sum;            /* of e in its largest component; of the errors remembered; in tolerances */
   sunrealtype peak; /* largest size so far */
+  sunrealtype whole;      /* the solution itself, in tolerances */
   sunrealtype all, least; /* estimates below `least` tolerances are rounding */
   sunrealtype loose; /* what an estimate may be, for all that is remembered; 0: not known */
   int failure;
