@@ -20,10 +20,10 @@
 extern "C" {
 #endif
 
-/* Causes of a failure. They are looked for in this order: values that are not finite at the point, noise
- * that spoils a Jacobian made by differences (a limit of ACCURACY), BLOW_UP over more than two decades,
- * values not finite along the step, IMPASSE, JUMP after t0, JACOBIAN, SINGULAR, START, INDEX, ACCURACY
- * (not of prescribed steps), STIFF, RINGING. */
+/* Causes of a failure. They are looked for in this order: EVENTS that crowd together at the end, GROWTH beyond
+ * 1e100 times the start, values that are not finite at the point, noise that spoils a Jacobian made by differences
+ * (a limit of ACCURACY), BLOW_UP over more than two decades, values not finite along the step, IMPASSE, JUMP after
+ * t0, JACOBIAN, SINGULAR, START, INDEX, ACCURACY (not of prescribed steps), STIFF, RINGING. */
 enum steif_cause_kind {
   STEIF_CAUSE_UNKNOWN,
   STEIF_CAUSE_NOT_FINITE,
@@ -36,7 +36,9 @@ enum steif_cause_kind {
   STEIF_CAUSE_STIFF,
   STEIF_CAUSE_START,
   STEIF_CAUSE_RINGING,
-  STEIF_CAUSE_INDEX
+  STEIF_CAUSE_INDEX,
+  STEIF_CAUSE_GROWTH,
+  STEIF_CAUSE_EVENTS
 };
 
 /* What the stepper knows. The point of the inquiry is the last accepted one. */
@@ -63,7 +65,7 @@ typedef struct steif_cause {
   /* blow-up: exponent, growth; impasse: growth, misfit; jump: size, median increment;
    * Jacobian: given, measured; singular: reciprocal condition; accuracy: noise, in weights
    * (in increments where it spoils a Jacobian by differences); stiff: h |lambda|, |lambda|;
-   * start: move, in weights; ringing: share of sign changes, amplitude in weights; index:
+   * start: move, in weights; growth: since the start, time for a factor of ten; ringing: share of sign changes, amplitude in weights; index:
    * index, number of the unknown */
   sunrealtype value[2];
   char message[STEIF_SENTENCE];

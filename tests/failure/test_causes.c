@@ -19,9 +19,9 @@ typedef struct failure {
   double h0;
 } failure;
 
-static const char *const words[] = {"unknown", "not finite", "blow-up",  "impasse",
-                                    "jump",    "Jacobian",   "singular", "accuracy",
-                                    "stiff",   "start",      "ringing",  "index"};
+static const char *const words[] = {"unknown",  "not finite", "blow-up",  "impasse", "jump",
+                                    "Jacobian", "singular",   "accuracy", "stiff",   "start",
+                                    "ringing",  "index",      "growth",   "events"};
 
 static toy run; /* large */
 

@@ -297,6 +297,19 @@ static int look(stf_search *c)
   return c->cause->kind == STEIF_CAUSE_UNKNOWN ? nothing(c) : STEIF_OK;
 }
 
+/* What is so large that matrices overflow is told by the points alone. */
+static bool grown(const steif_problem *problem, const steif_point *inquiry,
+                  const steif_history *scene, steif_cause *cause)
+{
+  const steif_names *names = problem ? problem->names : NULL;
+  stf_point point = {.n = problem ? (size_t)problem->n : 0,
+                     .unknown = inquiry && inquiry->unknown ? inquiry->unknown
+                                : names                     ? names->unknown
+                                                            : NULL};
+  stf_search c = {.point = &point, .scene = scene, .cause = cause};
+  return scene && stf_cause_growth(&c);
+}
+
 /* A point where F or its derivatives are not finite cannot even be opened: that is the
  * cause. */
 static int examine(steif_context *ctx, const steif_problem *problem, const steif_point *inquiry,
@@ -305,6 +318,7 @@ static int examine(steif_context *ctx, const steif_problem *problem, const steif
   stf_point point;
   STEIF_CHECK(cause, ctx, STEIF_BAD_INPUT, "a place for the cause is needed, got NULL");
   *cause = (steif_cause){.t = NAN, .equation = -1, .unknown = -1};
+  if (grown(problem, inquiry, scene, cause)) return STEIF_OK;
   int code = stf_point_open(ctx, problem, inquiry, &point);
   if (code == STEIF_CALLBACK || (code == STEIF_NOT_FINITE && scene)) {
     cause->kind = STEIF_CAUSE_NOT_FINITE;
@@ -321,6 +335,16 @@ static int examine(steif_context *ctx, const steif_problem *problem, const steif
                       point.n, STEIF_DIAGNOSE_LARGEST);
   else
     code = look(&c);
+  if (code == STEIF_CALLBACK && scene) {
+    cause->kind = STEIF_CAUSE_NOT_FINITE;
+    cause->t = point.t;
+    stf_point_say(
+      cause->message,
+      "The equations cannot be evaluated beside the last accepted point, t = %.12g: "
+      "the solution leaves the domain of its functions there.",
+      point.t);
+    code = STEIF_OK;
+  }
   steif_diagnosis_clear(&c.diagnosis);
   stf_evidence_free(&c.evidence);
   stf_point_close(&point);

@@ -31,6 +31,8 @@ int stf_cause_stiff(stf_search *c);
 int stf_cause_start(stf_search *c);
 int stf_cause_ringing(stf_search *c);
 int stf_cause_index(stf_search *c);
+/* Of the points kept alone: true when it is there. */
+bool stf_cause_growth(stf_search *c);
 /* The diagnosis at the last accepted point. */
 int stf_cause_diagnose(stf_search *c);
 /* Noise of F around the point (J. J. More and S. M. Wild, SIAM J. Sci. Comput. 33, 2011);

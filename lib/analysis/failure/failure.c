@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "causes.h"
 #include "integrator.h"
+#include <ctype.h>
 #include <math.h>
 #include <steif/failure.h>
 #include <string.h>
@@ -101,11 +102,14 @@ static void facts(const steif_solver *s, steif_failure *f)
   if (step->system.space.serial) worst(f, step, (size_t)s->problem->n);
 }
 
+/* Where F cannot be had there are none. */
 static int residuals(steif_context *ctx, const record *r, const steif_point *q,
                      steif_failure *f)
 {
   stf_point point;
-  STEIF_TRY(stf_point_open(ctx, r->problem, q, &point));
+  const int opened = stf_point_open(ctx, r->problem, q, &point);
+  for (int k = 0; k < f->count && opened; k++) f->worst[k].residual = NAN;
+  if (opened) return opened == STEIF_NO_MEMORY ? opened : STEIF_OK;
   sunrealtype *F = stf_pool_array(point.pool, r->n, sizeof *F);
   const int code =
     F ? stf_point_residual(&point, point.t, point.y0, point.yp0, F) : STEIF_NO_MEMORY;
@@ -170,6 +174,15 @@ static int explain(steif_solver *s, const record *r, steif_failure *f)
   return STEIF_OK;
 }
 
+/* The sentence of the run says all there is to say. */
+static void take_sentence(steif_solver *s, steif_failure *f)
+{
+  char *m = f->cause.message;
+  snprintf(m, sizeof f->cause.message, "%s", steif_message(s->ctx));
+  m[0] = (char)toupper((unsigned char)m[0]);
+  say(f, s->problem);
+}
+
 static int repeat(steif_solver *s, record *r, steif_failure *f)
 {
   const steif_problem *p = s->problem;
@@ -180,9 +193,13 @@ static int repeat(steif_solver *s, record *r, steif_failure *f)
   STEIF_CHECK(f->code < 0, s->ctx, STEIF_BAD_INPUT,
               "the run of problem '%s' does not fail: there is nothing to explain", p->name);
   facts(s, f);
-  if (looked) return explain(s, r, f);
-  snprintf(f->cause.message, sizeof f->cause.message, "%s", steif_message(s->ctx));
-  say(f, p);
+  const bool crowded = stf_event_crowded(s);
+  if (crowded) {
+    f->cause.kind = STEIF_CAUSE_EVENTS;
+    f->cause.t = f->t;
+  }
+  if (looked && !crowded) return explain(s, r, f);
+  take_sentence(s, f);
   return STEIF_OK;
 }
 

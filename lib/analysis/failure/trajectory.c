@@ -1,4 +1,4 @@
-/* trajectory.c: causes that show in the accepted points: blow-up, impasse, ringing.
+/* trajectory.c: causes that show in the accepted points: blow-up, growth, impasse, ringing.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "causes.h"
 #include <math.h>
@@ -91,6 +91,37 @@ int stf_cause_blow_up(stf_search *c)
                 "before T.",
                 T, c->point->y0[at], c->point->t);
   return STEIF_OK;
+}
+
+/* -- growth ------------------------------------------------------------------------------ */
+
+/* Growth without a time at which it ends, as e^t: relative tolerances follow it, until numbers end. A step that is
+ * prescribed may make it by itself. */
+bool stf_cause_growth(stf_search *c)
+{
+  const sunrealtype much = 1e100;
+  const steif_history *s = c->scene;
+  const size_t n = c->point->n, last = s->count ? s->count - 1 : 0;
+  size_t at = n;
+  sunrealtype most = much;
+  char room[STEIF_SPEC_WORD];
+  for (size_t j = 0; j < n && s->count > 1 && !s->prescribed; j++) {
+    const sunrealtype now = fabs(s->y[last * n + j]) / fmax(fabs(s->y[j]), 1);
+    if (now > most) most = now, at = j;
+  }
+  if (at == n) return false;
+  const sunrealtype y = s->y[last * n + at], tenfold = log(10) * fabs(y / s->yp[last * n + at]);
+  steif_cause *cause = c->cause;
+  cause->kind = STEIF_CAUSE_GROWTH, cause->unknown = (sunindextype)at;
+  cause->value[0] = most, cause->value[1] = tenfold;
+  const char *name = stf_point_unknown(c->point, at, room);
+  stf_point_say(
+    cause->message,
+    "%s has grown from %.4g to %.4g, now tenfold in %.3g of time: numbers end at 1.8e308, and "
+    "the steps before that are many. Nothing is wrong with the solver: end earlier, or solve "
+    "for the logarithm of %s.",
+    name, s->y[at], y, tenfold, name);
+  return true;
 }
 
 /* -- impasse ----------------------------------------------------------------------------- */

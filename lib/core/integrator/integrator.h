@@ -132,6 +132,8 @@ int stf_agreed_end(steif_solver *s, int code);
  * looks at limits and breaks, and control.c, which decides on step sizes. */
 int stf_advance(steif_solver *s, sunrealtype t_stop);
 int stf_adaptive_step(steif_solver *s, sunrealtype t_stop);
+/* Did a run end since its events crowd together? */
+bool stf_event_crowded(const steif_solver *s);
 /* Where a run is asked for its solution: STEIF_NOT_CERTIFIED if the errors of low orders have grown since they
  * were made. The run may go on. */
 int stf_check_reached(const steif_solver *s);
