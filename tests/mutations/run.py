@@ -66,7 +66,8 @@ def judge(folder, jobs, tests):
     command = ["ctest", "-R", f"^({tests})$", "-j", str(jobs), "--timeout", "300", "--stop-on-failure"]
     tested = run(command, os.path.join(folder, "tree", "build"))
     failed = [line.split(" - ")[1].split()[0] for line in tested.stdout.splitlines() if " - " in line]
-    return f"killed by {', '.join(failed)}" if tested.returncode else "SURVIVED"
+    slow = "  (time was up)" if "***Timeout" in tested.stdout else ""
+    return f"killed by {', '.join(failed)}{slow}" if tested.returncode else "SURVIVED"
 
 
 def mutate(folder, tree, jobs, row):
