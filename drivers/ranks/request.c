@@ -37,7 +37,8 @@ static int read_numbers(request *r, const char *name, const char *text, double *
   const char *at = text;
   const int most = *count;
   for (*count = 0; *count < most; at++) {
-    if (!(value[*count] = positive(&at))) break;
+    value[*count] = positive(&at);
+    if (!(value[*count] > 0)) break;
     ++*count;
     if (*at == 0) return FINE;
     if (*at != ',') break;
