@@ -37,6 +37,8 @@ struct weak weak_asked(const struct call *call);
 /* A row of the report: what comes before its values, and after. */
 void weak_row_begin(steif_report *r, const steif_weak_row *row);
 void weak_row_end(steif_report *r, const steif_weak_row *row);
+/* Is the verdict open that was asked for? Not by one row of sensible steps, which shows no order. */
+bool weak_is_open(int converges, const char *verdict);
 /* The test function and the verdict. */
 void weak_verdict(steif_report *r, const struct weak *w);
 /* `steif weak METHOD --index K`; an exit code. */

@@ -47,7 +47,7 @@ int weak_ball(struct call *call, struct weak *w, int m)
   if (!code) code = steif_weak_measure_ball(call->ctx, &w->query, m, a.row, &a.result);
   if (code) return descriptor_fail(call);
   code = present_result(call, fill, &a);
-  if (code || a.result.converges >= 0 || w->query.rows == 1) return code;
+  if (code || !weak_is_open(a.result.converges, a.result.verdict)) return code;
   say(call, "%s [STEIF_NOT_CERTIFIED]", a.result.verdict);
   return EXIT_UNCERTIFIED;
 }

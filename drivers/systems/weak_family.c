@@ -46,21 +46,29 @@ static void fill(steif_report *r, const struct call *call, const void *result)
 static void judge(struct members *m)
 {
   double least = INFINITY;
-  size_t open = 0;
+  size_t open = 0, unknown = 0, single = 0;
   const struct member *against = NULL;
   for (size_t i = 0; i < m->count; i++) {
     const struct member *g = m->member + i;
     if (g->result.converges == 0 && !against) against = g;
     open += g->result.converges < 0;
-    if (g->last.usable) least = fmin(least, g->last.order);
+    single += !weak_is_open(g->result.converges, g->result.verdict) && g->result.converges < 0;
+    if (isfinite(g->result.order)) least = fmin(least, g->result.order);
+    unknown += !isfinite(g->result.order) && strncmp(g->result.verdict, "exact", 5) != 0;
   }
   m->converges = against ? 0 : open ? -1 : 1;
   if (against)
     snprintf(m->verdict, sizeof m->verdict, "%s, for g = %.60s", against->result.verdict,
              against->words);
+  else if (single == m->count)
+    snprintf(m->verdict, sizeof m->verdict, "%s", m->member->result.verdict);
   else if (open)
     snprintf(m->verdict, sizeof m->verdict, "undecided for %zu of %zu test functions", open,
              m->count);
+  else if (unknown)
+    snprintf(m->verdict, sizeof m->verdict,
+             "converges weakly for all %zu test functions; the order is not known for %zu",
+             m->count, unknown);
   else if (isfinite(least))
     snprintf(m->verdict, sizeof m->verdict,
              "converges weakly for all %zu test functions, order %.2f or more", m->count,
@@ -129,7 +137,7 @@ int weak_family(struct call *call, struct weak *w, const char *words)
   int code = all(call, w, words, &m);
   if (!code) code = present_result(call, fill, &m);
   free(m.member);
-  if (code || m.converges >= 0 || w->query.rows == 1) return code;
+  if (code || !weak_is_open(m.converges, m.verdict)) return code;
   say(call, "%s [STEIF_NOT_CERTIFIED]", m.verdict);
   return EXIT_UNCERTIFIED;
 }

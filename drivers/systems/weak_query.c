@@ -67,14 +67,19 @@ void weak_verdict(steif_report *r, const struct weak *w)
   steif_report_text(r, "verdict", w->result.verdict);
 }
 
-/* The picture; EXIT_UNCERTIFIED where the verdict is open: one row asks for none. */
+bool weak_is_open(int converges, const char *verdict)
+{
+  return converges < 0 && strncmp(verdict, "none", 4) != 0;
+}
+
+/* The picture; EXIT_UNCERTIFIED where the verdict is open. */
 static int end(const struct call *call, const struct weak *w)
 {
   error_curves errors = {.title = call->word[0], .y_label = "weak error"};
   errors_open(&errors, call->word[0]);
   for (size_t i = 0; i < w->query.rows; i++) errors_add(&errors, w->row[i].h, w->row[i].error);
   const int code = errors_plot(call, &errors, call->plot);
-  if (code || w->query.rows == 1 || w->result.converges >= 0) return code;
+  if (code || !weak_is_open(w->result.converges, w->result.verdict)) return code;
   say(call, "%s [STEIF_NOT_CERTIFIED]", w->result.verdict);
   return EXIT_UNCERTIFIED;
 }

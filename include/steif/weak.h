@@ -51,11 +51,11 @@ typedef struct steif_weak_row {
 } steif_weak_row;
 
 typedef struct steif_weak_result {
-  sunrealtype exact; /* <x, g> of the distributional solution */
+  sunrealtype exact; /* <x, g> of the distributional solution; NaN: not known */
   sunrealtype first; /* closed first-order constant of backward Euler (P, R), else NaN */
-  /* "converges weakly, order 1.00", "does not converge weakly: ...", "undecided: ...". Only usable rows
-   * have a say: at least three in a row, whose last two orders agree within 0.25 and do not move
-   * away from a whole number. "exact to rounding" takes three rows with errors below 4 times and
+  /* "converges weakly, order 1.00", "does not converge weakly: ...", "undecided: ...", of one row "none: ...".
+   * Only usable rows have a say: at least three in a row, whose errors have one sign and whose last two
+   * orders agree within 0.25 and do not move away from a whole number. "exact to rounding" takes three rows with errors below 4 times and
    * rounding below 1e-9 of the value. A test function with g^(q)(0) = 0 for a q below the index that
    * matters sees nothing of those impulses. A run is linear in x(0-) and f: where a second run tells
    * rounding, impulses of every order are measured by themselves, on Jordan blocks in many digits, and

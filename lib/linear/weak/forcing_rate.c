@@ -118,13 +118,14 @@ int stf_forcing_rate(stf_measure *w)
   look l = {.measure = w,
             .f = s->block.k ? s->block.forcing : s->linear.f,
             .user = s->block.k ? s->block.user : s->linear.user};
-  sizes(&l, &w->rate);
+  sizes(&l, &w->subject.rate);
   if (!w->query->linear) return STEIF_OK; /* the collection declares its own */
   const size_t count = s->sides.count;
   sunrealtype from = 0;
   for (size_t b = 0; b <= count && from < t1; b++) {
     const sunrealtype to = b < count ? fmin(s->sides.breaks[b], t1) : t1, inset = INSET * t1;
-    STEIF_TRY(segment(&l, b ? from + inset : from, to < t1 ? to - inset : to, &w->rate));
+    STEIF_TRY(
+      segment(&l, b ? from + inset : from, to < t1 ? to - inset : to, &w->subject.rate));
     from = to;
   }
   return STEIF_OK;

@@ -73,7 +73,7 @@ int stf_measure_longest(const stf_measure *w, sunrealtype *longest, const char *
   } known[] = {{(sunrealtype)rate, "the test function"},
                {LAYERS * (s->index + 1) / (sunrealtype)s->weight.t1,
                 "the interval of the test function, which holds the layer"},
-               {w->rate, "the forcing"},
+               {s->rate, "the forcing"},
                {s->structure.finite > 0 ? s->structure.radius : 0,
                 "the fastest finite eigenvalue of the system"}};
   *longest = INFINITY;

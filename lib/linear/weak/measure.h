@@ -29,7 +29,6 @@ typedef struct stf_measure {
   stf_mesh mesh;
   sunrealtype h;                /* first step, the longest */
   int halvings;                 /* of the row that is made */
-  sunrealtype rate;             /* at which f changes, 1/time */
   stf_turned turned[STF_TURNS]; /* where the run has coordinates of its own */
   stf_spline smooth;            /* the test function, where it is given */
   int first, count;             /* components paired */

@@ -176,7 +176,14 @@ static sunrealtype apart(int n, const sunrealtype *a, const sunrealtype *b, sunr
   return most;
 }
 
-/* Halve the panels until two sums agree, or get no closer; every step of a run adds an eps. */
+/* Does a panel, the longest, hold more than f changes that its nodes could see? */
+static bool too_long(const stf_subject *s, const panels *p)
+{
+  return s->rate * (p->to - p->from) / (2 * p->parts) > STF_RULE;
+}
+
+/* Halve the panels until two sums agree, or get no closer; every step of a run adds an eps. What changes
+ * within a panel is seen by neither sum. */
 static int refine(stf_subject *s, sums *sum, sunrealtype *value, sunrealtype *finer,
                   sunrealtype *accuracy)
 {
@@ -186,11 +193,12 @@ static int refine(stf_subject *s, sums *sum, sunrealtype *value, sunrealtype *fi
   for (int parts = 2 * FIRST; parts <= PANELS_MOST; parts *= 2) {
     STEIF_TRY(integrate(s, parts, sum, finer));
     const sunrealtype d = apart(s->n, finer, value, &size);
-    if (d > *accuracy / 2) break;
+    if (d > *accuracy / 2 && !too_long(s, &sum->panels)) break;
     *accuracy = d;
     memcpy(value, finer, (size_t)s->n * sizeof *value);
-    if (d <= agreed * size) break;
+    if (d <= agreed * size && !too_long(s, &sum->panels)) break;
   }
+  if (too_long(s, &sum->panels)) *accuracy = INFINITY;
   if (s->structure.finite > 0 && !s->problem.exact)
     *accuracy = fmax(*accuracy, 4 * STF_EPS * (double)sum->panels.count * size);
   return STEIF_OK;
@@ -346,16 +354,18 @@ int stf_subject_pair(stf_subject *s, sunrealtype *value, sunrealtype *accuracy, 
   }
   STEIF_TRY(pair_smooth(s, value, accuracy));
   const sunrealtype smooth = *accuracy;
+  char known[32] = "not known: f changes too fast";
+  if (isfinite(smooth)) snprintf(known, sizeof known, "to %.1e", smooth);
   sunrealtype weight;
   STEIF_TRY(weigh_start(s, &weight));
   *accuracy += weight * stf_subject_rounding(s);
   STEIF_TRY(pair_impulses(s, 0, &s->impulse, value, accuracy));
   for (size_t b = 0; b < s->jumps; b++)
     STEIF_TRY(pair_impulses(s, s->jump[b].t, &s->jump[b].at, value, accuracy));
-  snprintf(how, room, "impulses of the pencil%s and %s, to %.1e",
+  snprintf(how, room, "impulses of the pencil%s and %s, %s",
            s->jumps ? ", also at breaks of f," : "",
            s->problem.exact ? "the closed smooth solution by Gauss quadrature"
                             : "the smooth part by radau:s=5 from x(0+) and Gauss quadrature",
-           smooth);
+           known);
   return STEIF_OK;
 }

@@ -26,6 +26,7 @@ typedef struct stf_subject {
   steif_structure structure;
   steif_impulse impulse; /* at 0 */
   stf_weight weight; /* the test function; that of steif_test_function until it is changed */
+  sunrealtype rate;  /* at which f changes, 1/time; 0: not looked at */
   stf_sides sides;   /* linear.f of a caller's system, with the breaks that are set here */
   stf_jump *jump;    /* at the breaks, as many as are found */
   size_t jumps;

@@ -66,6 +66,13 @@ static bool steady(const steif_weak_row *last)
 
 static int undecided(steif_weak_result *r) { return r->converges = -1; }
 
+/* Where terms of different order cancel at some step, orders seen across it are no orders. */
+static bool one_sign(const steif_weak_row *last)
+{
+  return (last->error < 0) == (last[-1].error < 0) &&
+         (last[-1].error < 0) == (last[-2].error < 0);
+}
+
 /* By the orders of the last three usable rows. */
 static int by_orders(const steif_weak_row *last, steif_weak_result *r)
 {
@@ -74,6 +81,12 @@ static int by_orders(const steif_weak_row *last, steif_weak_result *r)
   char *text = r->verdict;
   const size_t room = sizeof r->verdict;
   undecided(r);
+  if (!one_sign(last))
+    return snprintf(
+      text, room,
+      "undecided: the errors %.2g, %.2g, %.2g change their sign and show no order; "
+      "ask for more rows",
+      last[-2].error, last[-1].error, last->error);
   if (!(fabs(order - before) <= AGREED))
     return snprintf(text, room,
                     "undecided: the observed orders %.2f and %.2f differ; ask for more rows",
@@ -103,6 +116,8 @@ static int too_few(const stf_judged *j, size_t from, size_t usable, steif_weak_r
   char *text = r->verdict;
   const size_t room = sizeof r->verdict;
   undecided(r);
+  if (j->rows == 1 && from == 0 && !zero(j, 0))
+    return snprintf(text, room, "none: one row shows no order; three decide (--halvings)");
   if (from == j->rows)
     return snprintf(
       text, room,
@@ -117,8 +132,7 @@ static int too_few(const stf_judged *j, size_t from, size_t usable, steif_weak_r
              : snprintf(text, room, "%s", exact);
   }
   if (j->rows - from < LEAST)
-    return snprintf(text, room, "undecided: %s; ask for more (--halvings)",
-                    j->rows == 1 ? "one row shows no order" : "three rows decide");
+    return snprintf(text, room, "undecided: three rows decide; ask for more (--halvings)");
   return snprintf(
     text, room,
     "undecided: rounding from h = %.3g on; larger steps (--h %.3g --halvings 4)%s decide",
@@ -151,6 +165,13 @@ void stf_weak_judge(const stf_judged *j, steif_weak_result *r)
   if (isfinite(j->inside)) {
     undecided(r);
     stf_say_inside(j, "errors", text, room);
+    return;
+  }
+  if (!isfinite(j->accuracy) && from < j->rows) {
+    undecided(r);
+    snprintf(text, room,
+             "undecided: the exact value is not known, f changes too fast for its integrals; "
+             "take a shorter interval (--t1)");
     return;
   }
   if (usable < LEAST)

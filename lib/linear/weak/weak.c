@@ -90,6 +90,7 @@ static int conclude(const stf_measure *w, steif_weak_row *row, steif_weak_result
   stf_judged j = {.row = row,
                   .rows = w->query->rows,
                   .size = fabs(result->exact),
+                  .accuracy = result->accuracy,
                   .blind = -1,
                   .inside = NAN,
                   .decidable = w->longer && !w->query->exact};
@@ -138,6 +139,7 @@ static int find_exact(stf_measure *w, steif_weak_result *result)
   stf_mesh_say(&w->mesh, result->mesh, sizeof result->mesh);
   STEIF_TRY(stf_subject_pair(&w->subject, w->exact, &result->accuracy, result->source,
                              sizeof result->source));
+  for (int m = 0; m < w->subject.n && !isfinite(result->accuracy); m++) w->exact[m] = NAN;
   result->exact = 0;
   for (int m = w->first; m < w->first + w->count; m++)
     result->exact = all ? hypot(result->exact, w->exact[m]) : w->exact[m];

@@ -71,14 +71,15 @@ enum { STF_LEAST_ROWS = 3 }; /* that show an order */
 typedef struct stf_judged {
   const steif_weak_row *row;
   size_t rows;
-  sunrealtype size;    /* of the exact value */
-  sunrealtype longest; /* step that resolves system, f and g; */
-  const char *fastest; /* what asks for it */
-  int blind;           /* order of impulses that g does not see; -1: it sees all */
-  sunrealtype inside;  /* a break of f that lies inside a step; NaN: none does */
-  sunrealtype fitting; /* a first step that puts the breaks on the meshes; NaN: none */
-  bool able;           /* the run can begin anew at breaks */
-  bool decidable;      /* a run in many digits would see what rounding hides */
+  sunrealtype size;     /* of the exact value; */
+  sunrealtype accuracy; /* of it, infinite: not known */
+  sunrealtype longest;  /* step that resolves system, f and g; */
+  const char *fastest;  /* what asks for it */
+  int blind;            /* order of impulses that g does not see; -1: it sees all */
+  sunrealtype inside;   /* a break of f that lies inside a step; NaN: none does */
+  sunrealtype fitting;  /* a first step that puts the breaks on the meshes; NaN: none */
+  bool able;            /* the run can begin anew at breaks */
+  bool decidable;       /* a run in many digits would see what rounding hides */
 } stf_judged;
 /* That a break lies inside a step, and the remedy: `what` depends on where. */
 void stf_say_inside(const stf_judged *judged, const char *what, char *text, size_t room);

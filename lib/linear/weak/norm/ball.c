@@ -298,7 +298,7 @@ static int measure(ball *b, steif_ball_row *row)
   }
   for (int j = 0; j < r->count && !code; j++)
     stf_ball_judge(rows + r->space[j].m - 1, q->rows, STF_SPACES, longest, r->space + j);
-  if (!code && isnan(b->inside)) stf_ball_say(r, !q->exact);
+  if (!code && isnan(b->inside)) stf_ball_say(r, q->rows, !q->exact);
   const sunrealtype last = ldexp(w->h, 1 - (int)q->rows);
   if (!code && last > longest) say_long(r, last, longest, fastest);
   if (!code && !isnan(b->inside)) say_inside(b);

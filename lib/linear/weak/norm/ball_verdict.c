@@ -42,7 +42,7 @@ static int first_good(const steif_weak_ball *r)
   return first;
 }
 
-void stf_ball_say(steif_weak_ball *r, bool decidable)
+void stf_ball_say(steif_weak_ball *r, size_t rows, bool decidable)
 {
   char *text = r->verdict;
   const size_t room = sizeof r->verdict;
@@ -62,6 +62,8 @@ void stf_ball_say(steif_weak_ball *r, bool decidable)
   else if (last->converges == 0)
     snprintf(text, room, "does not converge in any H^-m up to %d: norm %.3g, order %.2f there",
              last->m, last->norm, last->order);
+  else if (rows == 1)
+    snprintf(text, room, "none: one row shows no order; three decide (--halvings)");
   else
     snprintf(text, room,
              "undecided: fewer than three norms above rounding, or their orders differ; take "

@@ -34,6 +34,6 @@ void stf_dual_norm(const stf_events *events, int n, int j, const stf_panel *pane
 void stf_ball_judge(const steif_ball_row *row, size_t rows, size_t stride, sunrealtype longest,
                     steif_ball_space *space);
 /* The verdict by all spaces; decidable: runs in many digits would see what rounding hides. */
-void stf_ball_say(steif_weak_ball *ball, bool decidable);
+void stf_ball_say(steif_weak_ball *ball, size_t rows, bool decidable);
 
 #endif
