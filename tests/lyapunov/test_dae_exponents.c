@@ -107,6 +107,31 @@ static void linear_index_3(void)
   steif_context_free(&ctx);
 }
 
+/* E x' = A x + g of index 3, eigenvalues -1/2 +- 3 i: |R(h s)| as before. */
+static void descriptor_forms(void)
+{
+  static const char *const methods[] = {"be", "bdf:p=2", "radau:s=2", "radau:s=3"};
+  const double h = 0.1;
+  const double complex s = -0.5 + 3 * I;
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, "ut5", &p));
+  for (int i = 0; i < 4; i++) {
+    const steif_lyapunov_options o = {.h = h, .t1 = 60, .transient = 30};
+    steif_lyapunov_facts facts;
+    double x[5] = {0};
+    CHECK(!steif_lyapunov(ctx, &p, methods[i], &o, x, NULL, &facts) && facts.count == 2);
+    CLOSE((x[0] + x[1]) / 2, log(size(methods[i], h * s)) / h, 1e-9);
+  }
+  steif_decay d;
+  const steif_lyapunov_options o = {.h = h, .t1 = 60};
+  CHECK(!steif_decay_find(ctx, &p, "be", &o, 0, 0, &d));
+  CHECK(fabs(d.lambda + 0.5) < 1e-6 && d.verdict == STEIF_DECAY_LOST);
+  CHECK(!steif_decay_find(ctx, &p, "radau:s=3", &o, 0, 0, &d));
+  CHECK(fabs(d.lambda + 0.5) < 1e-6 && d.verdict == STEIF_DECAY_KEPT);
+  steif_problem_clear(ctx, &p), steif_context_free(&ctx);
+}
+
 static void asked_for(steif_context *ctx, const steif_problem *p, const char *method, int count,
                       int code, const char *words)
 {
@@ -158,6 +183,7 @@ static void pendulum_in_three_forms(void)
 
 CU_TestInfo tests_of_dae_exponents[] = {
   {"a linear DAE of index 3 has ln |R(h s)| / h", linear_index_3},
+  {"descriptor forms have ln |R(h s)| / h", descriptor_forms},
   {"more exponents than degrees of freedom are rejected", more_than_the_freedom_is_rejected},
   {"the pendulum at index 3, 2 and 1", pendulum_in_three_forms},
   CU_TEST_INFO_NULL};

@@ -67,6 +67,9 @@ typedef struct stf_variation {
 int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem,
                        const char *method, sunrealtype h, sunrealtype t1, int m, int linear,
                        stf_variation *v);
+/* A problem of descriptor form as one with a mass matrix, owned by the pool. */
+int stf_mass_form(stf_pool *pool, steif_context *ctx, const steif_problem *of,
+                  const steif_problem **form);
 /* X becomes u times n x m random numbers, whose columns do not depend on m. */
 void stf_variation_scatter(stf_variation *v);
 /* X and t after one step. */

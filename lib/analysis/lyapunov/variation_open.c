@@ -12,11 +12,6 @@
 static int suits(steif_context *ctx, const steif_problem *p)
 {
   const int form = steif_problem_form(ctx, p);
-  if (!form) return steif_status(ctx);
-  STEIF_CHECK(form != STEIF_DESCRIPTOR, ctx, STEIF_UNSUPPORTED,
-              "problem '%s' has the form %s: its exponents are the real parts of the finite "
-              "eigenvalues, which the analysis of pencils finds",
-              p->name, steif_form_name(form));
   STEIF_CHECK(p->F ? p->idajac != NULL : p->jac != NULL, ctx, STEIF_UNSUPPORTED,
               "problem '%s' has no Jacobian: the variational equation needs .%s", p->name,
               p->F ? "idajac" : "jac");
@@ -226,6 +221,11 @@ int stf_variation_open(stf_pool *pool, steif_context *ctx, const steif_problem *
                        stf_variation *v)
 {
   STEIF_CHECK(problem && method, ctx, STEIF_BAD_INPUT, "a problem and a method are needed");
+  const int form = steif_problem_form(ctx, problem);
+  if (!form) return steif_status(ctx);
+  STEIF_CHECK(form != STEIF_DESCRIPTOR || problem->A, ctx, STEIF_UNSUPPORTED,
+              "problem '%s' has products instead of matrices", problem->name);
+  if (form == STEIF_DESCRIPTOR) STEIF_TRY(stf_mass_form(pool, ctx, problem, &problem));
   *v = (stf_variation){.ctx = ctx, .problem = problem, .method = method, .h = h, .m = m};
   STEIF_TRY(suits(ctx, problem));
   STEIF_TRY(open_method(pool, v));
