@@ -14,9 +14,9 @@
  *   sunrealtype exponent[3];
  *   steif_lyapunov(ctx, &lorenz, "rk4", &o, exponent, NULL, NULL);
  *
- * The problem is an ode with .f and .jac on serial vectors, or a DAE in the mass form or as
- * F(t, y, y') = 0 with .idajac and a constant dF/dy'. A DAE has as many exponents as degrees of freedom: at
- * index 1 the rank of dF/dy', at index 2 and 3 the start values that can be prescribed
+ * The problem is an ode with .f and .jac on serial vectors, or a DAE in the mass form, as a
+ * descriptor system E y' = A y + g with matrices, or as F(t, y, y') = 0 with .idajac and a constant
+ * dF/dy'. A DAE has as many exponents as degrees of freedom: at index 1 the rank of dF/dy', at index 2 and 3 the start values that can be prescribed
  * (steif_diagnose; a wrong number of them is STEIF_BAD_INPUT). Steps carry directions into the tangent
  * space of all constraints, hidden ones too, after `index` steps, with which averages begin; the method
  * has to forget algebraic errors: M(inf) = 0. The part of a linear DAE that it drives to 0 is nilpotent,

@@ -91,9 +91,15 @@ static int degrees_of_freedom(stf_variation *v)
   if (v->finite == v->d || p->dae_index == 1) return STEIF_OK;
   steif_diagnosis found = {0};
   const int code = steif_diagnose(v->ctx, p, &(steif_point){0}, &found);
+  const bool none = !code && found.verdict == STEIF_REGULAR && found.freedom == 0;
   const bool known = !code && found.verdict == STEIF_REGULAR && found.freedom > 0;
   if (known) v->finite = (int)found.freedom, v->index = found.index;
   steif_diagnosis_clear(&found);
+  STEIF_CHECK(
+    !none, v->ctx, STEIF_BAD_INPUT,
+    "'%s' has no degree of freedom, so no exponents: its solution is what the forcing "
+    "says",
+    p->name);
   STEIF_CHECK(
     known, v->ctx, code ? code : STEIF_NOT_CERTIFIED,
     "how many degrees of freedom '%s' has is not known%s%s: an equivalent problem of index "
