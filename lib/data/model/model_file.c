@@ -152,7 +152,9 @@ static int build(stf_model *m, const char *path, const char *text, const steif_s
                  : stf_source_read(&m->syntax.sources, m->pool, path, path));
   STEIF_TRY(stf_parse(&m->syntax, 0));
   STEIF_TRY(stf_complaints(&m->syntax.sources));
-  stf_vector_free(m->ctx, &m->syntax.tokens); /* ten times the bytes of the text */
+  stf_vector_free(m->ctx, &m->syntax.tokens);
+  STEIF_TRY(stf_vector_trim(m->ctx, &m->syntax.codes, sizeof(stf_code)));
+  STEIF_TRY(stf_vector_trim(m->ctx, &m->syntax.statements, sizeof(stf_statement)));
   STEIF_TRY(lower(m, spec));
   return stf_model_fill(m, p);
 }

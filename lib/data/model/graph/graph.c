@@ -215,6 +215,12 @@ int32_t stf_apply(stf_formulas *g, int kind, int32_t a, int32_t b, int32_t c)
   return folded >= 0 ? folded : keep(g, n);
 }
 
+int stf_formulas_trim(stf_formulas *g)
+{
+  stf_vector_free(g->ctx, &g->slots);
+  return stf_vector_trim(g->ctx, &g->nodes, sizeof(stf_node));
+}
+
 void stf_formulas_free(stf_formulas *g)
 {
   stf_vector_free(g->ctx, &g->nodes);

@@ -65,6 +65,8 @@ static inline int32_t stf_apply2(stf_formulas *g, int kind, int32_t a, int32_t b
 bool stf_is_number(const stf_formulas *g, int32_t i, double value);
 /* b and c of a node are nodes where it has so many operands. */
 int stf_children(const stf_node *n, int32_t child[3]);
+/* What growing needs is given back; it can grow again. */
+int stf_formulas_trim(stf_formulas *g);
 void stf_formulas_free(stf_formulas *g);
 
 /* The nodes that `root` reaches, ascending, into `list`; mark has an entry for

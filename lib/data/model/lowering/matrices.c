@@ -178,13 +178,11 @@ static int pattern(stf_model *m, const stf_vector *entries, stf_matrix *M)
   return M->scratch ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-/* Where the entry of each pass is stored. */
-static int slots(stf_model *m, const stf_matrix *M, entry *e)
+/* Where the entry of each pass is stored, into e->slot; returns how many. */
+static int64_t slots(const stf_model *m, const stf_matrix *M, const entry *e)
 {
   const stf_box *box = &block_at(m, e->block)->box;
   const int64_t count = stf_passes(box);
-  e->slot = stf_pool_array(m->pool, (size_t)count, sizeof *e->slot);
-  if (!e->slot) return STEIF_NO_MEMORY;
   for (int64_t k = 0; k < count; k++) {
     const int32_t j = stf_at_pass(box, k, e->column, e->stride);
     const sunindextype row = row_of(box, k, e->equation), *from = M->row + M->column[j];
@@ -192,22 +190,39 @@ static int slots(stf_model *m, const stf_matrix *M, entry *e)
       bsearch(&row, from, (size_t)(M->column[j + 1] - M->column[j]), sizeof row, ascending);
     e->slot[k] = (int32_t)(found - M->row);
   }
+  return count;
+}
+
+static int all_slots(stf_model *m, const stf_vector *entries, const stf_matrix *M)
+{
+  int64_t count = 0;
+  for (size_t i = 0; i < entries->count; i++)
+    count += stf_passes(&block_at(m, STF_AT(*entries, entry, i)->block)->box);
+  int32_t *next = stf_pool_array(m->pool, (size_t)count, sizeof *next);
+  if (!next) return STEIF_NO_MEMORY;
+  for (size_t i = 0; i < entries->count; i++) {
+    entry *e = STF_AT(*entries, entry, i);
+    e->slot = next;
+    next += slots(m, M, e);
+  }
   return STEIF_OK;
 }
 
 static int tapes(stf_model *m, const stf_vector *entries, stf_matrix *M)
 {
   stf_vector stores = {0};
-  int code = STEIF_OK;
+  int code = all_slots(m, entries, M);
   size_t next = 0;
   for (size_t i = 0; !code && i < m->blocks.count; i++) {
     stores.count = 0;
     for (; !code && next < entries->count && STF_AT(*entries, entry, next)->block == i;
          next++) {
-      entry *e = STF_AT(*entries, entry, next);
+      const entry *e = STF_AT(*entries, entry, next);
       stf_store *s = stf_vector_push(m->ctx, &stores, sizeof *s);
-      code = s ? slots(m, M, e) : STEIF_NO_MEMORY;
-      if (!code) *s = (stf_store){.from = e->node, .slot = e->slot};
+      if (s)
+        *s = (stf_store){.from = e->node, .slot = e->slot};
+      else
+        code = STEIF_NO_MEMORY;
     }
     if (!code) code = stf_compile_quantity(m, block_at(m, i), &stores, &M->quantity);
   }
@@ -254,9 +269,10 @@ static int finish(stf_model *m, stf_vector *A, stf_vector *E)
   }
   if (m->form == STEIF_ODE) /* nothing is added to the expressions before the tapes are made */
     for (size_t i = 0; i < m->blocks.count; i++)
-      stf_vector_free(m->ctx, &(*STF_AT(m->blocks, stf_block *, i))->graph.slots);
+      STEIF_TRY(stf_formulas_trim(&block_at(m, i)->graph));
   STEIF_TRY(pattern(m, A, &m->A));
   STEIF_TRY(tapes(m, A, &m->A));
+  stf_vector_free(m->ctx, A);
   if (m->form == STEIF_ODE) return build_values(m, false);
   STEIF_TRY(list(m, true, E));
   STEIF_TRY(pattern(m, E, &m->E));

@@ -267,5 +267,7 @@ int stf_tape_sum(stf_assembly *a)
   if (!code) code = all(&s);
   stf_vector_free(a->ctx, &s.terms);
   stf_vector_free(a->ctx, &s.negative);
+  stf_vector_free(a->ctx, &a->uses);
+  stf_vector_free(a->ctx, &a->maker);
   return code;
 }

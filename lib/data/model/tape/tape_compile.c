@@ -155,6 +155,13 @@ static int result(compiler *c, const stf_store *output)
   return STEIF_OK;
 }
 
+/* What stands in lists by nodes, which a tape no longer needs when all is translated. */
+static void forget_nodes(compiler *c)
+{
+  stf_vector *all[] = {&c->scalar, &c->lane, &c->live};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) stf_vector_free(c->g->ctx, all[i]);
+}
+
 static int translate(compiler *c, size_t count, const stf_store *outputs)
 {
   stf_tape *t = c->tape;
@@ -163,6 +170,7 @@ static int translate(compiler *c, size_t count, const stf_store *outputs)
     STEIF_TRY(t->box.dims ? store(c, outputs + i) : result(c, outputs + i));
   t->operations = (int64_t)(c->assembly.code.count - c->assembly.fixed) +
                   (t->box.dims ? stf_passes(&t->box) * (int64_t)t->wide.count : 0);
+  forget_nodes(c);
   STEIF_TRY(stf_tape_fuse(&c->assembly));
   STEIF_TRY(stf_tape_sum(&c->assembly));
   STEIF_TRY(stf_tape_arrange(&c->assembly));
@@ -177,21 +185,16 @@ int stf_tape_compile(const stf_formulas *g, const stf_box *box, size_t count,
   const size_t nodes_count = g->nodes.count;
   *tape = (stf_tape){.box = *box};
   int code = stf_vector_resize(g->ctx, &c.scalar, nodes_count, sizeof(int32_t));
-  if (!code) code = stf_vector_resize(g->ctx, &c.lane, nodes_count, sizeof(int32_t));
+  if (!code && box->dims)
+    code = stf_vector_resize(g->ctx, &c.lane, nodes_count, sizeof(int32_t));
   if (!code) code = stf_vector_resize(g->ctx, &c.live, nodes_count, 1);
   if (!code) {
     mark(&c, count, outputs);
     code = translate(&c, count, outputs);
   }
-  stf_vector *all[] = {&c.scalar,
-                       &c.lane,
-                       &c.live,
-                       &c.assembly.uses,
-                       &c.assembly.maker,
-                       &c.assembly.number_at,
-                       &c.assembly.negatives,
-                       &c.assembly.code,
-                       &c.assembly.factors};
+  forget_nodes(&c);
+  stf_vector *all[] = {&c.assembly.uses,      &c.assembly.maker, &c.assembly.number_at,
+                       &c.assembly.negatives, &c.assembly.code,  &c.assembly.factors};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) stf_vector_free(g->ctx, all[i]);
   if (code) stf_tape_free(g->ctx, tape);
   return code;

@@ -5,21 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct lexer {
-  stf_sources *sources;
-  stf_words *words;
-  stf_vector *tokens;
-  const char *text;
-  uint32_t base, length, at, line;
-  int open; /* brackets */
-} lexer;
-
-static int wrong(lexer *l, uint32_t at, const char *what)
+static int wrong(stf_lexer *l, uint32_t at, const char *what)
 {
   return stf_complain(l->sources, l->base + at, STEIF_BAD_INPUT, "%s", what);
 }
 
-static int push(lexer *l, int kind, int word, uint32_t at, double number)
+static int push(stf_lexer *l, int kind, int word, uint32_t at, double number)
 {
   stf_token *t = stf_vector_push(l->sources->ctx, l->tokens, sizeof *t);
   if (!t) return STEIF_NO_MEMORY;
@@ -37,7 +28,7 @@ static int push(lexer *l, int kind, int word, uint32_t at, double number)
  */
 
 /* The code point at `at`; *bytes 0 where it is no UTF-8. */
-static uint32_t character(const lexer *l, uint32_t at, uint32_t *bytes)
+static uint32_t character(const stf_lexer *l, uint32_t at, uint32_t *bytes)
 {
   const unsigned char *c = (const unsigned char *)l->text + at;
   const uint32_t left = l->length - at;
@@ -83,7 +74,7 @@ static bool letter(uint32_t c)
 
 static bool digit(uint32_t c) { return c >= '0' && c <= '9'; }
 
-static uint32_t byte(const lexer *l, uint32_t at)
+static uint32_t byte(const stf_lexer *l, uint32_t at)
 {
   return at < l->length ? (unsigned char)l->text[at] : 0;
 }
@@ -92,7 +83,7 @@ static uint32_t byte(const lexer *l, uint32_t at)
  * ----------------------------------------------------------------------------------
  */
 
-static int number(lexer *l)
+static int number(stf_lexer *l)
 {
   const uint32_t from = l->at;
   char copy[64], shown[200];
@@ -125,7 +116,7 @@ static int number(lexer *l)
   return push(l, STF_TOKEN_NUMBER, 0, from, value);
 }
 
-static int name(lexer *l)
+static int name(stf_lexer *l)
 {
   const uint32_t from = l->at;
   uint32_t bytes, c;
@@ -138,7 +129,7 @@ static int name(lexer *l)
 }
 
 /* "..." or {...}: up to its end in the same line. */
-static int enclosed(lexer *l, int kind, char end)
+static int enclosed(stf_lexer *l, int kind, char end)
 {
   const uint32_t from = l->at;
   uint32_t at = from + 1;
@@ -154,7 +145,7 @@ static int enclosed(lexer *l, int kind, char end)
   return STEIF_OK;
 }
 
-static int mark(lexer *l, int word, uint32_t bytes)
+static int mark(stf_lexer *l, int word, uint32_t bytes)
 {
   const uint32_t from = l->at;
   if (word == '(' || word == '[') l->open++;
@@ -165,7 +156,7 @@ static int mark(lexer *l, int word, uint32_t bytes)
   return push(l, STF_TOKEN_MARK, word, from, 0);
 }
 
-static bool goes_on(const lexer *l)
+static bool goes_on(const stf_lexer *l)
 {
   if (l->open) return true;
   if (!l->tokens->count) return false;
@@ -173,7 +164,7 @@ static bool goes_on(const lexer *l)
   return t->kind == STF_TOKEN_MARK && t->at >= l->base && strchr("+-*/^=,", t->word);
 }
 
-static int line_end(lexer *l)
+static int line_end(stf_lexer *l)
 {
   const bool on = goes_on(l);
   if (!on) STEIF_TRY(push(l, STF_TOKEN_END, 0, l->at, 0));
@@ -183,13 +174,13 @@ static int line_end(lexer *l)
 }
 
 /* A line of which nothing can be read is left out up to its end. */
-static void leave(lexer *l)
+static void leave(stf_lexer *l)
 {
   while (l->at < l->length && l->text[l->at] != '\n') l->at++;
   l->open = 0;
 }
 
-static int beyond_ascii(lexer *l)
+static int beyond_ascii(stf_lexer *l)
 {
   uint32_t bytes;
   const uint32_t c = character(l, l->at, &bytes);
@@ -215,7 +206,7 @@ static const char *pair(uint32_t c, uint32_t next)
 }
 
 /* A character of other languages, and what stands for it here. */
-static int meaningless(lexer *l, int c)
+static int meaningless(stf_lexer *l, int c)
 {
   switch (c) {
   case ';':
@@ -231,7 +222,7 @@ static int meaningless(lexer *l, int c)
   }
 }
 
-static int token(lexer *l)
+static int token(stf_lexer *l)
 {
   const uint32_t c = byte(l, l->at);
   if (c == ' ' || c == '\t' || c == '\r') {
@@ -255,29 +246,53 @@ static int token(lexer *l)
   return meaningless(l, (int)c);
 }
 
-int stf_lex(stf_sources *sources, size_t which, stf_words *words, stf_vector *tokens)
+int stf_lex_open(stf_lexer *l, stf_sources *sources, size_t which, stf_words *words,
+                 stf_vector *tokens)
 {
   const stf_text *t = STF_AT(sources->texts, stf_text, which);
-  lexer l = {sources, words, tokens, t->text, t->base, t->length, 0, 1, 0};
+  *l = (stf_lexer){.sources = sources,
+                   .words = words,
+                   .tokens = tokens,
+                   .text = t->text,
+                   .base = t->base,
+                   .length = t->length,
+                   .line = 1};
   const unsigned char *head = (const unsigned char *)t->text;
   const bool wide =
     t->length > 1 && ((head[0] == 0xFF && head[1] == 0xFE) ||
                       (head[0] == 0xFE && head[1] == 0xFF) || !head[0] || !head[1]);
   if (wide)
-    return wrong(&l, 0,
+    return wrong(l, 0,
                  "byte 0 in the text; a model is a UTF-8 text file (this "
                  "begins like UTF-16 or "
                  "binary: save it as UTF-8)");
-  if (t->length > 2 && !memcmp(t->text, "\xEF\xBB\xBF", 3)) l.at = 3;
-  while (l.at < l.length && sources->errors < STF_ERRORS) {
-    const int code = token(&l);
+  if (t->length > 2 && !memcmp(t->text, "\xEF\xBB\xBF", 3)) l->at = 3;
+  return STEIF_OK;
+}
+
+/* The END of a text; the place of what is missing in front of it is behind the last token. */
+static int finish(stf_lexer *l)
+{
+  l->ended = true;
+  if (goes_on(l) && l->tokens->count) {
+    const stf_token *last = STF_AT(*l->tokens, stf_token, l->tokens->count - 1);
+    if (last->at >= l->base) l->at = last->at - l->base + last->length;
+  }
+  return push(l, STF_TOKEN_END, 0, l->at, 0);
+}
+
+int stf_lex_line(stf_lexer *l)
+{
+  const size_t before = l->tokens->count;
+  while (l->at < l->length && l->sources->errors < STF_ERRORS) {
+    const bool new_line = l->text[l->at] == '\n';
+    const int code = token(l);
     if (code == STEIF_NO_MEMORY) return code;
-    if (code) leave(&l);
-    if (code && !byte(&l, l.at)) break;
+    if (code) leave(l);
+    if (code && !byte(l, l->at)) break;
+    if (new_line && l->tokens->count > before &&
+        STF_AT(*l->tokens, stf_token, l->tokens->count - 1)->kind == STF_TOKEN_END)
+      return STEIF_OK;
   }
-  if (goes_on(&l) && l.tokens->count) { /* the place is that of what is missing */
-    const stf_token *last = STF_AT(*l.tokens, stf_token, l.tokens->count - 1);
-    if (last->at >= l.base) l.at = last->at - l.base + last->length;
-  }
-  return push(&l, STF_TOKEN_END, 0, l.at, 0);
+  return finish(l);
 }

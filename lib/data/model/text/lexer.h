@@ -23,8 +23,22 @@ typedef struct stf_token {
   double number;
 } stf_token;
 
-/* The tokens of text number `which`, appended to `tokens`. A line goes on while
- * a bracket is open or its last token is an operator, '=' or ','. */
-int stf_lex(stf_sources *sources, size_t which, stf_words *words, stf_vector *tokens);
+/* Where a text is read. */
+typedef struct stf_lexer {
+  stf_sources *sources;
+  stf_words *words;
+  stf_vector *tokens;
+  const char *text;
+  uint32_t base, length, at, line;
+  int open;   /* brackets */
+  bool ended; /* the last token has been told */
+} stf_lexer;
+
+/* Text number `which`, whose tokens will be appended to `tokens`. */
+int stf_lex_open(stf_lexer *l, stf_sources *sources, size_t which, stf_words *words,
+                 stf_vector *tokens);
+/* The tokens of the next line up to its END, which the last line has too. A line goes on while a bracket is open or
+ * its last token is an operator, '=' or ','. */
+int stf_lex_line(stf_lexer *l);
 
 #endif

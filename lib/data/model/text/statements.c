@@ -282,13 +282,19 @@ static int line(stf_reader *r)
   return STEIF_OK;
 }
 
+/* Line by line: the tokens of one serve the next. Those of the text that includes this one stay in front. */
 int stf_parse(stf_syntax *syntax, size_t which)
 {
   const size_t first = syntax->tokens.count;
-  STEIF_TRY(stf_lex(&syntax->sources, which, &syntax->words, &syntax->tokens));
+  stf_lexer lexer;
   stf_reader r = {.p = {.syntax = syntax, .at = first}, .parent = -1};
-  const size_t end = syntax->tokens.count;
-  while (r.p.at < end && syntax->sources.errors < STF_ERRORS) STEIF_TRY(line(&r));
+  STEIF_TRY(stf_lex_open(&lexer, &syntax->sources, which, &syntax->words, &syntax->tokens));
+  while (!lexer.ended && syntax->sources.errors < STF_ERRORS) {
+    STEIF_TRY(stf_lex_line(&lexer));
+    r.p.at = first;
+    STEIF_TRY(line(&r));
+    syntax->tokens.count = first;
+  }
   if (r.parent < 0) return STEIF_OK;
   const stf_statement *open = STF_AT(syntax->statements, stf_statement, r.parent);
   return stf_complain(&syntax->sources, open->at, STEIF_BAD_INPUT,

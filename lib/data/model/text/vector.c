@@ -31,6 +31,18 @@ int stf_vector_resize(steif_context *ctx, stf_vector *v, size_t count, size_t si
   return STEIF_OK;
 }
 
+int stf_vector_trim(steif_context *ctx, stf_vector *v, size_t size)
+{
+  if (v->room - v->count <= v->count / 8) return STEIF_OK;
+  void *data = stf_allocate(ctx, v->count + 1, size);
+  if (!data) return STEIF_NO_MEMORY;
+  const stf_vector exact = {data, v->count, v->count + 1};
+  if (v->count) memcpy(data, v->data, v->count * size);
+  stf_vector_free(ctx, v);
+  *v = exact;
+  return STEIF_OK;
+}
+
 void stf_vector_free(steif_context *ctx, stf_vector *v)
 {
   if (v->data) stf_release(ctx, v->data);

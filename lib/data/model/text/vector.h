@@ -17,6 +17,8 @@ typedef struct stf_vector {
 void *stf_vector_push(steif_context *ctx, stf_vector *vector, size_t size);
 /* `count` items in all, new ones zeroed. */
 int stf_vector_resize(steif_context *ctx, stf_vector *vector, size_t count, size_t size);
+/* Room for one item more; what it held is given back. */
+int stf_vector_trim(steif_context *ctx, stf_vector *vector, size_t size);
 void stf_vector_free(steif_context *ctx, stf_vector *vector);
 
 #endif
