@@ -164,12 +164,7 @@ static int explain(steif_solver *s, const record *r, steif_failure *f)
                                .weighted = s->problem->index != NULL,
                                .method = s->method};
   STEIF_TRY(residuals(s->ctx, r, &q, f));
-  if (s->events && s->events->crowded)
-    snprintf(f->cause.message, sizeof f->cause.message,
-             "The events %s are the cause: they follow each other ever faster",
-             s->events->name);
-  else
-    STEIF_TRY(steif_explain(s->ctx, s->problem, &q, &scene, &f->cause));
+  STEIF_TRY(steif_explain(s->ctx, s->problem, &q, &scene, &f->cause));
   say(f, s->problem);
   return STEIF_OK;
 }

@@ -65,10 +65,7 @@ static int check_gathering(steif_solver *s, sunrealtype t)
   return STEIF_OK;
 }
 
-bool stf_event_crowded(const steif_solver *s)
-{
-  return s->events && s->events->gathered >= GATHER;
-}
+bool stf_event_crowded(const steif_solver *s) { return s->events && s->events->crowded; }
 
 /* The step ends at t. Rests too short for the clock are left out. */
 static void cut(steif_solver *s, sunrealtype t)
