@@ -321,7 +321,7 @@ endif()
 expect(0 sensitivity rober auto --adjoint --functional "int y3" --t1 40 --rtol 1e-8 --json)
 expect(5 sensitivity bounce bdf --adjoint --functional "int y1" --t1 2 ERR "along its dense output")
 expect(0 sensitivity vdpol auto --t1 1 --rtol 1e-4 --json)
-expect(1 sensitivity rober rodas4 ERR "'rodas4' carries no sensitivities")
+expect(1 sensitivity rober exprb43 ERR "'exprb43' carries no sensitivities")
 # Minima by Gauss-Newton in two other integrators, as tests/fit; the files have six digits.
 set(models ${CMAKE_CURRENT_LIST_DIR}/../examples/models)
 expect(0 fit ${models}/lotka.steif radau:s=3 --data ${models}/lotka.csv --sd 0.05 --plot ${FOLDER}/fit.svg --json)

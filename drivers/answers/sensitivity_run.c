@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* t, y and the columns of S at a time of the last step. */
+/* t, y and the columns of S at a time of the last step, unknowns of index 2 and 3 computed from the others. */
 static int keep(struct call *call, struct sensitivity_answer *a, steif_solver *s, double t,
                 double *row)
 {
@@ -14,9 +14,10 @@ static int keep(struct call *call, struct sensitivity_answer *a, steif_solver *s
   N_Vector d = N_VClone(steif_solution(s));
   int code = d ? STEIF_OK : STEIF_NO_MEMORY;
   row[0] = t;
-  memcpy(row + 1, N_VGetArrayPointer(steif_solution(s)), n * sizeof *row);
+  if (!code) code = steif_output(s, t, d);
+  if (!code) memcpy(row + 1, N_VGetArrayPointer(d), n * sizeof *row);
   for (int k = 0; !code && k < a->count; k++) {
-    code = steif_sensitivity(s, t, a->active[k], d);
+    code = steif_sensitivity_output(s, t, a->active[k], d);
     if (!code) memcpy(row + 1 + n * (size_t)(k + 1), N_VGetArrayPointer(d), n * sizeof *row);
   }
   if (d) N_VDestroy(d);
@@ -150,19 +151,32 @@ static int integrals(struct call *call, struct sensitivity_answer *a, steif_solv
   return code ? fail(call) : EXIT_OK;
 }
 
-/* A parameter whose column is 0, and differences at their rounding. */
+static double size_of(const double *v, size_t n)
+{
+  double most = 0;
+  for (size_t i = 0; i < n; i++) most = fmax(most, fabs(v[i]));
+  return most;
+}
+
+/* After the message: a parameter whose column is 0, or which is 0 itself, columns that have outgrown y, and differences at
+ * their rounding. */
 static void remark(struct sensitivity_answer *a)
 {
-  const size_t n = (size_t)a->problem->n;
-  const double *S = a->value + (a->shown - 1) * a->width + 1 + n;
+  const size_t n = (size_t)a->problem->n, room = sizeof a->outcome.message;
+  const double *y = a->value + (a->shown - 1) * a->width + 1, much = 1e8;
+  const steif_parameters *q = a->problem->parameters;
+  const double floor = tolerance_ratio(a->problem, &a->options);
   char *to = a->outcome.message, name[STEIF_SPEC_WORD];
-  const size_t room = sizeof a->outcome.message;
   for (int k = 0; k < a->count; k++) {
-    double most = 0;
-    for (size_t i = 0; i < n; i++) most = fmax(most, fabs(S[(size_t)k * n + i]));
-    if (most > 0) continue;
+    const double most = size_of(y + (size_t)(k + 1) * n, n), p = sensitivity_scale(a, k);
+    const char *said = most == 0 ? "has no influence"
+                       : p * most > much * fmax(size_of(y, n), floor)
+                         ? "changes y by more than 1e8 of itself: the solution forgets its past"
+                       : q->value[a->active[k]] == 0 && !q->scale
+                         ? "is 0: its scale is taken for 1"
+                         : NULL;
     const size_t used = strlen(to);
-    snprintf(to + used, room - used, "; %s has no influence", sensitivity_name(a, k, name));
+    if (said) snprintf(to + used, room - used, "; %s %s", sensitivity_name(a, k, name), said);
   }
   const size_t used = strlen(to);
   if (a->cost.noise > 1)

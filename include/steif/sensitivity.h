@@ -23,9 +23,11 @@
  * against rtol |S_ik| + atol_i / scale_k; a step passes when y and each column do. Those of one step may be up to 30
  * times as large as those of y, whose sum is to stay below the tolerance (index 0 and 1; never above a tolerance).
  *
- * Served: collocation (gauss, radau, radau1a, lobatto3c, any number of stages), DIRK and BDF with dense, band
- * and sparse matrices, of the indices that these methods serve. STEIF_UNSUPPORTED: other families and `auto`; Krylov
- * storage; constraints; options.ewt.
+ * Served: collocation (gauss, radau, radau1a, lobatto3c, any number of stages), DIRK, BDF, general linear methods and
+ * explicit Runge-Kutta methods, starting procedures too, splittings (verlet), with dense, band and sparse matrices, of the
+ * indices that these methods serve; `auto` takes collocation and BDF. Rosenbrock methods hold J = dF/dy in their steps and
+ * are served where jac and dFdp are given: the derivative of J is a difference of both along the stages, to about 1e-11.
+ * STEIF_UNSUPPORTED: exponential methods, Rosenbrock methods for M(t, y) y' = f; Krylov storage; constraints; options.ewt.
  *
  * Starts. dy0/dp is parameters.start, and has to fulfil the derivatives of the constraints: algebraic equations are
  * checked, and hidden constraints of at most STEIF_DIAGNOSE_LARGEST unknowns, by differences of the consistent start
@@ -68,6 +70,12 @@ extern "C" {
 /* dy = dy(t)/dp_k, k from 0, at t inside the last step, by the dense output of the method differentiated; before the
  * first step at t0. STEIF_BAD_INPUT: k is not carried, or t lies elsewhere. */
 STEIF_EXPORT int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy);
+
+/* The same with unknowns of index 2 and 3 computed from the others, as steif_output does for y, where it does so
+ * (solver.h): derivatives of that by differences, four times its cost a column or more. So they have the order of
+ * components of index 1, instead of that of stages: the multiplier of a pendulum by radau:s=3 order 5 instead of 2, down
+ * to the error of the differences, about 1e-7 of its size. The program shows these. */
+STEIF_EXPORT int steif_sensitivity_output(steif_solver *s, sunrealtype t, int k, N_Vector dy);
 
 /* The time tau(p) of the last event: *dt = dtau/dp_k, and dy = d y(tau(p); p)/dp_k with y before the event, dy/dp_k +
  * y' dtau/dp_k; either may be NULL. In on_event, observe and until the next step. STEIF_BAD_INPUT: there was no event;

@@ -68,7 +68,7 @@ static void bad_input(void)
   refused(p, &d, &out, "bdf", STEIF_BAD_INPUT, "outside its bounds");
   refused(p, &d, &log, "bdf", STEIF_BAD_INPUT, "linear scale");
   refused(p, &d, &few, "bdf", STEIF_BAD_INPUT, "evaluations = -1");
-  refused(p, &d, NULL, "rodas4", STEIF_UNSUPPORTED, "carries no sensitivities");
+  refused(p, &d, NULL, "exprb43", STEIF_UNSUPPORTED, "carries no sensitivities");
   refused(p, &d, NULL, "radao", STEIF_UNKNOWN_NAME, "radau");
   d.count = 3;
   refused(p, &d, NULL, "bdf", STEIF_BAD_INPUT, "3 measurements do not determine 4 parameters");

@@ -3,7 +3,7 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_figures[], tests_of_quadrature[], tests_of_events[],
-  tests_of_higher_index[], tests_of_forward[], tests_of_same_mesh[],
+  tests_of_higher_index[], tests_of_forward[], tests_of_families[], tests_of_same_mesh[],
   tests_of_sensitivity_input[];
 
 SUITE_MAIN({.pName = "figures", .pTests = tests_of_figures},
@@ -11,5 +11,6 @@ SUITE_MAIN({.pName = "figures", .pTests = tests_of_figures},
            {.pName = "higher index", .pTests = tests_of_higher_index},
            {.pName = "events", .pTests = tests_of_events},
            {.pName = "forward", .pTests = tests_of_forward},
+           {.pName = "families", .pTests = tests_of_families},
            {.pName = "same mesh", .pTests = tests_of_same_mesh},
            {.pName = "input", .pTests = tests_of_sensitivity_input})

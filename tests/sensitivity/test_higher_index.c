@@ -55,6 +55,32 @@ static void pendulums_to_eight_digits(void)
   pendulums("pendulum3", "bdf", 1e-8, 1e-5, 1e-4, 1e-3);
 }
 
+/* Multipliers and velocities of index 3 computed from positions, as y is for output: within a tolerance or a few, where
+ * those of the stages are some hundred off. */
+static void shown_values_are_as_good_as_positions(void)
+{
+  static const char *const each[] = {"radau:s=2", "radau:s=3", "radau:s=5", "bdf"};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  steif_options o = steif_defaults();
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, "pendulum3", &p));
+  o.rtol = 1e-6, o.t1 = 1, o.sensitivities = 1;
+  for (size_t m = 0; m < sizeof each / sizeof *each; m++) {
+    steif_solver *s = steif_solver_new(ctx, &p, each[m], &o);
+    CU_ASSERT_FATAL(s && !steif_solve_to(s, 1));
+    N_Vector d = N_VClone(steif_solution(s));
+    for (int k = 0; k < 4; k++) {
+      CHECK(!steif_sensitivity_output(s, 1, k, d));
+      for (int i = 0; i < 5; i++) CLOSE_FLOOR(NV_Ith_S(d, i), pendulum[i][k], 1e-5, 1);
+    }
+    CHECK(steif_sensitivity_output(s, 1, 4, d) == STEIF_BAD_INPUT);
+    N_VDestroy(d);
+    steif_solver_free(&s);
+  }
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
 /* At 1, columns L1, L2, m1, m2, g; Radau IIA in 113-bit arithmetic, index 1 and 3. */
 static void double_pendulums(void)
 {
@@ -202,6 +228,7 @@ static void repaired_starts_have_derivatives(void)
 
 CU_TestInfo tests_of_higher_index[] = {
   {"pendulums to eight digits", pendulums_to_eight_digits},
+  {"shown values are as good as positions", shown_values_are_as_good_as_positions},
   {"double pendulums", double_pendulums},
   {"the slider-crank", slider_crank},
   {"hidden constraints are checked", hidden_constraints_are_checked},

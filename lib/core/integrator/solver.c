@@ -163,9 +163,10 @@ static int open_system(steif_solver *s, int form, N_Vector y, N_Vector yp)
   const steif_options *o = &s->options;
   const sunrealtype scale = o->atol / o->rtol;
   const unsigned other = STF_EXPLICIT | STF_SEMILINEAR;
+  const bool plain = step->method->traits & STF_EXPLICIT && !o->sensitivities;
   if (s->repair.point.pool && !o->force_storage && !(step->method->traits & other))
     return take_system(s, y, yp);
-  if (!(step->method->traits & STF_EXPLICIT))
+  if (!plain)
     return stf_system_open(s->pool, s->ctx,
                            step->method->traits & STF_SEMILINEAR ? semilinear(s) : s->problem,
                            form, o->force_storage ? o->storage : s->problem->storage, scale,

@@ -73,15 +73,16 @@ typedef struct stf_carrier_size {
 typedef struct stf_carrier {
   int (*check)(const stf_step *s); /* NULL: all that the family takes is served */
   stf_carrier_size (*size)(const stf_step *s);
+  int (*open)(struct stf_carry *T); /* claims what else it needs; NULL: nothing */
   /* From T->S to T->next through the attempt just made, whose stages are there; with adaptive steps T->error
    * and T->tolerance too. */
   int (*carry)(struct stf_carry *T, sunrealtype h);
-  /* r_k := M^{-1} r_k, M in factors for the step h; M made anew at (t, Y, Yp). */
+  /* r_k := M^{-1} r_k, M in factors for the step h; M made anew at (t, Y, Yp). NULL where nothing is solved. */
   int (*apply)(stf_step *s, sunrealtype h, int count, N_Vector *const *r,
                N_Vector *const *other);
   int (*renew)(stf_step *s, sunrealtype t, sunrealtype h, N_Vector Y, N_Vector Yp);
   void (*commit)(struct stf_carry *T); /* NULL: S <- next, kept <-> trial */
-  int (*dense)(const struct stf_carry *T, int k, sunrealtype t, N_Vector S);
+  int (*dense)(struct stf_carry *T, int k, sunrealtype t, N_Vector S);
 } stf_carrier;
 /* apply and renew of families that use s->newton. */
 int stf_newton_carry_apply(stf_step *s, sunrealtype h, int count, N_Vector *const *r,
@@ -300,7 +301,7 @@ extern const steif_method steif_method_bdf_adaptive;
 extern const steif_method steif_method_rosenbrock_slopes;
 struct stf_rodas;
 int stf_rodas_inside(const stf_step *s, const struct stf_rodas *r, sunrealtype t,
-                     N_Vector before, N_Vector *u, N_Vector y);
+                     N_Vector before, N_Vector end, N_Vector *u, N_Vector y);
 /* Collocation, which starting procedures use. */
 extern const steif_method steif_method_irk;
 

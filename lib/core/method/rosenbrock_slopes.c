@@ -172,7 +172,7 @@ static void commit(stf_step *s)
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
   const state *e = s->state;
-  return stf_rodas_inside(s, e->r, t, e->before, (N_Vector *)(uintptr_t)e->old, y);
+  return stf_rodas_inside(s, e->r, t, e->before, s->y, (N_Vector *)(uintptr_t)e->old, y);
 }
 
 static void keep(stf_step *s, stf_image *m)

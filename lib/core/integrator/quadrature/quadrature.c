@@ -147,7 +147,7 @@ static int add(steif_solver *s, sunrealtype t, N_Vector y, int column, sunrealty
                sunrealtype *sum)
 {
   stf_quadratures *w = s->quadratures;
-  const stf_carry *T = s->step.carry;
+  stf_carry *T = s->step.carry;
   if (column < 0)
     STEIF_TRY(value(s, t, y, w->g));
   else {

@@ -41,6 +41,9 @@ static int check_parameters(const steif_solver *s)
               "problem '%s' has no parameters: set .parameters", p->name);
   REFUSE(q->obstacle, "sensitivities of problem '%s' cannot be had: %s", p->name, q->obstacle);
   for (int k = 0; k < q->count; k++) {
+    STEIF_CHECK(!q->name || q->name[k], s->ctx, STEIF_BAD_INPUT,
+                "parameter %d of %d of problem '%s' has no name: give all, or .name = NULL",
+                k + 1, q->count, p->name);
     STEIF_CHECK(isfinite(q->value[k]), s->ctx, STEIF_NOT_FINITE,
                 "parameter %d of problem '%s' is %g", k + 1, p->name, q->value[k]);
     STEIF_CHECK(!q->scale || (q->scale[k] > 0 && isfinite(q->scale[k])), s->ctx,
@@ -99,6 +102,19 @@ static int check_start(steif_solver *s, stf_carry *T)
   return code > 0 ? steif_status(s->ctx) : code;
 }
 
+/* Memory for the columns, and what to do without. */
+static int claim(steif_solver *s, int count, int *parameter, sunrealtype *scale, stf_carry **T)
+{
+  *T = stf_pool_array(s->pool, 1, sizeof **T);
+  const int code = *T ? stf_carry_open(&s->step, count, parameter, scale, *T) : STEIF_NO_MEMORY;
+  if (code != STEIF_NO_MEMORY) return code;
+  return STEIF_FAIL(
+    s->ctx, STEIF_NO_MEMORY,
+    "no memory for derivatives of %lld unknowns of problem '%s' by %d parameters "
+    "in '%s': name fewer in options.active, or take a gradient (gradient.h)",
+    (long long)s->problem->n, s->problem->name, count, s->spec);
+}
+
 int stf_sensitivity_open(steif_solver *s)
 {
   const steif_options *o = &s->options;
@@ -114,9 +130,8 @@ int stf_sensitivity_open(steif_solver *s)
               "active_count = %d must be positive", o->active_count);
   const int count = o->active ? o->active_count : s->problem->parameters->count;
   STEIF_TRY(choose(s, count, &parameter, &scale));
-  stf_carry *T = stf_pool_array(s->pool, 1, sizeof *T);
-  if (!T) return STEIF_NO_MEMORY;
-  STEIF_TRY(stf_carry_open(&s->step, count, parameter, scale, T));
+  stf_carry *T;
+  STEIF_TRY(claim(s, count, parameter, scale, &T));
   for (int k = 0; k < count; k++) {
     const int code = steif_parameter_start(s->ctx, s->problem, parameter[k], T->S[k]);
     if (code) return code > 0 ? steif_status(s->ctx) : code;
@@ -151,7 +166,7 @@ int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy)
   int i = 0;
   if (s && s->run.columns.count) return stf_engine_carried(s, t, k, dy);
   STEIF_TRY(stf_column(s, k, &i));
-  const stf_carry *T = s->step.carry;
+  stf_carry *T = s->step.carry;
   STEIF_CHECK(dy && N_VGetLength(dy) == s->problem->n, s->ctx, STEIF_BAD_INPUT,
               "a vector of %lld components is needed for dy/dp", (long long)s->problem->n);
   const stf_step *step = &s->step;

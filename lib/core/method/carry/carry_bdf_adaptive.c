@@ -53,7 +53,7 @@ static int carry(stf_carry *T, sunrealtype h)
   return STEIF_OK;
 }
 
-static int carried_dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)
+static int carried_dense(stf_carry *T, int k, sunrealtype t, N_Vector S)
 {
   const state *e = T->step->state;
   sunrealtype weight[STF_BDF_POINTS];

@@ -12,7 +12,7 @@ int stf_carry_direct_open(stf_carry *T)
   const size_t n = (size_t)s->problem->n, N = n * (size_t)T->size.stages;
   const size_t most = DIRECT_ALONE + DIRECT_BY_COLUMN * (size_t)T->count;
   T->K = NULL;
-  if (s->system.linear || !stf_matrices_at_adds(&T->at)) return STEIF_OK;
+  if (N == 0 || s->system.linear || !stf_matrices_at_adds(&T->at)) return STEIF_OK;
   if (N > (most < DIRECT_LARGEST ? most : DIRECT_LARGEST)) return STEIF_OK;
   T->rhs = stf_pool_array(s->pool, N * (size_t)T->count, sizeof *T->rhs);
   T->pivot = stf_pool_array(s->pool, N, sizeof *T->pivot);

@@ -74,7 +74,7 @@ static int carry(stf_carry *T, sunrealtype h)
   return code;
 }
 
-static int dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)
+static int dense(stf_carry *T, int k, sunrealtype t, N_Vector S)
 {
   const stf_step *s = T->step;
   const state *e = s->state;

@@ -268,7 +268,7 @@ static int carry(stf_carry *T, sunrealtype h)
   return stf_carry_bdf(T, 0, T->step->t, h, e->k, e->alpha, e->y, T->step->next, 1, &same);
 }
 
-static int carried_dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)
+static int carried_dense(stf_carry *T, int k, sunrealtype t, N_Vector S)
 {
   const state *e = T->step->state;
   sunrealtype value[HIGHEST + 2];

@@ -236,7 +236,7 @@ static int carry(stf_carry *T, sunrealtype h)
   return STEIF_OK;
 }
 
-static int carried_dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)
+static int carried_dense(stf_carry *T, int k, sunrealtype t, N_Vector S)
 {
   return polynomial(T->step, t, T->before[k], T->S[k], T->kept[k], S);
 }

@@ -1,7 +1,7 @@
 /* erk.c: explicit Runge-Kutta methods, for contrast and for nonstiff problems. A table with embedded
  * weights chooses steps; inside of them its solution is that of a shorter step, of full order.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "method.h"
+#include "carry.h"
 
 typedef struct state {
   const steif_table *table;
@@ -88,6 +88,91 @@ static int dense_by_f(stf_step *s, sunrealtype t, N_Vector y)
   return stf_hermite(s, t, e->before, e->slope, e->end_slope, y);
 }
 
+/* ---- derivatives by parameters: trial and kept hold those of the slopes K ------------------------ */
+
+static stf_carrier_size sizes(const stf_step *s)
+{
+  const state *e = s->state;
+  return (stf_carrier_size){e->table->s, 0, e->table->s, e->table->s, 0};
+}
+
+/* Of a step of length h from (t, y, S), whose slopes are there: those of the slopes, into trial. Of columns first ..
+ * first + count - 1. */
+static int carry_slopes(stf_carry *T, sunrealtype t, sunrealtype h, N_Vector y, N_Vector *S,
+                        int first, int count)
+{
+  stf_step *s = T->step;
+  const state *e = s->state;
+  const stf_space *space = &s->system.space;
+  for (int i = 0; i < e->table->s; i++) {
+    const sunrealtype *a = e->table->A + i * e->table->s;
+    if (i > 0) advance(s, y, i, a, h, e->work);
+    STEIF_TRY(stf_carry_point(T, i, t + e->table->c[i] * h, i > 0 ? e->work : y, e->K[i]));
+    for (int k = first; k < first + count; k++) {
+      stf_combine(space, i, a, T->trial[k], T->Y);
+      stf_sum(space, 1, S[k], h, T->Y, T->Y);
+      STEIF_TRY(stf_carry_residual(T, i, k, T->Y, NULL, T->trial[k][i]));
+    }
+  }
+  return STEIF_OK;
+}
+
+/* out = S + h sum_j b_j dK_j of column k. */
+static void carry_end(const stf_carry *T, sunrealtype h, N_Vector S, int k, N_Vector out)
+{
+  const steif_table *table = ((const state *)T->step->state)->table;
+  const stf_space *space = &T->step->system.space;
+  stf_combine(space, table->s, table->b, T->trial[k], out);
+  stf_sum(space, 1, S, h, out, out);
+}
+
+static int carry(stf_carry *T, sunrealtype h)
+{
+  stf_step *s = T->step;
+  const state *e = s->state;
+  const stf_space *space = &s->system.space;
+  STEIF_TRY(carry_slopes(T, s->t, h, s->y, T->S, 0, T->count));
+  for (int k = 0; k < T->count; k++) {
+    carry_end(T, h, T->S[k], k, T->next[k]);
+    if (!s->adaptive) continue;
+    stf_combine(space, e->table->s, e->differ, T->trial[k], T->error[k]);
+    stf_scale(space, h, T->error[k], T->error[k]);
+    T->tolerance[k] =
+      stf_carry_allowed(s, s->control.tolerance, s->control.order, e->table->order);
+  }
+  return STEIF_OK;
+}
+
+/* The cubic, with the slope of S at the end. */
+static int carried_cubic(stf_carry *T, int k, sunrealtype t, N_Vector S)
+{
+  stf_step *s = T->step;
+  const sunrealtype x = (t - (s->t - s->h)) / s->h, u = 1 - x;
+  const sunrealtype c[] = {u * u * (1 + 2 * x), x * x * (1 + 2 * u), s->h * x * u * u,
+                           -s->h * x * x * u};
+  N_Vector v[] = {T->before[k], T->S[k], T->kept[k][0], T->Yp};
+  STEIF_TRY(stf_carry_point(T, 0, s->t, s->y, s->yp));
+  STEIF_TRY(stf_carry_residual(T, 0, k, T->S[k], NULL, T->Yp));
+  stf_combine(&s->system.space, 4, c, v, S);
+  return STEIF_OK;
+}
+
+/* As y inside a step, by the steps that this takes. */
+static int carried_dense(stf_carry *T, int k, sunrealtype t, N_Vector S)
+{
+  stf_step *s = T->step;
+  state *e = s->state;
+  const sunrealtype from = s->t - s->h;
+  if (!e->table->bhat) return carried_cubic(T, k, t, S);
+  e->begun = false;
+  STEIF_TRY(run(s, from, e->before, 0, t - from, T->last));
+  STEIF_TRY(carry_slopes(T, from, t - from, e->before, T->before, k, 1));
+  carry_end(T, t - from, T->before[k], k, S);
+  return STEIF_OK;
+}
+
+static const stf_carrier carrier = {.size = sizes, .carry = carry, .dense = carried_dense};
+
 static void keep(stf_step *s, stf_image *m)
 {
   const state *e = s->state;
@@ -131,4 +216,5 @@ const steif_method steif_method_erk = {
   .keep = keep,
   .propagator = propagator,
   .describe = describe,
+  .carrier = &carrier,
 };

@@ -6,33 +6,24 @@
  * estimate. Where there is none the change of z_p = h^p y^(p) since the last step gives it, in the first
  * step the values of the start. The start is fitted to p further values within the first step.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "starting_values.h"
-#include "stage_chain.h"
-#include "general.h"
+#include "glm_state.h"
 #include <math.h>
-#include <string.h>
 
-enum { DATA = STF_LEAST, POWERS = STEIF_PAST + 1 };
+enum { DATA = STF_GLM_DATA, POWERS = STF_GLM_POWERS };
 
 static const sunrealtype rounding = 5e-14;
 
-typedef struct state {
-  const steif_glm *g;
-  int k, r, p, data; /* data: 2 k + r */
-  stf_chain chain;
-  stf_begin begin;
-  N_Vector *at, *past, *slopes; /* X_n, X_{n-1} scaled as in the last step, its F */
-  N_Vector *from, *to;          /* trial: X_n for another h, X_{n+1} */
-  N_Vector *x;                  /* X_n of the trial: at or from */
-  N_Vector before;
-  stf_carried carried;
-  sunrealtype wanted, explicit_share; /* what the error may be where nothing is forgotten */
-  sunrealtype scale;                  /* h that belongs to at */
-  long seen, since;                   /* Jacobians counted, and the step since which */
-  sunrealtype *first;                 /* k x (p + 1): X_0 from the values of the start */
-  sunrealtype z[POWERS * DATA], finish[DATA], error[DATA]; /* rows of weights */
-  bool known[POWERS], estimates, dense, begun; /* begun: the trial is a first step */
-} state;
+typedef stf_glm_state state;
+
+static stf_glm_step last_step(const state *e)
+{
+  return (stf_glm_step){e->at, e->slopes, e->past, e->scale};
+}
+
+static stf_glm_step trial_step(const state *e, sunrealtype h)
+{
+  return (stf_glm_step){e->to, e->chain.K, e->x, h};
+}
 
 static bool uses(const steif_glm *g, int j)
 {
@@ -132,85 +123,38 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 
 /* ---- a step ---- */
 
-/* out = d (X_{n+1}; h F; X_n), where d is not 0. */
-static void combine(const stf_step *s, const sunrealtype *d, N_Vector *X, N_Vector *F,
-                    sunrealtype h, N_Vector *before, N_Vector out)
-{
-  const state *e = s->state;
-  sunrealtype weight[DATA];
-  N_Vector v[DATA];
-  int count = 0;
-  for (int i = 0; i < e->data; i++) {
-    if (d[i] == 0) continue;
-    const int f = i - e->k, b = f - e->r;
-    weight[count] = f >= 0 && b < 0 ? h * d[i] : d[i];
-    v[count++] = f < 0 ? X[i] : b < 0 ? F[f] : before[b];
-  }
-  stf_combine(&s->system.space, count, weight, v, out);
-}
-
-/* X_n for steps of length h. */
-static void rescale(stf_step *s, sunrealtype h)
-{
-  state *e = s->state;
-  const int n = e->p + 1;
-  for (int i = 0; i < e->k; i++) {
-    sunrealtype row[DATA] = {0}, power = 1;
-    for (int j = 0; j < n; j++, power *= h / e->scale)
-      for (int m = 0; m < e->data && e->g->W[i * n + j] != 0; m++)
-        row[m] += e->g->W[i * n + j] * power * e->z[j * e->data + m];
-    combine(s, row, e->at, e->slopes, e->scale, e->past, e->from[i]);
-  }
-}
-
 static int history(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   e->x = e->from;
   if (e->begun) {
     STEIF_TRY(stf_begin_run(s, &e->begin, h));
-    stf_mix(&s->system.space, e->k, e->begin.count + 1, e->first, e->begin.value, e->from);
+    stf_mix(&s->system.space, e->k, e->begin.count + 1, e->first, e->begin.part->value,
+            e->from);
     return STEIF_OK;
   }
   /* Lengths that differ by the rounding of the clock are the same. */
   if (fabs(h - e->scale) <= 4 * STF_EPS * (fabs(s->t) + h))
     e->x = e->at;
-  else
-    rescale(s, h);
+  else {
+    const stf_glm_step last = last_step(e);
+    stf_glm_rescale(s, h, &last, e->from);
+  }
   return STEIF_OK;
 }
 
 static int advance(stf_step *s, sunrealtype h)
 {
-  state *e = s->state;
-  const steif_glm *g = e->g;
-  for (int i = 0; i < e->k; i++) {
-    sunrealtype row[DATA] = {0};
-    memcpy(row + e->k, g->D + i * e->r, (size_t)e->r * sizeof *row);
-    memcpy(row + e->k + e->r, g->V + i * e->k, (size_t)e->k * sizeof *row);
-    combine(s, row, e->to, e->chain.K, h, e->x, e->to[i]);
-  }
-  combine(s, e->finish, e->to, e->chain.K, h, e->x, s->next);
+  const state *e = s->state;
+  const stf_glm_step now = trial_step(e, h);
+  stf_glm_advance(s, &now, s->next);
   if (!stf_finite(&s->system.space, s->next))
     return STEIF_RECOVER(
       s->ctx, STEIF_NOT_FINITE,
       "the step of problem '%s' from t = %.12g with h = %.6g overflowed: the "
       "step is too large for '%s'",
-      s->problem->name, s->t, h, g->name);
+      s->problem->name, s->t, h, e->g->name);
   return STEIF_OK;
-}
-
-/* error h^{p+1} y^{(p+1)} from h^p y^(p) at both ends. */
-static void difference(stf_step *s, sunrealtype h, N_Vector out)
-{
-  state *e = s->state;
-  const sunrealtype *z = e->z + e->p * e->data;
-  const sunrealtype power = pow(h / e->scale, e->p);
-  sunrealtype now[DATA], before[DATA];
-  for (int i = 0; i < e->data; i++) now[i] = e->g->error * z[i], before[i] = power * now[i];
-  combine(s, now, e->to, e->chain.K, h, e->x, out);
-  combine(s, before, e->at, e->slopes, e->scale, e->past, s->error);
-  stf_axpy(&s->system.space, -1, s->error, out);
 }
 
 static int estimate(stf_step *s, sunrealtype h)
@@ -218,12 +162,11 @@ static int estimate(stf_step *s, sunrealtype h)
   state *e = s->state;
   const stf_space *space = &s->system.space;
   const sunrealtype filter = e->chain.gamma > 0 ? 1 / (e->chain.gamma * h) : 1;
-  if (e->estimates)
-    combine(s, e->error, e->to, e->chain.K, h, e->x, e->chain.base);
-  else if (e->begun)
-    stf_sum(space, 1, s->next, -1, e->begin.value[e->begin.count], e->chain.base);
+  const stf_glm_step now = trial_step(e, h), last = last_step(e);
+  if (e->begun && !e->estimates)
+    stf_sum(space, 1, s->next, -1, e->begin.part->value[e->begin.count], e->chain.base);
   else
-    difference(s, h, e->chain.base);
+    stf_glm_error(s, &now, &last, s->error, e->chain.base);
   stf_scale(space, filter, e->chain.base, e->chain.base);
   return stf_chain_filter(s, &e->chain);
 }
@@ -284,19 +227,11 @@ static void commit(stf_step *s)
   if (s->system.form == STEIF_IMPLICIT) stf_copy(&s->system.space, e->slopes[e->r - 1], s->yp);
 }
 
-/* Taylor's polynomial at the end of the step, or where it is not known the straight line. */
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
   const state *e = s->state;
-  const sunrealtype x = (t - s->t) / s->h;
-  if (!e->dense) {
-    stf_sum(&s->system.space, 1 + x, s->y, -x, e->before, y);
-    return STEIF_OK;
-  }
-  sunrealtype d[DATA] = {0}, term = 1;
-  for (int j = 0; j <= e->p; j++, term *= x / j)
-    for (int m = 0; m < e->data; m++) d[m] += term * e->z[j * e->data + m];
-  combine(s, d, e->at, e->slopes, e->scale, e->past, y);
+  const stf_glm_step last = last_step(e);
+  stf_glm_dense(s, t, &last, e->before, s->y, y);
   return STEIF_OK;
 }
 
@@ -394,4 +329,5 @@ const steif_method steif_method_glm = {
   .keep = keep,
   .propagator = propagator,
   .describe = describe,
+  .carrier = &stf_glm_carrier,
 };

@@ -319,7 +319,7 @@ static int carry(stf_carry *T, sunrealtype h)
   return stf_carry_collocation(T, h, &c);
 }
 
-static int carried_dense(const stf_carry *T, int k, sunrealtype t, N_Vector S)
+static int carried_dense(stf_carry *T, int k, sunrealtype t, N_Vector S)
 {
   const stf_step *s = T->step;
   const state *e = s->state;

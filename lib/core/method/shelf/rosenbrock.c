@@ -1,21 +1,11 @@
 /* rosenbrock.c: linearly implicit methods with one real shift and no iteration (rosenbrock_data.h): few digits,
  * smooth problems.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "lu.h"
-#include "method.h"
+#include "rosenbrock_state.h"
 #include <complex.h>
 #include <math.h>
 
-typedef struct state {
-  const stf_rodas *r;
-  stf_newton *newton;
-  N_Vector u[STF_RODAS_STAGES], old[STF_RODAS_STAGES]; /* of the trial, of the last step */
-  N_Vector Y, sum, ft, f0, before;
-  bool have_f0;  /* f0 = f(t_n, y_n), ft = df/dt there */
-  bool unrolled; /* the stages run through `kernel` */
-  stf_rosenbrock kernel;
-  sunrealtype h_factored;
-} state;
+typedef stf_rosenbrock_state state;
 
 /* Serial vectors and dense matrices of few unknowns. */
 static bool serves(const stf_step *s)
@@ -40,7 +30,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
     if (!(e->u[i] = stf_pool_vector(s->pool, s->y)) ||
         !(e->old[i] = stf_pool_vector(s->pool, s->y)))
       return STEIF_NO_MEMORY;
-  e->unrolled = serves(s);
+  e->unrolled = serves(s) && !s->options->sensitivities;
   if (e->unrolled) stf_system_rosenbrock_open(&s->system, &e->kernel);
   s->newton.jacobian_new = false;
   STEIF_TRY(stf_share_open(s, spec->name, e->r->order - 1, e->r->order));
@@ -180,7 +170,7 @@ static void commit(stf_step *s)
 
 /* (1 - x) y_n + x y_{n+1} + x (1 - x) sum (d_i + x d_{s+i}) u_i. */
 int stf_rodas_inside(const stf_step *s, const stf_rodas *r, sunrealtype t, N_Vector before,
-                     N_Vector *u, N_Vector y)
+                     N_Vector end, N_Vector *u, N_Vector y)
 {
   const stf_space *space = &s->system.space;
   const sunrealtype x = (t - (s->t - s->h)) / s->h;
@@ -188,14 +178,14 @@ int stf_rodas_inside(const stf_step *s, const stf_rodas *r, sunrealtype t, N_Vec
   for (int i = 0; i < r->s; i++) c[i] = x * (1 - x) * (r->d[i] + x * r->d[r->s + i]);
   stf_combine(space, r->s, c, u, y);
   stf_axpy(space, 1 - x, before, y);
-  stf_axpy(space, x, s->y, y);
+  stf_axpy(space, x, end, y);
   return STEIF_OK;
 }
 
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
   const state *e = s->state;
-  return stf_rodas_inside(s, e->r, t, e->before, (N_Vector *)(uintptr_t)e->old, y);
+  return stf_rodas_inside(s, e->r, t, e->before, s->y, (N_Vector *)(uintptr_t)e->old, y);
 }
 
 static void keep(stf_step *s, stf_image *m)
@@ -277,4 +267,5 @@ const steif_method steif_method_rosenbrock = {
   .keep = keep,
   .propagator = propagator,
   .describe = describe,
+  .carrier = &stf_rosenbrock_carrier,
 };

@@ -8,6 +8,7 @@
  * remember their rounding, by default in runs of LONG steps and more.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "carry.h"
 #include "kick_drift.h"
 #include "splitting.h"
 #include <string.h>
@@ -105,6 +106,63 @@ static int dense_by_f(stf_step *s, sunrealtype t, N_Vector y)
   return flow(s, t - s->t, (stf_point){y, e->next_error});
 }
 
+/* ---- derivatives by parameters: each flow is a shear, its derivative another ---------------------- */
+
+static stf_carrier_size sizes(const stf_step *s)
+{
+  (void)s;
+  return (stf_carrier_size){.points = 1};
+}
+
+/* out_k += c (df/dy out_k + df/dp_k) at (t, y), in components `low` to `high` - 1; of columns from `first` on. */
+static int shear(stf_carry *T, sunrealtype t, N_Vector y, sunrealtype c, sunindextype low,
+                 sunindextype high, int first, int count, N_Vector *out)
+{
+  if (c == 0) return STEIF_OK;
+  STEIF_TRY(stf_carry_point(T, 0, t, y, T->last_slope));
+  for (int k = 0; k < count; k++) {
+    STEIF_TRY(stf_carry_residual(T, 0, first + k, out[k], NULL, T->Yp));
+    for (sunindextype i = low; i < high; i++) STF_ARRAY(out[k])[i] += c * STF_ARRAY(T->Yp)[i];
+  }
+  return STEIF_OK;
+}
+
+/* Through a flow of length h from y, columns `first` on from S to out; without what rounding took. */
+static int carry_flow(stf_carry *T, sunrealtype h, N_Vector y, int first, int count,
+                      N_Vector *S, N_Vector *out)
+{
+  stf_step *s = T->step;
+  state *e = s->state;
+  const stf_passes *P = &e->passes;
+  const sunindextype m = e->halves.m, n = s->problem->n;
+  const stf_point at = {T->last, NULL};
+  stf_zero(&s->system.space, T->last_slope);
+  stf_copy(&s->system.space, y, at.y);
+  for (int k = 0; k < count; k++) stf_copy(&s->system.space, S[k], out[k]);
+  for (int i = 0; i < P->count; i++) {
+    const sunrealtype a = P->kick[i] * h, b = P->drift[i] * h;
+    const sunrealtype t = s->t + P->kick_at[i] * h, then = s->t + P->drift_at[i] * h;
+    STEIF_TRY(shear(T, t, at.y, a, m, n, first, count, out));
+    if (a != 0) STEIF_TRY(stf_kick_drift_force(&e->halves, t, at.y, T->Y));
+    if (a != 0) STEIF_TRY(stf_kick_drift_pass(&e->halves, a, T->Y, 0, t, at, at));
+    STEIF_TRY(shear(T, then, at.y, b, 0, m, first, count, out));
+    if (b != 0) STEIF_TRY(stf_kick_drift_pass(&e->halves, 0, T->Y, b, then, at, at));
+  }
+  return STEIF_OK;
+}
+
+static int carry(stf_carry *T, sunrealtype h)
+{
+  return carry_flow(T, h, T->step->y, 0, T->count, T->S, T->next);
+}
+
+static int carried_dense(stf_carry *T, int k, sunrealtype t, N_Vector S)
+{
+  return carry_flow(T, t - T->step->t, T->step->y, k, 1, T->S + k, &S);
+}
+
+static const stf_carrier carrier = {.size = sizes, .carry = carry, .dense = carried_dense};
+
 static void keep(stf_step *s, stf_image *m)
 {
   state *e = s->state;
@@ -167,4 +225,5 @@ const steif_method steif_method_symplectic = {
   .keep = keep,
   .propagator = propagator,
   .describe = describe,
+  .carrier = &carrier,
 };
