@@ -10,6 +10,7 @@
 #include <steif/linear.h>
 #include <steif/steif.h>
 #include <string.h>
+#include <sunmatrix/sunmatrix_dense.h>
 
 enum { N = 5 };
 static const double end = 20;
@@ -143,6 +144,56 @@ static void runs_show_multipliers_recomputed(void)
   CHECK(steif_output(NULL, 0, NULL) == STEIF_BAD_INPUT);
 }
 
+/* A bead on x = cos(angle): constraints that are no polynomials. g = x - cos(angle), and g'' = 0 gives the
+ * multiplier of any angle and speed, (w^2 cos - 2 sin^2) / (1 + sin^2). */
+static int bead(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  const sunrealtype *a = N_VGetArrayPointer(y), s = sin(a[0]);
+  sunrealtype *f = N_VGetArrayPointer(r);
+  (void)t, (void)user;
+  f[0] = a[2], f[1] = a[3];
+  f[2] = -2 * s - s * a[4], f[3] = -a[4];
+  f[4] = a[1] - cos(a[0]);
+  return 0;
+}
+
+static int four(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  for (int i = 0; i < 4; i++) SM_ELEMENT_D(E, i, i) = 1;
+  return 0;
+}
+
+static void multipliers_of_curved_constraints_are_recomputed(void)
+{
+  static const double y0[] = {0.5, 0.87758256189037276, 2, -0.95885107720840601,
+                              0}; /* cos, -2 sin */
+  static const int index[] = {1, 1, 2, 2, 3};
+  const steif_problem p = {.name = "bead",
+                           .n = N,
+                           .t1 = 1,
+                           .y0 = y0,
+                           .f = bead,
+                           .E = four,
+                           .index = index,
+                           .dae_index = 3};
+  for (int k = 0; k < 2; k++) {
+    steif_context *ctx = steif_context_new(NULL);
+    const double rtol = k ? 1e-8 : 1e-5;
+    const steif_options o = {.rtol = rtol, .atol = rtol, .recompute = 1};
+    steif_solver *s = steif_solver_new(ctx, &p, "radau:s=3", &o);
+    for (int i = 1; i <= 8; i++) {
+      CU_ASSERT_FATAL(s && !steif_solve_to(s, i / 8.0));
+      const double *y = N_VGetArrayPointer(steif_solution(s)), c = cos(y[0]), q = 1 - c * c;
+      double drift, corrected;
+      CHECK(!steif_recomputed(s, &drift, &corrected) && drift < 10);
+      CLOSE_FLOOR(y[4], (y[2] * y[2] * c - 2 * q) / (1 + q), 1e-8, 1);
+    }
+    steif_solver_free(&s);
+    steif_context_free(&ctx);
+  }
+}
+
 /* One step of backward Euler of 1e-6 and 1e-8 seconds, index 3: rounding in the accelerations and
  * multipliers is of the size 1e-16 / h^2, which the weights of the index leave out; two corrections do. */
 static void tiny_steps_at_index_three_converge(void)
@@ -194,6 +245,8 @@ CU_TestInfo tests_of_drift[] = {
   {"orders fall with the index", orders_fall_with_the_index},
   {"multipliers are recomputed", multipliers_are_recomputed},
   {"runs show multipliers recomputed", runs_show_multipliers_recomputed},
+  {"multipliers of curved constraints are recomputed",
+   multipliers_of_curved_constraints_are_recomputed},
   {"tiny steps at index three converge", tiny_steps_at_index_three_converge},
   {"the amplifier has its slopes", the_amplifier_has_its_slopes},
   CU_TEST_INFO_NULL};

@@ -117,16 +117,25 @@ static void look_at_nodes(stf_start_nodes *nodes, sunrealtype slow, sunrealtype 
   nodes->uses++;
 }
 
-/* Nodes serve the curves near to that they were chosen for: large systems spare the search for others. */
-static int jacobian(void *data, stf_nearest_point *m)
+/* Nodes serve the curves near to that they were chosen for: large systems spare the search for others, and so do
+ * points beside which some are remembered. The first curve of a stage has slopes that are guesses, or 0: nodes are
+ * looked for along the next ones, too. */
+static bool searches(stf_stage *w, bool sparse)
 {
   enum { SEARCHES = 3 };
+  if (w->chosen == 0) w->recalled = w->task->nodes && remembered(w);
+  if (w->recalled) return false;
+  return (!sparse && !w->task->nodes) || w->chosen < SEARCHES;
+}
+
+static int jacobian(void *data, stf_nearest_point *m)
+{
   stf_stage *w = data;
   stf_point *point = w->task->point;
   put(w, m->z);
   STEIF_TRY(stf_view_take(point, w->curve.t, w->u, w->u + w->n, &w->view));
   rescale(w);
-  if (w->task->nodes ? w->chosen == 0 && !remembered(w) : !m->sparse || w->chosen < SEARCHES) {
+  if (searches(w, m->sparse)) {
     STEIF_TRY(
       stf_total_derivatives_choose(&w->derivatives, &w->curve, w->task->scale, w->order));
     remember(w);

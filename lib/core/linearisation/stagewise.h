@@ -21,6 +21,7 @@ typedef struct stf_stage {
   size_t *equation, *unknown, *row; /* row[i] of equation i in this stage */
   int *order;                       /* n: of equation i in this stage, -1 */
   int chosen;                       /* how often nodes of derivatives were chosen in it */
+  bool recalled;                    /* they are those of a point beside */
   stf_total_derivatives derivatives;
   stf_curve curve;
 } stf_stage;
