@@ -56,7 +56,7 @@ size_t stf_report_most(const char *key, const json_t *value)
   int precision;
   locate(key, &conversion, &precision);
   if (!strcmp(key, "rtol") || !strcmp(key, "atol")) return GIVEN; /* seldom with many digits */
-  if (!strcmp(key, "status")) return STATUS; /* "not certified" */
+  if (!strcmp(key, "status")) return STATUS;                      /* "not certified" */
   if (json_is_null(value)) return NONE;
   if (json_is_integer(value)) return WHOLE;
   if (json_is_array(value) || !stf_report_is_number(value)) return TEXT;
