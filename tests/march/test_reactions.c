@@ -310,10 +310,44 @@ static void linear_problems_jump(void)
   steif_context_free(&ctx);
 }
 
+static int below_level(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  (void)t;
+  *g = NV_Ith_S(y, 1) - *(const sunrealtype *)user;
+  return 0;
+}
+
+static int halve_level(sunrealtype t, N_Vector y, const int *fired, void *user)
+{
+  (void)t, (void)y;
+  CHECK(fired[0] == -1);
+  *(sunrealtype *)user /= 2;
+  return STEIF_RESTART;
+}
+
+/* y2 = exp(-t) falls below 1/2, and then below the next half, since that is what the handler makes of g; the change of g
+ * itself is no crossing. */
+static void levels_may_be_moved_by_the_handler(void)
+{
+  static const char *const methods[] = {"radau:s=3", "bdf", "rodas4", "cvode", "arkode"};
+  steif_context *ctx = steif_context_new(NULL);
+  for (int m = 0; m < 5; m++) {
+    sunrealtype level = 0.5;
+    steif_problem p = watched_problem(1, below_level);
+    p.handle_event = halve_level, p.user = &level, p.t1 = 3;
+    watched w;
+    CHECK(!watched_run(ctx, &p, methods[m], 0, &w));
+    CHECK(w.count == 4);
+    for (int k = 0; k < w.count; k++) CLOSE(w.t[k], (k + 1) * log(2), 1e-5);
+  }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_reactions[] = {
   {"a state is changed and shown from both sides",
    a_state_is_changed_and_shown_from_both_sides},
   {"a reaction may end the run", a_reaction_may_end_the_run},
+  {"levels may be moved by the handler", levels_may_be_moved_by_the_handler},
   {"sliding along a surface is said", sliding_is_said},
   {"bounces without end are said", bounces_without_end_are_said},
   {"nothing falls through the floor", nothing_falls_through_the_floor},

@@ -2,6 +2,7 @@
  * collection, relative to atol/rtol + |reference|; multipliers of index 2 and 3 have two digits less.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "smooth.h"
+#include <stdbool.h>
 
 typedef struct row {
   const char *problem;
@@ -245,6 +246,58 @@ static void counts_do_not_grow(void)
   }
 }
 
+/* A thermostat: x' = x up to 2, x' = -3 down to 1. What errors grow between two switches, the second takes back:
+ * a cycle of ln 2 + 1/3 keeps them, where x' alone doubles them, 2^40 in 40 cycles. */
+static int heated(sunrealtype t, N_Vector y, N_Vector f, void *on)
+{
+  (void)t;
+  NV_Ith_S(f, 0) = *(const bool *)on ? NV_Ith_S(y, 0) : -3;
+  return 0;
+}
+
+static int border(sunrealtype t, N_Vector y, sunrealtype *g, void *on)
+{
+  (void)t;
+  g[0] = *(const bool *)on ? NV_Ith_S(y, 0) - 2 : 1 - NV_Ith_S(y, 0);
+  return 0;
+}
+
+static int switched(sunrealtype t, N_Vector y, const int *fired, void *on)
+{
+  (void)t, (void)y, (void)fired;
+  *(bool *)on = !*(bool *)on;
+  return STEIF_RESTART;
+}
+
+static void switches_take_back_what_grew(void)
+{
+  static const char *const methods[] = {"bdf", "bdf:p=3"};
+  static const sunrealtype one = 1;
+  for (int k = 0; k < 4; k++) {
+    bool on = true;
+    const sunrealtype end = 40 * (log(2) + 1 / 3.0) + 0.3;
+    const steif_problem p = {.name = "thermostat",
+                             .n = 1,
+                             .t1 = end,
+                             .y0 = &one,
+                             .f = heated,
+                             .events = 1,
+                             .event = border,
+                             .handle_event = switched,
+                             .user = &on};
+    steif_context *ctx = steif_context_new(NULL);
+    steif_options o = steif_defaults();
+    o.rtol = o.atol = k < 2 ? 1e-6 : 1e-8;
+    steif_solver *s = smooth_open(ctx, &p, methods[k % 2], &o);
+    if (steif_solve_to(s, end))
+      printf("\n  thermostat %s: %s", methods[k % 2], steif_message(ctx));
+    CHECK(steif_status(ctx) == STEIF_OK);
+    CHECK(fabs(NV_Ith_S(steif_solution(s), 0) - exp(0.3)) <= 10 * o.rtol * (1 + exp(0.3)));
+    steif_solver_free(&s);
+    steif_context_free(&ctx);
+  }
+}
+
 CU_TestInfo tests_of_success[] = {
   {"success means digits", success_means_digits},
   {"Gauss stays on the slow manifold", gauss_stays_on_the_slow_manifold},
@@ -253,6 +306,7 @@ CU_TestInfo tests_of_success[] = {
   {"methods that miss multipliers refuse", methods_that_miss_multipliers_refuse},
   {"low orders are right or say so", low_orders_are_right_or_say_so},
   {"close encounters are counted", encounters_are_counted},
+  {"switches take back what grew", switches_take_back_what_grew},
   {"order 2 ends early", order_2_ends_early},
   {"BDF takes the stable order", bdf_takes_the_stable_order},
   {"counts do not grow", counts_do_not_grow},

@@ -57,7 +57,7 @@ static void accept(steif_solver *s, sunrealtype h, sunrealtype t)
   step->h = h;
   step->t = t;
   step->count++;
-  step->newton.jacobian_new = step->restart = step->end_slope_known = false;
+  step->newton.jacobian_new = step->restart = step->crossed = step->end_slope_known = false;
 }
 
 /* STEIF_RETRY of an attempt that is not repeated: its cause. */

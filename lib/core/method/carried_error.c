@@ -114,6 +114,7 @@ void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector es
   if (!c->e) return;
   c->time += s->h_try;
   c->steps++;
+  c->jumped = c->jumped || s->crossed;
   c->remembered++;
   c->sum += largest(s, c, estimate);
   if (s->problem->dae_index > 1) {
@@ -156,13 +157,15 @@ static sunrealtype lost(const stf_carried *c)
   return linear ? little : much;
 }
 
-/* Where e is lost, half the sum, which has no signs, is nearer. */
+/* Where e is lost, half the sum, which has no signs, is nearer. So it is after events whose times depend on y, where
+ * e jumps by a derivative that is not at hand: limit cycles by switches contract there what grows between them. */
 void stf_carried_tell(const stf_carried *c, sunrealtype wanted, stf_control *control)
 {
   const sunrealtype half = 0.5;
   const bool rough = c->exact || 2 * wanted < c->least;
   control->accumulated = rough ? fmin(c->size, c->sum) : 0;
-  control->reached = !c->exact                     ? control->accumulated
-                     : c->size > lost(c) * c->peak ? c->size
-                                                   : half * control->accumulated;
+  const bool followed = c->size > lost(c) * c->peak && !c->jumped;
+  control->reached = !c->exact  ? control->accumulated
+                     : followed ? c->size
+                                : half * control->accumulated;
 }

@@ -159,6 +159,7 @@ struct stf_step {
   bool rejected;                     /* this attempt repeats one that was refused ... */
   int tries;                         /* ... this many times */
   bool restart;           /* the next step follows a discontinuity: no history before t */
+  bool crossed;           /* ... at a time that depends on y: errors move it, and jump there */
   bool end_slope_known;   /* stf_hermite has the slope at the end of the last step */
   sunrealtype h_try;      /* of the trial */
   sunrealtype error_norm; /* of error; < 0: not known. Methods that know it set it */
@@ -214,6 +215,7 @@ typedef struct stf_carried {
   sunrealtype loose; /* what an estimate may be, for all that is remembered; 0: not known */
   int failure;
   bool forgets; /* the errors of few steps were remembered at some time */
+  bool jumped;  /* at an event, e as well, by the derivative of what is done there: not known */
 } stf_carried;
 /* Estimates below `rounding`, relative to y, are noise; `all`: what those remembered may come to, in
  * tolerances. `exact`: at twice the cost. */

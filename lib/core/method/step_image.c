@@ -12,6 +12,7 @@ static void keep_scalars(stf_step *s, stf_image *m)
   STF_KEEP(m, s->count);
   STF_KEEP(m, s->yp_known);
   STF_KEEP(m, s->rejected);
+  STF_KEEP(m, s->crossed);
   STF_KEEP(m, s->tries);
   STF_KEEP(m, s->restart);
   STF_KEEP(m, s->end_slope_known);
@@ -64,4 +65,5 @@ void stf_carried_keep(stf_carried *c, stf_image *m)
   STF_KEEP(m, c->loose);
   STF_KEEP(m, c->failure);
   STF_KEEP(m, c->forgets);
+  STF_KEEP(m, c->jumped);
 }

@@ -84,6 +84,22 @@ static int settle(steif_solver *s, sunrealtype t)
   return STEIF_OK;
 }
 
+/* Event functions that read what the handler has set are others behind it, clearly off what they were: no crossing.
+ * w->mid: before. */
+static int look_again(steif_solver *s, sunrealtype t)
+{
+  static const sunrealtype clearly = 1e6; /* times the noise of an event */
+  stf_detector *w = s->events;
+  if (w->moved) return STEIF_OK;
+  STEIF_TRY(stf_event_ask(s, t, w->after, w->low));
+  for (int i = 0; i < w->count; i++)
+    if (fabs(w->low[i] - w->mid[i]) > clearly * w->noise[i]) {
+      w->sign[i] = (w->low[i] > 0) - (w->low[i] < 0);
+      w->noise[i] = 0;
+    }
+  return STEIF_OK;
+}
+
 static int react(steif_solver *s, sunrealtype t)
 {
   stf_detector *w = s->events;
@@ -92,6 +108,7 @@ static int react(steif_solver *s, sunrealtype t)
   if (s->saltation) STEIF_TRY(stf_saltation_before(s, t));
   if (s->quadratures) STEIF_TRY(stf_quadrature_to(s, t));
   N_VScale(1, w->after, w->y);
+  STEIF_TRY(stf_event_ask(s, t, w->after, w->mid));
   const int wish = p->handle_event(t, w->after, w->fired, p->user);
   N_VLinearSum(1, w->after, -1, w->y, w->y);
   w->moved = !(N_VMaxNorm(w->y) <= 0);
@@ -102,6 +119,7 @@ static int react(steif_solver *s, sunrealtype t)
   w->cut = wish == STEIF_RESTART;
   if (wish == STEIF_CONTINUE) return STEIF_OK;
   cut(s, t);
+  if (w->cut) STEIF_TRY(look_again(s, t));
   if (w->cut) STEIF_TRY(settle(s, t));
   stf_space space;
   stf_space_open(&space, w->after);
@@ -188,7 +206,7 @@ static int renew_step(steif_solver *s)
   if (step->yp_known) stf_copy(&step->system.space, s->events->slope, step->yp);
   if (s->saltation) stf_saltation_renew(s);
   step->t = s->end;
-  step->restart = step->newton.jacobian_wanted = true;
+  step->restart = step->crossed = step->newton.jacobian_wanted = true;
   step->system.filled = false;
   return STEIF_OK;
 }
