@@ -165,7 +165,7 @@ struct steif_problem {
                                 scale component i by h^(index-1); NULL: all 1 */
   const int *constraint; /* n entries as for CVodeSetConstraints: 1: y_i >= 0, 2: > 0, -1: <= 0,
                                 -2: < 0, 0: none; kept at the ends of steps; NULL: none */
-  int dae_index;         /* 0: ODE; differentiation index where known, -1: not stated */
+  int dae_index;         /* differentiation index; 0: the highest of .index; -1: not stated */
   int autonomous;        /* 1: f does not depend on t */
   sunrealtype period;    /* of f in t where it is known, else 0 */
   int linear;            /* 1: F is affine in (y, y') with constant coefficients */

@@ -6,6 +6,7 @@
 #include <steif/solver.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sunmatrix/sunmatrix_dense.h>
 
 /* Prey and predators on a square, predators at once at their balance: idaFoodWeb of SUNDIALS (P. N. Brown, A. C.
  * Hindmarsh and L. R. Petzold, SIAM J. Sci. Comput. 19, 1998, 1495-1512), 20 x 20 points. Unknown 2 k is the prey,
@@ -101,5 +102,41 @@ static void predators_are_found(void)
   steif_context_free(&ctx);
 }
 
-CU_TestInfo tests_of_newcomers[] = {{"predators of a food web are found", predators_are_found},
-                                    CU_TEST_INFO_NULL};
+/* x' = z, 0 = z^2 + x has no real z at x = 1: the equation is named, and nothing is said of steps and Jacobians that
+ * the run met when it tried all the same. */
+static int no_root(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  (void)t, (void)user;
+  NV_Ith_S(r, 0) = NV_Ith_S(y, 1);
+  NV_Ith_S(r, 1) = NV_Ith_S(y, 1) * NV_Ith_S(y, 1) + NV_Ith_S(y, 0);
+  return 0;
+}
+
+static int of_x(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  SM_ELEMENT_D(E, 0, 0) = 1;
+  return 0;
+}
+
+static void starts_that_are_not_found_name_the_equation(void)
+{
+  static const double y0[] = {1, 2};
+  const steif_problem p = {.name = "none", .n = 2, .t1 = 1, .y0 = y0, .f = no_root, .E = of_x};
+  static const char *const method[] = {"radau:s=3", "bdf", "auto"};
+  for (int k = 0; k < 3; k++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_solver *s = steif_solver_new(ctx, &p, method[k], NULL);
+    CU_ASSERT_FATAL(s != NULL);
+    CHECK(steif_solve_to(s, 1) == STEIF_NO_CONVERGENCE);
+    CHECK(strstr(steif_message(ctx), "to fulfil e2 (off by 5)") &&
+          !strstr(steif_message(ctx), "Jacobian"));
+    steif_solver_free(&s);
+    steif_context_free(&ctx);
+  }
+}
+
+CU_TestInfo tests_of_newcomers[] = {
+  {"predators of a food web are found", predators_are_found},
+  {"starts that are not found name the equation", starts_that_are_not_found_name_the_equation},
+  CU_TEST_INFO_NULL};

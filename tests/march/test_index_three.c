@@ -64,7 +64,31 @@ static void no_success_without_digits(void)
   CHECK(spoilt <= 1);
 }
 
+/* .index alone says the index of the whole. */
+static void the_highest_index_is_taken(void)
+{
+  static const char *const method[] = {"auto", "radau:s=3", "bdf"};
+  for (int i = 0; i < 3; i++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_problem p;
+    CU_ASSERT_FATAL(!steif_problem_find(ctx, "caraxis", &p) && p.dae_index == 3);
+    double x[2];
+    long steps[2];
+    for (int k = 0; k < 2; k++) {
+      if (k) p.dae_index = 0;
+      steif_solver *s = smooth_open(ctx, &p, method[i], NULL);
+      CHECK(steif_solve_to(s, p.t1) == STEIF_OK);
+      x[k] = NV_Ith_S(steif_solution(s), 0), steps[k] = steif_statistics(s)->steps;
+      steif_solver_free(&s);
+    }
+    CHECK(x[0] == x[1] && steps[0] == steps[1]);
+    steif_problem_clear(ctx, &p);
+    steif_context_free(&ctx);
+  }
+}
+
 CU_TestInfo tests_of_index_three[] = {
+  {"the highest index is taken", the_highest_index_is_taken},
   {"positions keep their digits", positions_keep_their_digits},
   {"no success without digits", no_success_without_digits},
   CU_TEST_INFO_NULL};

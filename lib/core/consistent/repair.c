@@ -308,14 +308,21 @@ static int check_fixed(stf_repair *r)
   return STEIF_OK;
 }
 
+static int unsolved(stf_repair *r)
+{
+  STEIF_TRY(list_violated(r));
+  return STEIF_FAIL(
+    r->ctx, STEIF_NO_CONVERGENCE,
+    "the start of '%s' is not consistent, and Newton's iteration finds no values "
+    "of the components without a derivative%.400s: give better guesses of them",
+    r->given->name, r->report.message);
+}
+
 static int index_one(stf_repair *r)
 {
   sunrealtype first = 0;
   const int code = stf_algebraic_newton(r, &first);
-  STEIF_CHECK(code <= 0, r->ctx, STEIF_NO_CONVERGENCE,
-              "the start of '%s' is not consistent, and Newton's iteration for the components "
-              "without a derivative does not converge from it: give better guesses of them",
-              r->given->name);
+  if (code > 0) return unsolved(r);
   STEIF_TRY(code);
   if (first <= 1) return STEIF_OK;
   STEIF_TRY(stf_nearest_branch(r, first));
@@ -342,7 +349,8 @@ static int pass(stf_repair *r, int code)
   if (ours) return code;
   r->problem = *r->given;
   r->report = (steif_repair){0};
-  if (code == STEIF_NO_CONVERGENCE)
+  r->unsolved = code == STEIF_NO_CONVERGENCE;
+  if (r->unsolved)
     stf_point_say(r->report.message, "start: not repaired; %s", steif_message(r->ctx));
   steif_forget(r->ctx);
   return STEIF_OK;

@@ -24,6 +24,7 @@ typedef struct stf_repair {
   const sunrealtype *atols;
   steif_problem problem;
   steif_repair report;
+  bool unsolved; /* not consistent, and no start found: the run tries it all the same */
   /* work */
   stf_point point;
   stf_view view;

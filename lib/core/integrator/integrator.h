@@ -110,7 +110,9 @@ int stf_reserved_check(steif_context *ctx, const char *name, size_t count,
                        void *const *reserved);
 #define STF_COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* opening/looks.c, before a method is opened. An M(t) or M(t, y) of M y' = f is looked for: s->problem becomes
+/* opening/looks.c, before a method is opened. Without .dae_index the highest of .index is it. */
+int stf_look_at_index(steif_solver *s);
+/* An M(t) or M(t, y) of M y' = f is looked for: s->problem becomes
  * F(t, y, y') = 0 and *form that, or the engine is told, or STEIF_UNSUPPORTED. */
 int stf_look_at_mass(steif_solver *s, int *form, N_Vector y, N_Vector yp);
 /* The start of a DAE, for methods of ours with adaptive steps; linear systems have their jump. */

@@ -3,6 +3,7 @@
 #include "integrator.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 
 /* Seconds by a clock. */
@@ -248,9 +249,22 @@ static int solve_to(steif_solver *s, sunrealtype t)
   return code;
 }
 
+/* No first step from a start that is not consistent: that is the reason, not what Newton's iteration met. */
+static int first_step(steif_solver *s, int code)
+{
+  static const char begins[] = "start: not repaired; ";
+  const char *why = s->repair.report.message;
+  if (code != STEIF_NO_CONVERGENCE || s->engine || s->step.count > 0 || !s->repair.unsolved)
+    return code;
+  why += strncmp(why, begins, sizeof begins - 1) ? 0 : sizeof begins - 1;
+  const char *symbol = strstr(why, " [STEIF");
+  return STEIF_FAIL(s->ctx, code, "no step was made: %.*s",
+                    symbol ? (int)(symbol - why) : (int)strlen(why), why);
+}
+
 int steif_solve_to(steif_solver *s, sunrealtype t)
 {
-  const int code = solve_to(s, t);
+  const int code = first_step(s, solve_to(s, t));
   return stf_agreed_end(s, code);
 }
 

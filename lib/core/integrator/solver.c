@@ -286,6 +286,7 @@ static int open(steif_solver *s, const char *method)
   const bool automatic = !strcmp(method, "auto");
   STEIF_TRY(steif_spec_parse(s->ctx, method, spec));
   s->engine = stf_engine_find(spec->name);
+  STEIF_TRY(stf_look_at_index(s));
   STEIF_TRY(stf_look_at_mass(s, &form, y, yp));
   if (automatic || !s->engine) STEIF_TRY(stf_look_at_start(s, form));
   if (automatic)

@@ -3,6 +3,22 @@
 #include "integrator.h"
 #include "varying_mass.h"
 
+int stf_look_at_index(steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const N_Vector like = s->options.like;
+  int most = 0;
+  if (!p->index || p->dae_index > 0 || (like && stf_spread(like))) return STEIF_OK;
+  for (sunindextype i = 0; i < p->n; i++) most = p->index[i] > most ? p->index[i] : most;
+  if (most < 2) return STEIF_OK;
+  steif_problem *copy = stf_pool_array(s->pool, 1, sizeof *copy);
+  if (!copy) return STEIF_NO_MEMORY;
+  *copy = *p;
+  copy->dae_index = most;
+  s->problem = copy;
+  return STEIF_OK;
+}
+
 int stf_look_at_mass(steif_solver *s, int *form, N_Vector y, N_Vector yp)
 {
   const steif_problem *p = s->problem;
