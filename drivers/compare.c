@@ -36,9 +36,11 @@ static const struct option options[] = {
   {"--atol", POSITIVE, "A", "absolute tolerance (default: rtol times the problem's scale)",
    NULL},
   RUN_OPTIONS,
+  RANKS_OPTIONS,
   OPTIONS_END,
 };
-static const struct rule rules[] = {{"--h", EXCLUDES, "--hs"}, RULES_END};
+static const struct rule rules[] = {
+  {"--h", EXCLUDES, "--hs"}, {"--linear", NEEDS, "--parallel"}, RULES_END};
 
 const struct verb verb_compare = {
   .name = "compare",

@@ -1,7 +1,6 @@
 /* solve.c: one integration.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "descriptor.h"
-#include "problem.h"
 #include "saved_run.h"
 #include "solution.h"
 #include "solve_system.h"
@@ -40,8 +39,7 @@ static int run(struct call *call)
 
 static const struct option options[] = {
   {"--rtol", POSITIVE, "R", "relative tolerance", "1e-6"},
-  {"--atol", POSITIVE, "A", "absolute tolerance (default: rtol times the problem's scale)",
-   NULL},
+  {"--atol", POSITIVE, "A", "absolute tolerance (default: rtol times its scale)", NULL},
   {"--h", POSITIVE, "H", "constant step size instead of a tolerance", NULL},
   RUN_OPTIONS,
   ATTRIBUTE_OPTIONS,
@@ -55,6 +53,7 @@ static const struct option options[] = {
   {"--forcing", WORD, "FILE", "f from a file: an expression per line, or samples (.csv)", NULL},
   {"--input", WORD, "B.mtx", "B of f = B u, u by --forcing or --f (.mat: its B)", NULL},
   CHECKPOINT_OPTIONS,
+  RANKS_OPTIONS,
   OPTIONS_END,
 };
 static const struct rule rules[] = {{"--h", EXCLUDES, "--rtol"},
@@ -62,6 +61,7 @@ static const struct rule rules[] = {{"--h", EXCLUDES, "--rtol"},
                                     {"--at", EXCLUDES, "--points"},
                                     {"--forcing", EXCLUDES, "--f"},
                                     {"--input", NEEDS, "--forcing|--f"},
+                                    {"--linear", NEEDS, "--parallel"},
                                     CHECKPOINT_RULE,
                                     RULES_END};
 

@@ -21,6 +21,9 @@ typedef struct outcome {
   {"--set", REPEATED, "NAME=VALUE,...", "values of parameters, as after a colon", NULL}
 #define PARALLEL_OPTION(about)                                                                 \
   {"--parallel", FLAG, NULL, about, NULL}
+#define RANKS_OPTIONS                                                                          \
+  PARALLEL_OPTION("over ranks: mpirun -np N steif ... --parallel, problems built for that"),  \
+    {"--linear", WORD, "NAME", "with --parallel: amg, mumps or krylov", "amg"}
 #define RUN_OPTIONS                                                                            \
   SET_OPTION,                                                                                  \
   {"--compile", FLAG, NULL,                                                                    \
