@@ -16,7 +16,7 @@
  *   band and sparse systems
  *     with a given Jacobian
  *       whose LU costs a few solves               Rosenbrock down to rtol 1e-6, 1e-3 if constant
- *       whose LU costs more, constant             Rosenbrock down to rtol 1e-7
+ *       whose LU costs more, constant             Rosenbrock down to rtol 1e-9
  *     others                                      radau:s=3 down to rtol 1e-4, 1e-5 where an LU costs a
  *                                                 few solves, radau:s=5 below and for linear systems
  *   large dense systems, operators                bdf down to rtol 1e-8, radau:s=5 below
@@ -113,7 +113,7 @@ static bool jumps(const steif_problem *p, const steif_options *o, int form)
 static sunrealtype linearly_to(const steif_problem *p, const steif_options *o, int form)
 {
   if ((form != STEIF_ODE && form != STEIF_MASS) || !p->jac) return INFINITY;
-  return p->linear ? cheap(p, o) ? 1e-3 : 1e-7 : cheap(p, o) ? 1e-6 : INFINITY;
+  return p->linear ? cheap(p, o) ? 1e-3 : 1e-9 : cheap(p, o) ? 1e-6 : INFINITY;
 }
 
 static choice on_grids(const steif_problem *p, const steif_options *o, int form)
