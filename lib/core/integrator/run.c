@@ -253,9 +253,10 @@ static int solve_to(steif_solver *s, sunrealtype t)
 static int first_step(steif_solver *s, int code)
 {
   static const char begins[] = "start: not repaired; ";
-  const char *why = s->repair.report.message;
-  if (code != STEIF_NO_CONVERGENCE || s->engine || s->step.count > 0 || !s->repair.unsolved)
+  if (code != STEIF_NO_CONVERGENCE || !s || s->engine || s->step.count > 0 ||
+      !s->repair.unsolved)
     return code;
+  const char *why = s->repair.report.message;
   why += strncmp(why, begins, sizeof begins - 1) ? 0 : sizeof begins - 1;
   const char *symbol = strstr(why, " [STEIF");
   return STEIF_FAIL(s->ctx, code, "no step was made: %.*s",

@@ -91,7 +91,7 @@ static void thin(stf_journey *J)
 {
   int kept = 1;
   J->stride *= 2;
-  if (J->images == 2) J->origin = J->steps + 1; /* which stays at no stride */
+  if (J->images == 2) J->origin = J->steps + J->stride; /* which stays at no stride */
   for (int i = 1; i < J->images; i++)
     if (J->image[i].step >= J->origin && (J->image[i].step - J->origin) % J->stride == 0)
       J->image[kept++] = J->image[i];
