@@ -370,6 +370,7 @@ static void keep(steif_pencil *p, int slot, stf_image *m)
 {
   sparse *s = p->state;
   factors *f = s->slot[slot];
+  if (m->reads) drop(f); /* a run in use may go back to an image */
   keep_shape(p, f, m);
   STF_KEEP(m, f->growth);
   STF_KEEP(m, f->complex);
