@@ -32,7 +32,7 @@ IGNORED = re.compile(r"(cpu_s|seconds|rounding|estimate|residual\S*|gap|rcond|K_
                      r"|K_distance)$")
 ENGINE = re.compile(r"(cvodes?|idas?|arkode)(:|$)")
 COUNTS = re.compile(r"(stats\.\w+|steps|rejected|nfe|nje|nlu|nsolve|newton|nli|triggers|redone|operations)$")
-DIGITS = re.compile(r"(scd|mescd|digits|order|cosine)$")
+DIGITS = re.compile(r"(scd|mescd|digits|order|cosine|reference)$")
 
 
 COMMON = ("--json", "--csv", "--plot", "--quiet", "--help")  # explained once in the manual

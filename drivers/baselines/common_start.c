@@ -46,4 +46,5 @@ void compare_end(struct call *call, comparison *c)
   steif_problem_clear(call->ctx, &c->given);
   free(c->start);
   free(c->number);
+  free(c->values);
 }

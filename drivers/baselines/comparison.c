@@ -58,6 +58,7 @@ void compare_method(struct call *call, comparison *c, const char *method)
     if (out.why[0]) say(call, "%s, %s %.3g: %s", method, what, value[i], out.why);
     const char *const spec = many ? s.run[0].spec : method;
     repeat(call, c, spec, &o, &out);
+    own_digits(call, c, &o, &out);
     report_run(c->report, method, &c->problem, &o, &out);
     steif_report_text(c->report, "rows.settings", spec);
     if (many) report_settings(c->report, "settings", NULL, &s);
