@@ -169,12 +169,13 @@ STEIF_EXPORT sunrealtype steif_time(const steif_solver *s);
 STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);
 
 /* Components of index 2 and 3 (velocities, multipliers) are controlled through h^(index - 1) only: *error is
- * an estimate of their error at the end of the last step, the largest in tolerances rtol |y_i| + atol_i, as
- * their distance from the values that the equations and their hidden derivatives give them beside the
- * components of index 1 (consistent.h). Where these are stiff it may be tens of times too large; what they
- * are off comes on top, as the problem hands it on.
- * NaN: not known, or there are no such components. Of nonlinear DAEs with at most STEIF_DIAGNOSE_LARGEST
- * unknowns, adaptive steps and steif's own methods; costs as much as a start does. */
+ * the largest error of theirs in the solution shown, in tolerances rtol |y_i| + atol_i: its distance from a second
+ * run from the start, by auto for a hundredth of the tolerance (1e-13 at least), recomputed (below). It costs what
+ * that run costs, mostly less than the first, and calls what the problem calls; what the problem remembers is put
+ * back by its begin and restore.
+ * NaN: not known, or there are no such components. With at most STEIF_DIAGNOSE_LARGEST unknowns, adaptive
+ * steps of steif's own methods, serial vectors, without options.ewt, rtol above 5e-13; not where events are handled or
+ * begin is set and the problem has no save, nor where the second run would take more than four times the steps. */
 STEIF_EXPORT int steif_hidden_error(steif_solver *s, sunrealtype *error);
 
 /* The solution inside the last step. STEIF_BAD_INPUT outside of it. */

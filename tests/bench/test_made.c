@@ -92,16 +92,15 @@ static void judge(steif_context *ctx, const steif_problem *p, const char *method
   sunrealtype said;
   CHECK(steif_hidden_error(s, &said) == STEIF_OK);
   const double right = hidden(p, rtol, steif_solution(s), known);
-  const double above =
-    p->dae_index > 2 ? 1.5 : 60; /* the stiff terms of index 2 magnify movements */
-  const int good = said < above * right + 2 && right < 1.5 * said + 1;
+  const int good = said < 2 * right + 0.05 && right < 2 * said + 0.05;
   if (!good) printf("\n  %s, %s, %g: %.3g, said %.3g", p->name, method, rtol, right, said);
   CHECK(good);
   N_VDestroy(known);
   steif_solver_free(&s);
 }
 
-/* Errors of multipliers and velocities are told, from a thousandth of a tolerance to thousands of them. */
+/* Errors of multipliers and velocities are told, from a thousandth of a tolerance to thousands of them, within a
+ * factor of 2. */
 static void hidden_errors_are_told(void)
 {
   static const char *const methods[] = {"radau:s=3", "radau:s=5", "bdf"};
@@ -110,7 +109,7 @@ static void hidden_errors_are_told(void)
   for (int i = 0; i < 3; i++)
     for (double rtol = 1e-3; rtol > 0.5e-7; rtol *= 1e-2) {
       for (int k = 0; k < 2; k++)
-        for (long seed = 1; seed <= SEEDS; seed++) {
+        for (long seed = 1; seed <= SEEDS / 2; seed++) {
           made m;
           made_new(&m, kinds[k], seed);
           judge(ctx, &m.problem, methods[i], rtol);

@@ -8,7 +8,8 @@ extern CU_TestInfo tests_of_steps[], tests_of_run[], tests_of_options[], tests_o
   tests_of_auto[], tests_of_rivals[], tests_of_constraints[], tests_of_record[],
   tests_of_success[], tests_of_references[], tests_of_krylov[], tests_of_bad_input[],
   tests_of_clock[], tests_of_corners[], tests_of_varying_mass[], tests_of_algebraic_noise[],
-  tests_of_history[], tests_of_cubes[], tests_of_index_three[], tests_of_inexact[];
+  tests_of_history[], tests_of_cubes[], tests_of_index_three[], tests_of_inexact[],
+  tests_of_hidden[];
 
 SUITE_MAIN(
   {.pName = "steps", .pTests = tests_of_steps},
@@ -33,5 +34,6 @@ SUITE_MAIN(
   {.pName = "cubes", .pTests = tests_of_cubes}, {.pName = "krylov", .pTests = tests_of_krylov},
   {.pName = "index three", .pTests = tests_of_index_three},
   {.pName = "inexact", .pTests = tests_of_inexact},
+  {.pName = "hidden errors", .pTests = tests_of_hidden},
   {.pName = "success", .pTests = tests_of_success},
   {.pName = "references", .pTests = tests_of_references})

@@ -178,6 +178,8 @@ void stf_rounding_keep(steif_solver *s, stf_image *m);
 /* output/recomputed.c: are unknowns of index 2 and 3 recomputed for output; that of the solution shown. */
 bool stf_recomputes(const steif_solver *s);
 int stf_recompute_shown(steif_solver *s);
+/* What y_j may err by. */
+sunrealtype stf_allowed(const steif_solver *s, const sunrealtype *y, size_t j);
 
 /* Derivatives by parameters, where options.sensitivities asks for them. */
 int stf_sensitivity_open(steif_solver *s);

@@ -9,8 +9,7 @@
 /* Components of index 1 that would move by more tolerances than this: the point is another one. */
 static const sunrealtype furthest = 10;
 
-/* What y_j may err by. */
-static sunrealtype tolerance(const steif_solver *s, const sunrealtype *y, size_t j)
+sunrealtype stf_allowed(const steif_solver *s, const sunrealtype *y, size_t j)
 {
   const steif_options *o = &s->options;
   return o->rtol * fabs(y[j]) + (o->atols ? o->atols[j] : o->atol);
@@ -23,7 +22,7 @@ static void measure(const steif_solver *s, const sunrealtype *y, const steif_sta
   sunrealtype most[2] = {0, 0};
   for (size_t j = 0; j < (size_t)s->problem->n; j++) {
     const bool high = index && index[j] > 1;
-    most[high] = fmax(most[high], fabs(start->moved[j]) / tolerance(s, y, j));
+    most[high] = fmax(most[high], fabs(start->moved[j]) / stf_allowed(s, y, j));
   }
   if (drift) *drift = most[0];
   if (corrected) *corrected = most[1];
