@@ -250,6 +250,13 @@ static bool better(const stf_derivative_array *x, const stf_derivative_array *y)
   return x->gap > y->gap;
 }
 
+/* Two lengths in a row of which each is certain: the others would not say anything else. */
+static bool settled(const stf_derivative_array *last, const stf_derivative_array *now)
+{
+  return last->closed && now->closed && last->index == now->index &&
+         fmin(last->gap, now->gap) >= STF_CERTAIN_GAP;
+}
+
 int stf_derivative_array_scan(stf_point *point, const stf_view *view, sunrealtype t,
                               const sunrealtype *y, const sunrealtype *yp,
                               const sunrealtype *ypp, stf_derivative_array *a)
@@ -257,7 +264,7 @@ int stf_derivative_array_scan(stf_point *point, const stf_view *view, sunrealtyp
   const size_t n = point->n;
   const int deepest = n > 100 ? 2 : STF_DEEPEST, most = n > 100 ? 2 : n > 30 ? 4 : 8;
   sunrealtype slow, fast;
-  stf_derivative_array trial;
+  stf_derivative_array trial, last = {.closed = false};
   stf_view_rates(point, view, &slow, &fast);
   const int steps = (int)fmin(most, 2 + ceil(log10(fast / slow)));
   sunrealtype *z = stf_allocate(point->ctx, 3 * n, sizeof *z);
@@ -277,6 +284,8 @@ int stf_derivative_array_scan(stf_point *point, const stf_view *view, sunrealtyp
     const stf_curve curve = {.t = t, .tau = tau, .count = 3, .z = z};
     code = find_at(point, &curve, deepest, &trial);
     if (!code && better(&trial, a)) copy(n, &trial, a);
+    if (!code && point->brief && settled(&last, &trial)) break;
+    last = trial;
   }
   stf_release(point->ctx, z);
   return code > 0 ? STEIF_OK : code;

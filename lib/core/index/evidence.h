@@ -73,6 +73,8 @@ int stf_evidence_consistent(stf_evidence *evidence);
 int stf_evidence_arrays(stf_evidence *evidence);
 /* Is the system Jacobian regular at all points? */
 bool stf_evidence_certified(const stf_evidence *evidence);
+/* Is it, and has test G the index of the structure at all of them? */
+bool stf_evidence_agrees(const stf_evidence *evidence);
 
 /* What all tests together say. */
 typedef struct stf_summary {

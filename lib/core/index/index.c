@@ -44,8 +44,11 @@ int stf_diagnose(stf_point *point, stf_evidence *e, steif_diagnosis *d)
   STEIF_TRY(stf_evidence_points(e));
   STEIF_TRY(stf_evidence_offsets(e));
   STEIF_TRY(stf_evidence_growth(e));
-  STEIF_TRY(stf_evidence_consistent(e));
-  STEIF_TRY(stf_evidence_arrays(e));
+  const bool enough = e->points >= 3 || point->system.linear;
+  if (!point->brief || !enough || !stf_evidence_agrees(e)) {
+    STEIF_TRY(stf_evidence_consistent(e));
+    STEIF_TRY(stf_evidence_arrays(e));
+  }
   const stf_summary summary = stf_summarise(e);
   stf_verdict(&summary, d);
   stf_index_message(&summary, d);

@@ -161,8 +161,9 @@ int stf_evidence_consistent(stf_evidence *e)
   return STEIF_OK;
 }
 
-static bool agree(const stf_evidence *e)
+bool stf_evidence_agrees(const stf_evidence *e)
 {
+  if (!stf_evidence_certified(e)) return false;
   for (int k = 0; k < e->points; k++)
     if (!e->at[k].growth.found || e->at[k].growth.index != e->offsets.index) return false;
   return true;
@@ -179,7 +180,7 @@ int stf_evidence_arrays(stf_evidence *e)
 {
   stf_point *s = e->point;
   if (s->n > STF_ARRAY_LARGEST) return STEIF_OK;
-  if (s->n > STF_ALWAYS_ARRAY && stf_evidence_certified(e) && agree(e)) return STEIF_OK;
+  if (s->n > STF_ALWAYS_ARRAY && stf_evidence_agrees(e)) return STEIF_OK;
   for (int k = 0; k < e->points; k++) {
     STEIF_TRY(stf_view_take(s, e->at[k].t, e->at[k].y, e->at[k].yp, &e->view));
     STEIF_TRY(stf_derivative_array_scan(s, &e->view, e->at[k].t, e->at[k].y, e->at[k].yp,

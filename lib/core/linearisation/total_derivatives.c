@@ -34,11 +34,23 @@ static sunrealtype error(const stf_total_derivatives *l, const sunrealtype *scal
   return worst < 0 ? -1 : (worst + STF_EPS) / pow(delta, p);
 }
 
+/* Nearer nodes have rounding only: what interpolants miss was small, and errors have grown since. */
+static bool past_best(const stf_total_derivatives *l, const sunrealtype *best,
+                      const sunrealtype *now)
+{
+  static const sunrealtype small = 1e-9, grown = 1e3;
+  for (int p = 1; p <= l->order; p++)
+    if (now[p] >= 0 && !(best[p] * pow(l->delta[p], p) < small && now[p] > grown * best[p]))
+      return false;
+  return true;
+}
+
 int stf_total_derivatives_choose(stf_total_derivatives *l, const stf_curve *c,
                                  const sunrealtype *scale, const int *order)
 {
-  sunrealtype best[STF_DEEPEST + 2];
+  sunrealtype best[STF_DEEPEST + 2], now[STF_DEEPEST + 2];
   bool found = false;
+  if (l->order == 0) return STEIF_OK;
   const sunrealtype longest = 100 / (l->slowest * c->tau);
   const sunrealtype shortest = 1e-5 / (l->fastest * c->tau);
   for (int p = 1; p <= l->order; p++) l->delta[p] = 0, best[p] = INFINITY;
@@ -47,12 +59,13 @@ int stf_total_derivatives_choose(stf_total_derivatives *l, const stf_curve *c,
       stf_curve_residual(l->point, c, &l->rule, delta, l->values, l->rows, l->tail);
     if (code < 0) return code;
     for (int p = 1; p <= l->order && !code; p++) {
-      const sunrealtype now = error(l, scale, order, p, delta);
-      if (now >= 0 && now < best[p]) best[p] = now, l->delta[p] = delta;
+      now[p] = error(l, scale, order, p, delta);
+      if (now[p] >= 0 && now[p] < best[p]) best[p] = now[p], l->delta[p] = delta;
       found = true;
     }
+    if (!code && past_best(l, best, now)) break;
   }
-  return found || l->order == 0 ? STEIF_OK : STEIF_RETRY;
+  return found ? STEIF_OK : STEIF_RETRY;
 }
 
 /* Nodes outside of the domain of F come nearer. */
