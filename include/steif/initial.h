@@ -26,7 +26,9 @@ enum steif_attribute { STEIF_GUESS, STEIF_FIXED, STEIF_FREE };
  *                   largest. The index of components is found where .index is NULL, at any n.
  *   STEIF_CHECK     the same is computed, and a start that would move is STEIF_BAD_INPUT
  *   STEIF_AS_GIVEN  nothing is looked at
- * Components that would move by less than their tolerance stay as they are. */
+ * Components that would move by less than their tolerance stay as they are, and multipliers of index 3 where nothing
+ * else would move: the first step computes them. A start that is consistent costs two evaluations of f and
+ * one factorisation more than one that is not looked at; where .index is NULL, some Jacobians beside. */
 enum steif_initial { STEIF_REPAIR, STEIF_CHECK, STEIF_AS_GIVEN };
 
 /* What was done, shown by steif_initial_used (solver.h). */

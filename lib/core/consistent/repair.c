@@ -235,6 +235,8 @@ static int by_stages(stf_repair *r, stf_evidence *e, const steif_diagnosis *d)
 {
   const size_t n = r->point.n;
   steif_start start = {0};
+  stf_start_nodes nodes = {
+    0}; /* found once for each stage: tolerances are wider than rounding */
   sunrealtype *weight = stf_pool_array(r->pool, n, sizeof *weight);
   enum steif_attribute *attribute = stf_pool_array(r->pool, n, sizeof *attribute);
   if (!weight || !attribute) return STEIF_NO_MEMORY;
@@ -242,7 +244,7 @@ static int by_stages(stf_repair *r, stf_evidence *e, const steif_diagnosis *d)
   for (size_t j = 0; j < n; j++)
     attribute[j] = r->attribute ? (enum steif_attribute)r->attribute[j] : STEIF_GUESS;
   const steif_request request = {.attribute = attribute, .weight = weight};
-  STEIF_TRY(stf_start_from(e, d, &request, &start));
+  STEIF_TRY(stf_start_with(e, d, &request, &nodes, &start));
   int code = check_positions(r, d, &start);
   if (!code) code = stf_keep_momenta(r, e, d, &request, &start);
   if (!code) code = use(r, start.y, start.yp, start.enforced);
@@ -266,7 +268,7 @@ static int diagnosed(stf_repair *r, bool wanted)
   stf_evidence evidence;
   steif_diagnosis d = {.index = -1};
   sunrealtype jump = 0;
-  r->point.quick = false;
+  r->point.quick = false, r->point.brief = true;
   r->point.views++;
   int code = stf_diagnose(&r->point, &evidence, &d);
   if (!code && wanted) code = use_index(r, &d);
@@ -283,10 +285,10 @@ static int diagnosed(stf_repair *r, bool wanted)
   return code;
 }
 
-/* Hidden constraints may be violated; of a declared index, a cheap look first. */
+/* Hidden constraints may be violated; where the index of components is known, a cheap look first. */
 static int higher_index(stf_repair *r)
 {
-  const bool declared = r->given->index || r->given->dae_index >= 1;
+  const bool declared = r->given->index || r->given->dae_index == 1;
   sunrealtype jump = INFINITY;
   if (declared) STEIF_TRY(stf_first_jump(r, &jump));
   return jump > 1 ? diagnosed(r, !declared) : STEIF_OK;
@@ -330,11 +332,20 @@ static int index_one(stf_repair *r)
   return use(r, r->y, r->yp, NULL);
 }
 
+/* Components of index 2 or 3 are declared: no factors are needed to see that. */
+static bool declared_higher(const stf_repair *r)
+{
+  const int *index = r->given->index;
+  for (size_t j = 0; index && j < r->point.n; j++)
+    if (index[j] >= 2) return true;
+  return false;
+}
+
 static int start(stf_repair *r)
 {
   bool regular = false;
   STEIF_TRY(look(r));
-  STEIF_TRY(stf_index_one(r, &regular));
+  if (!declared_higher(r)) STEIF_TRY(stf_index_one(r, &regular));
   if (!regular) return higher_index(r);
   return r->count ? index_one(r) : STEIF_OK;
 }

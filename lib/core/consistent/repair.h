@@ -49,8 +49,8 @@ int stf_algebraic_newton(stf_repair *repair, sunrealtype *first);
  * iteration that has found r->y. */
 int stf_nearest_branch(stf_repair *repair, sunrealtype first);
 
-/* first_jump.c: the largest jump of an unknown with a derivative in a step of backward Euler as h -> 0, in
- * tolerances. Zero for consistent starts of any index. */
+/* first_jump.c: the largest jump in a step of backward Euler as h -> 0, in tolerances, of unknowns with a derivative
+ * and of those of index 1 and 2. Zero for consistent starts of index up to 3. */
 int stf_first_jump(stf_repair *repair, sunrealtype *largest);
 
 /* e_j of the view times `derivative` plus b_j times `value`, chosen by column j; factored. STEIF_SINGULAR

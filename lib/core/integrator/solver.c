@@ -176,6 +176,17 @@ static int open_system(steif_solver *s, int form, N_Vector y, N_Vector yp)
   return STEIF_OK;
 }
 
+/* Where the look at the start has called the callbacks there, and moved nothing, that was their first call. */
+static int start_values(steif_solver *s, int form, N_Vector y, N_Vector yp)
+{
+  const steif_problem *p = s->problem;
+  stf_step *step = &s->step;
+  if (!s->repair.point.pool || s->repair.report.y)
+    return stf_system_start(s->ctx, p, form, &step->system.space, y, yp, &step->yp_known);
+  step->yp_known = p->yp0;
+  return stf_start_values(s->ctx, p, y, yp);
+}
+
 static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector y, N_Vector yp)
 {
   stf_step *step = &s->step;
@@ -202,10 +213,9 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
               "'%s' has no error estimate to choose steps by: give steps with h", s->method);
   step->absolute = form == STEIF_DESCRIPTOR;
   if (!step->adaptive && !o->mesh) STEIF_TRY(constant_steps(s));
-  const stf_space *space = &step->system.space;
   stf_space_open(&step->system.space, y);
   STEIF_TRY(stf_agreed_gate(s));
-  STEIF_TRY(stf_system_start(s->ctx, p, form, space, y, yp, &step->yp_known));
+  STEIF_TRY(start_values(s, form, y, yp));
   STEIF_TRY(claim_step(s));
   STEIF_TRY(open_system(s, form, y, yp));
   if (s->agreed) stf_operator_defer(&step->system, &s->deferred);
