@@ -14,11 +14,12 @@ enum { DENSE_UP_TO = 64, DERIVATIVES = 64 };
 
 static stf_feed feed_at(const stf_model *m, sunrealtype t, N_Vector y, N_Vector yp)
 {
-  stf_feed feed = m->feed;
-  feed.t = t;
-  feed.y = y ? stf_array(y) : NULL;
-  feed.yp = yp ? stf_array(yp) : NULL;
-  return feed;
+  return (stf_feed){.t = t,
+                    .y = y ? stf_array(y) : NULL,
+                    .yp = yp ? stf_array(yp) : NULL,
+                    .p = m->feed.p,
+                    .memory = m->feed.memory,
+                    .lookups = m->feed.lookups};
 }
 
 /* A frozen branch is evaluated a little beyond its border, where it may have no
@@ -52,12 +53,18 @@ static int blame(stf_model *m, const stf_feed *feed, const double *f)
                        text->name, line, column, found.what, m->unknown[i]);
 }
 
+/* f is not finite: where branches are frozen, as they are at this point; else why. */
+static int amiss(stf_model *m, stf_feed *feed, double *to)
+{
+  return retried(m, feed, to) ? 0 : blame(m, feed, to);
+}
+
 static int run(sunrealtype t, N_Vector y, N_Vector yp, N_Vector out, stf_model *m)
 {
   stf_feed feed = feed_at(m, t, y, yp);
   double *to = stf_array(out);
   stf_quantity_run(m, &m->f, &feed, to);
-  return stf_all_finite(to, (size_t)m->n) || retried(m, &feed, to) ? 0 : blame(m, &feed, to);
+  return stf_all_finite(to, (size_t)m->n) ? 0 : amiss(m, &feed, to);
 }
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
@@ -90,9 +97,11 @@ static int fill(const stf_model *m, const stf_matrix *M, stf_feed *feed, SUNMatr
     return 0;
   }
   entries(m, M, feed, M->scratch);
-  for (int32_t j = 0; j < m->n; j++)
-    for (sunindextype k = M->column[j]; k < M->column[j + 1]; k++)
-      SM_ELEMENT_D(to, M->row[k], j) = M->scratch[k];
+  sunindextype k = 0;
+  for (int32_t j = 0; j < m->n; j++) {
+    double *column = SM_COLUMN_D(to, j);
+    for (; k < M->column[j + 1]; k++) column[M->row[k]] = M->scratch[k];
+  }
   return 0;
 }
 

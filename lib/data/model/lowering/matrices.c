@@ -9,7 +9,7 @@ typedef struct entry {
   int32_t node;
   const stf_equation *equation;
   int32_t column, stride[STF_LOOPS];
-  int32_t *slot;
+  stf_store place; /* in the values of the matrix */
 } entry;
 
 static stf_block *block_at(const stf_model *m, size_t i)
@@ -178,8 +178,8 @@ static int pattern(stf_model *m, const stf_vector *entries, stf_matrix *M)
   return M->scratch ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-/* Where the entry of each pass is stored, into e->slot; returns how many. */
-static int64_t slots(const stf_model *m, const stf_matrix *M, const entry *e)
+/* Where the entry of each pass is stored. */
+static void slots(const stf_model *m, const stf_matrix *M, const entry *e, int32_t *slot)
 {
   const stf_box *box = &block_at(m, e->block)->box;
   const int64_t count = stf_passes(box);
@@ -188,24 +188,53 @@ static int64_t slots(const stf_model *m, const stf_matrix *M, const entry *e)
     const sunindextype row = row_of(box, k, e->equation), *from = M->row + M->column[j];
     const sunindextype *found =
       bsearch(&row, from, (size_t)(M->column[j + 1] - M->column[j]), sizeof row, ascending);
-    e->slot[k] = (int32_t)(found - M->row);
+    slot[k] = (int32_t)(found - M->row);
   }
-  return count;
+}
+
+/* Inside a grid they are multiples of the counters, since all columns have as many entries. */
+static bool straight(const stf_box *box, const int32_t *slot, stf_store *s)
+{
+  const int64_t count = stf_passes(box);
+  int64_t ahead = 1, a = count ? slot[0] : 0;
+  for (int d = box->dims - 1; d >= 0 && count; ahead *= box->count[d--]) {
+    s->stride[d] = box->count[d] > 1 ? slot[ahead] - slot[0] : 0;
+    a -= (int64_t)s->stride[d] * box->low[d];
+  }
+  s->a = (int32_t)a;
+  if (a < INT32_MIN || a > INT32_MAX) return false;
+  for (int64_t k = 0; k < count; k++)
+    if (slot[k] != stf_at_pass(box, k, s->a, s->stride)) return false;
+  return true;
+}
+
+static int keep_slots(stf_model *m, const stf_matrix *M, entry *e, int32_t *slot)
+{
+  const stf_box *box = &block_at(m, e->block)->box;
+  const size_t bytes = (size_t)stf_passes(box) * sizeof *slot;
+  slots(m, M, e, slot);
+  e->place = (stf_store){.from = e->node};
+  if (straight(box, slot, &e->place)) return STEIF_OK;
+  int32_t *kept = stf_pool_array(m->pool, (size_t)stf_passes(box), sizeof *kept);
+  if (!kept) return STEIF_NO_MEMORY;
+  e->place = (stf_store){.from = e->node, .slot = memcpy(kept, slot, bytes)};
+  return STEIF_OK;
 }
 
 static int all_slots(stf_model *m, const stf_vector *entries, const stf_matrix *M)
 {
-  int64_t count = 0;
-  for (size_t i = 0; i < entries->count; i++)
-    count += stf_passes(&block_at(m, STF_AT(*entries, entry, i)->block)->box);
-  int32_t *next = stf_pool_array(m->pool, (size_t)count, sizeof *next);
-  if (!next) return STEIF_NO_MEMORY;
+  int64_t most = 0;
+  int code = STEIF_OK;
   for (size_t i = 0; i < entries->count; i++) {
-    entry *e = STF_AT(*entries, entry, i);
-    e->slot = next;
-    next += slots(m, M, e);
+    const int64_t count = stf_passes(&block_at(m, STF_AT(*entries, entry, i)->block)->box);
+    if (count > most) most = count;
   }
-  return STEIF_OK;
+  int32_t *slot = stf_allocate(m->ctx, (size_t)most + 1, sizeof *slot);
+  if (!slot) return STEIF_NO_MEMORY;
+  for (size_t i = 0; !code && i < entries->count; i++)
+    code = keep_slots(m, M, STF_AT(*entries, entry, i), slot);
+  stf_release(m->ctx, slot);
+  return code;
 }
 
 static int tapes(stf_model *m, const stf_vector *entries, stf_matrix *M)
@@ -220,7 +249,7 @@ static int tapes(stf_model *m, const stf_vector *entries, stf_matrix *M)
       const entry *e = STF_AT(*entries, entry, next);
       stf_store *s = stf_vector_push(m->ctx, &stores, sizeof *s);
       if (s)
-        *s = (stf_store){.from = e->node, .slot = e->slot};
+        *s = e->place;
       else
         code = STEIF_NO_MEMORY;
     }

@@ -138,12 +138,21 @@ static const double *array_of(const stf_feed *f, int kind)
                                  : f->p;
 }
 
+/* Most stretches are one number, which needs no call. */
+INLINE void copy_stretch(double *restrict to, const double *restrict from, int32_t count)
+{
+  if (count == 1)
+    *to = *from;
+  else
+    memcpy(to, from, (size_t)count * sizeof *to);
+}
+
 static void load(const stf_tape *t, size_t from, size_t to, const stf_feed *feed, double *space)
 {
   const stf_stretch *l = t->loads.data;
   for (size_t i = from; i < to; i++) {
     const double *x = array_of(feed, l[i].kind) + l[i].a;
-    memcpy(space + l[i].at, x, (size_t)l[i].count * sizeof *x);
+    copy_stretch(space + l[i].at, x, l[i].count);
   }
 }
 
@@ -293,7 +302,7 @@ void stf_tape_run(const stf_tape *t, const stf_feed *feed, double *space, double
     const double *r = space + o[i].at;
     double *restrict to = out + o[i].a;
     if (t->assigns)
-      memcpy(to, r, (size_t)o[i].count * sizeof *to);
+      copy_stretch(to, r, o[i].count);
     else
       for (int32_t k = 0; k < o[i].count; k++) to[k] += r[k];
   }
