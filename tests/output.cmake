@@ -120,6 +120,7 @@ expect(2 solve rober be --max-seconds 0 ERR "above 0")
 
 # numpy, or else python's zipfile, reads what was written.
 expect(0 solve bounce radau:s=3 --points 7 --npz run.npz)
+expect(0 solve ${CMAKE_CURRENT_LIST_DIR}/../examples/models/converter.steif bdf --points 3 --npz names.npz)
 expect(1 solve bounce radau:s=3 --npz no/such/run.npz ERR "cannot write")
 expect(1 solve bounce radau:s=3 --h5 no/such/run.h5 ERR "cannot write")
 expect(2 list --h5 x.h5 ERR "makes no matrices; leave --h5 out")
@@ -128,12 +129,16 @@ import struct, zipfile
 archive = zipfile.ZipFile('run.npz')
 assert archive.testzip() is None
 sizes = {n: len(archive.read(n)) - 10 - struct.unpack('<H', archive.read(n)[8:10])[0] for n in archive.namelist()}
-assert sizes == {'t.npy': 56, 'y.npy': 112, 'event_t.npy': 48, 'event_which.npy': 48, 'event_direction.npy': 48}, sizes
+assert sizes == {'t.npy': 56, 'y.npy': 112, 'event_t.npy': 48, 'event_which.npy': 48, 'event_direction.npy': 48,
+                 'event_names.npy': 24}, sizes
 try:
   import numpy
 except ImportError:
   raise SystemExit
 run = numpy.load('run.npz')
+names = numpy.load('names.npz')
+assert list(names['y_names']) == ['i', 'u', 'ic'] and list(names['output_names']) == ['power'], names
+assert list(names['event_names']) == ['line 9', 'line 10'], names['event_names']
 assert run['y'].shape == (7, 2) and run['t'][3] == 1.5 and (run['event_direction'] == -1).all()
 ")
 if(PYTHON)

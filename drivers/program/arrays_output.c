@@ -59,7 +59,7 @@ int save_report_arrays(const struct call *call, const steif_report *report)
     double *value = malloc(rows * (columns ? columns : 1) * sizeof *value);
     if (!value) code = no_memory(call, "the matrices", "leave --npz and --mtx out");
     if (value) steif_report_array_at(report, count, &rows, &columns, value);
-    array[count++] = (steif_array){name, rows, columns, value};
+    array[count++] = (steif_array){name, rows, columns, value, NULL};
   }
   if (!code) code = save(call, count, array);
   for (size_t i = 0; i < count; i++) free((void *)array[i].value);

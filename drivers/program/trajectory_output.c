@@ -39,18 +39,47 @@ void trajectory_fill(steif_report *r, const trajectory *tr)
   for (size_t i = 0; given(tr->call, "--events") && i < tr->events; i++) event_row(r, tr, i);
 }
 
+/* The names of the columns of y and outputs, and of the numbers in event_which; room for all of them. */
+static size_t name_arrays(const trajectory *tr, const char **room, steif_array *to)
+{
+  size_t count = 0;
+  const size_t events = (size_t)tr->problem->events;
+  if (tr->names && tr->names->unknown)
+    to[count++] = (steif_array){.name = "y_names", .rows = tr->n, .text = tr->names->unknown};
+  if (tr->outputs) {
+    to[count++] = (steif_array){.name = "output_names", .rows = tr->outputs, .text = room};
+    for (size_t i = 0; i < tr->outputs; i++) *room++ = steif_model_output(tr->problem, i);
+  }
+  for (size_t i = 0; i < events && tr->problem->event_list; i++) {
+    if (!tr->problem->event_list[i].name) return count;
+    room[i] = tr->problem->event_list[i].name;
+  }
+  if (events && tr->problem->event_list)
+    to[count++] = (steif_array){.name = "event_names", .rows = events, .text = room};
+  return count;
+}
+
 static int all_arrays(const struct call *call, const trajectory *tr)
 {
-  steif_array array[6] = {{"t", tr->count, 0, tr->t}, {"y", tr->count, tr->n, tr->y}};
+  enum { MOST = 9 };
+  steif_array array[MOST] = {{.name = "t", .rows = tr->count, .value = tr->t},
+                             {"y", tr->count, tr->n, tr->y, NULL}};
   size_t count = 2;
+  if (!call->npz && !call->h5) return EXIT_OK;
+  const char **room = calloc(tr->outputs + (size_t)tr->problem->events + 1, sizeof *room);
+  if (!room) return no_memory(call, "names", "leave --npz and --h5 out");
   if (tr->outputs)
-    array[count++] = (steif_array){"outputs", tr->count, tr->outputs, tr->output};
+    array[count++] = (steif_array){"outputs", tr->count, tr->outputs, tr->output, NULL};
   if (tr->problem->events) {
-    array[count++] = (steif_array){"event_t", tr->events, 0, tr->event_t};
-    array[count++] = (steif_array){"event_which", tr->events, 0, tr->event_which};
-    array[count++] = (steif_array){"event_direction", tr->events, 0, tr->event_direction};
+    const double *column[] = {tr->event_t, tr->event_which, tr->event_direction};
+    static const char *const name[] = {"event_t", "event_which", "event_direction"};
+    for (int i = 0; i < 3; i++)
+      array[count++] = (steif_array){.name = name[i], .rows = tr->events, .value = column[i]};
   }
-  return save_arrays(call, count, array);
+  count += name_arrays(tr, room, array + count);
+  const int code = save_arrays(call, count, array);
+  free(room);
+  return code;
 }
 
 int trajectory_save(const struct call *call, trajectory *tr)

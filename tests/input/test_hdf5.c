@@ -10,7 +10,8 @@ static const double E_rows[] = {0, 3.5, 0, 0}, A_rows[] = {-1.5, 2.5, 0, -4},
 /* E, A and a column in a new file; NULL: no libhdf5 here. */
 static const char *written(steif_context *ctx)
 {
-  const steif_array list[] = {{"E", 2, 2, E_rows}, {"A", 2, 2, A_rows}, {"b", 3, 0, line}};
+  const steif_array list[] = {
+    {"E", 2, 2, E_rows, NULL}, {"A", 2, 2, A_rows, NULL}, {"b", 3, 0, line, NULL}};
   const char *path = in_folder("system.h5");
   const int code = steif_h5_save(ctx, path, 3, list);
   CHECK(code == STEIF_OK || code == STEIF_UNSUPPORTED);

@@ -62,7 +62,8 @@ static const unsigned char *member(size_t bytes, size_t k, const char *name, siz
 static void arrays_come_back(void)
 {
   static const sunrealtype t[] = {0.5, 1.25, NAN, 3e-310}, y[] = {1, -2, 3, 4.5, 5, INFINITY};
-  const steif_array array[] = {{"t", 4, 0, t}, {"y", 3, 2, y}, {"none", 0, 0, NULL}};
+  const steif_array array[] = {
+    {"t", 4, 0, t, NULL}, {"y", 3, 2, y, NULL}, {"none", 0, 0, NULL, NULL}};
   static const char *const name[] = {"t.npy", "y.npy", "none.npy"};
   static const char *const shape[] = {"'shape': (4,), }", "'shape': (3, 2), }",
                                       "'shape': (0,), }"};
@@ -85,14 +86,31 @@ static void arrays_come_back(void)
   steif_context_free(&ctx);
 }
 
+/* Texts by code points: "y1" and the Greek "\u03b8\u2032" have two each, the third has one beyond 16 bits. */
+static void texts_come_back(void)
+{
+  static const char *const text[] = {"y1", "\xce\xb8\xe2\x80\xb2", "\xf0\x9d\x9c\x83", ""};
+  static const uint32_t points[] = {'y', '1', 0x3b8, 0x2032, 0x1d703, 0, 0, 0};
+  const steif_array array = {.name = "names", .rows = 4, .text = text};
+  steif_context *ctx = steif_context_new(NULL);
+  const size_t bytes = saved(ctx, 1, &array);
+  size_t length;
+  const unsigned char *data = member(bytes, 0, "names.npy", &length);
+  const size_t head = 10 + number(data + 8, 2);
+  CHECK(!memcmp(data + 10 + 12, "U2', ", 5) && length == head + sizeof points);
+  CHECK(!memcmp(data + head, points, sizeof points));
+  steif_context_free(&ctx);
+}
+
 static void too_much_is_rejected(void)
 {
   static const sunrealtype value = 1;
   steif_array many[17];
-  for (int i = 0; i < 17; i++) many[i] = (steif_array){"x", 1, 0, &value};
-  const steif_array huge = {"x", 80000, 80000, &value};
+  for (int i = 0; i < 17; i++) many[i] = (steif_array){"x", 1, 0, &value, NULL};
+  const steif_array huge = {"x", 80000, 80000, &value, NULL};
   const steif_array named = {
-    "a-name-of-more-than-sixty-characters-is-not-one-that-a-user-would-like", 1, 0, &value};
+    "a-name-of-more-than-sixty-characters-is-not-one-that-a-user-would-like", 1, 0, &value,
+    NULL};
   steif_context *ctx = steif_context_new(NULL);
   CHECK(steif_npz_save(ctx, "never.npz", 17, many) == STEIF_BAD_INPUT);
   CHECK(strstr(steif_message(ctx), "17 arrays are too many"));
@@ -131,6 +149,7 @@ static void fields_of_a_report_are_arrays(void)
 
 CU_TestInfo tests_of_arrays[] = {
   {"arrays come back", arrays_come_back},
+  {"texts of an .npz file", texts_come_back},
   {"fields of a report are arrays", fields_of_a_report_are_arrays},
   {"too much is rejected", too_much_is_rejected},
   CU_TEST_INFO_NULL};

@@ -204,11 +204,15 @@ static void arrays_as_hdf5(void)
 {
   enum { ROOM = 20000 };
   static const double t[] = {0.1, 0.2, 0.7}, y[] = {1.5, -2.25, 3, 4, 1e300, 6};
-  static const steif_array array[] = {{"t", 3, 0, t}, {"solution", 3, 2, y}, {"none", 0, 0, t}};
+  static const char *const names[] = {"position", "speed"};
+  static const steif_array array[] = {{"t", 3, 0, t, NULL},
+                                      {"solution", 3, 2, y, NULL},
+                                      {"none", 0, 0, t, NULL},
+                                      {.name = "names", .rows = 2, .text = names}};
   static char file[ROOM];
   steif_context *ctx = steif_context_new(NULL);
   enter();
-  const int code = steif_h5_save(ctx, inside("run.h5"), 3, array);
+  const int code = steif_h5_save(ctx, inside("run.h5"), 4, array);
   if (code == STEIF_UNSUPPORTED) {
     CHECK(!!strstr(steif_message(ctx), "libhdf5"));
     CHECK(leave() == 0);
@@ -219,15 +223,16 @@ static void arrays_as_hdf5(void)
     const size_t bytes = fread(file, 1, ROOM, stream);
     fclose(stream);
     CHECK(bytes > 8 && !memcmp(file, "\211HDF\r\n\032\n", 8));
-    int found[4] = {0};
+    int found[5] = {0};
     for (size_t i = 0; i + sizeof y <= bytes; i++) {
       found[0] += !memcmp(file + i, t, sizeof t);
       found[1] += !memcmp(file + i, y, sizeof y);
       found[2] += !memcmp(file + i, "solution", sizeof "solution");
+      found[4] += !memcmp(file + i, "position\0speed", sizeof "position\0speed");
       found[3] += !memcmp(file + i, "none", sizeof "none");
     }
-    for (int i = 0; i < 4; i++) CHECK(found[i] >= 1);
-    CHECK(steif_h5_save(ctx, inside("no/such/run.h5"), 3, array) == STEIF_IO);
+    for (int i = 0; i < 5; i++) CHECK(found[i] >= 1);
+    CHECK(steif_h5_save(ctx, inside("no/such/run.h5"), 4, array) == STEIF_IO);
     CHECK(!!strstr(steif_message(ctx), "no/such/run.h5"));
     CHECK(leave() == 1);
   }

@@ -1,7 +1,7 @@
 /* npz.c: arrays as numpy's .npz: a zip archive of stored (not compressed) .npy files.
  *
  * A member is a local header, "\x93NUMPY", a dictionary of type and shape padded to 64 bytes, and the
- * numbers; after all members comes the list of them. Format: numpy.lib.format (NEP 1) and PKWARE's
+ * numbers, or texts as code points of 32 bits; after all members comes the list of them. Format: numpy.lib.format (NEP 1) and PKWARE's
  * APPNOTE 4.3 without the 64-bit extension, so that members end below 4 GB.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -16,6 +16,8 @@ typedef struct member {
   char name[NAME];
   unsigned char head[HEAD]; /* of the .npy file */
   size_t head_bytes;
+  const void *data;
+  uint32_t *letters;          /* of texts */
   uint64_t data_bytes, begin; /* begin: of the local header in the archive */
   uint32_t check;
 } member;
@@ -43,17 +45,50 @@ static bool little(void)
   return first == 1;
 }
 
-static void npy(const steif_array *a, member *m)
+/* The code points of UTF-8 text into `to` where there is one; how many there are. */
+static size_t spell(const char *text, uint32_t *to)
+{
+  size_t count = 0;
+  for (const unsigned char *c = (const unsigned char *)text; *c; count++) {
+    const int more = *c >= 0xf0 ? 3 : *c >= 0xe0 ? 2 : *c >= 0xc0 ? 1 : 0;
+    uint32_t point = more ? *c & (0x3fu >> more) : *c;
+    c++;
+    for (int k = 0; k < more && (*c & 0xc0) == 0x80; k++, c++) point = point << 6 | (*c & 0x3f);
+    if (to) to[count] = point;
+  }
+  return count;
+}
+
+/* Texts as rows of equal width, zeros behind them; the width. */
+static int letters(steif_context *ctx, const steif_array *a, member *m, size_t *width)
+{
+  *width = 1;
+  for (size_t i = 0; i < a->rows; i++) {
+    const size_t length = spell(a->text[i], NULL);
+    if (length > *width) *width = length;
+  }
+  m->letters = stf_allocate(ctx, a->rows * *width + 1, sizeof *m->letters);
+  if (!m->letters) return STEIF_NO_MEMORY;
+  for (size_t i = 0; i < a->rows; i++) spell(a->text[i], m->letters + i * *width);
+  return STEIF_OK;
+}
+
+static int npy(steif_context *ctx, const steif_array *a, member *m)
 {
   enum { FIXED = 10 };
-  char shape[64], *text = (char *)m->head + FIXED;
+  char shape[64], kind[24] = "f8", *text = (char *)m->head + FIXED;
+  size_t width = 1;
+  if (a->text) {
+    STEIF_TRY(letters(ctx, a, m, &width));
+    snprintf(kind, sizeof kind, "U%zu", width);
+  }
   if (a->columns)
     snprintf(shape, sizeof shape, "(%zu, %zu)", a->rows, a->columns);
   else
     snprintf(shape, sizeof shape, "(%zu,)", a->rows);
   const int used =
-    snprintf(text, HEAD - FIXED, "{'descr': '%cf8', 'fortran_order': False, 'shape': %s, }",
-             little() ? '<' : '>', shape);
+    snprintf(text, HEAD - FIXED, "{'descr': '%c%s', 'fortran_order': False, 'shape': %s, }",
+             little() ? '<' : '>', kind, shape);
   const size_t length = ((size_t)used + FIXED + 1 + 63) / 64 * 64 - FIXED;
   memcpy(m->head, "\x93NUMPY\1", 8);
   m->head[8] = length & 255;
@@ -61,7 +96,11 @@ static void npy(const steif_array *a, member *m)
   memset(text + used, ' ', length - (size_t)used - 1);
   text[length - 1] = '\n';
   m->head_bytes = FIXED + length;
-  m->data_bytes = (uint64_t)a->rows * (a->columns ? a->columns : 1) * sizeof *a->value;
+  m->data = a->text ? (const void *)m->letters : a->value;
+  m->data_bytes = a->text
+                    ? (uint64_t)a->rows * width * sizeof *m->letters
+                    : (uint64_t)a->rows * (a->columns ? a->columns : 1) * sizeof *a->value;
+  return STEIF_OK;
 }
 
 /* `bytes` bytes of a number, the lowest first. */
@@ -85,13 +124,13 @@ static void describe(FILE *stream, const member *m)
   put(stream, 0, 2);
 }
 
-static void write_member(FILE *stream, const steif_array *a, const member *m)
+static void write_member(FILE *stream, const member *m)
 {
   put(stream, 0x04034b50, 4);
   describe(stream, m);
   fputs(m->name, stream);
   fwrite(m->head, 1, m->head_bytes, stream);
-  if (m->data_bytes > 0) fwrite(a->value, 1, (size_t)m->data_bytes, stream);
+  if (m->data_bytes > 0) fwrite(m->data, 1, (size_t)m->data_bytes, stream);
 }
 
 static void write_list(FILE *stream, size_t count, const member *m, uint64_t begin)
@@ -116,37 +155,49 @@ static void write_list(FILE *stream, size_t count, const member *m, uint64_t beg
 }
 
 /* Headers, checksums and places; the end of the members. */
-static uint64_t plan(size_t count, const steif_array *array, member *m)
+static int plan(steif_context *ctx, size_t count, const steif_array *array, member *m,
+                uint64_t *end)
 {
-  uint64_t at = 0;
+  *end = 0;
   for (size_t i = 0; i < count; i++) {
-    m[i].begin = at;
+    m[i].begin = *end;
     snprintf(m[i].name, NAME, "%s.npy", array[i].name);
-    npy(array + i, m + i);
+    STEIF_TRY(npy(ctx, array + i, m + i));
     m[i].check = checksum(0, m[i].head, m[i].head_bytes);
     if (m[i].data_bytes <= largest)
-      m[i].check = checksum(m[i].check, array[i].value, (size_t)m[i].data_bytes);
-    at += 30 + strlen(m[i].name) + m[i].head_bytes + m[i].data_bytes;
+      m[i].check = checksum(m[i].check, m[i].data, (size_t)m[i].data_bytes);
+    *end += 30 + strlen(m[i].name) + m[i].head_bytes + m[i].data_bytes;
   }
-  return at;
+  STEIF_CHECK(
+    *end <= largest, ctx, STEIF_UNSUPPORTED,
+    "the arrays take %.1f GB, more than the 4 GB of an .npz file: ask for fewer times",
+    (double)*end * 1e-9);
+  return STEIF_OK;
+}
+
+static int write_all(steif_context *ctx, const char *path, size_t count, const member *m,
+                     uint64_t end)
+{
+  stf_output o;
+  STEIF_TRY(stf_output_open(ctx, path, &o));
+  for (size_t i = 0; i < count; i++) write_member(o.stream, m + i);
+  write_list(o.stream, count, m, end);
+  return stf_output_close(ctx, &o, STEIF_OK);
 }
 
 int steif_npz_save(steif_context *ctx, const char *path, size_t count, const steif_array *array)
 {
   member m[MEMBERS];
-  stf_output o;
+  uint64_t end = 0;
   STEIF_CHECK(count <= MEMBERS, ctx, STEIF_BAD_INPUT, "%zu arrays are too many: at most %d",
               count, MEMBERS);
   for (size_t i = 0; i < count; i++)
     STEIF_CHECK(strlen(array[i].name) < NAME - sizeof ".npy", ctx, STEIF_BAD_INPUT,
                 "the name \"%s\" of an array is too long", array[i].name);
-  const uint64_t end = plan(count, array, m);
-  STEIF_CHECK(
-    end <= largest, ctx, STEIF_UNSUPPORTED,
-    "the arrays take %.1f GB, more than the 4 GB of an .npz file: ask for fewer times",
-    (double)end * 1e-9);
-  STEIF_TRY(stf_output_open(ctx, path, &o));
-  for (size_t i = 0; i < count; i++) write_member(o.stream, array + i, m + i);
-  write_list(o.stream, count, m, end);
-  return stf_output_close(ctx, &o, STEIF_OK);
+  memset(m, 0, sizeof m);
+  int code = plan(ctx, count, array, m, &end);
+  if (!code) code = write_all(ctx, path, count, m, end);
+  for (size_t i = 0; i < count; i++)
+    if (m[i].letters) stf_release(ctx, m[i].letters);
+  return code;
 }
