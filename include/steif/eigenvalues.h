@@ -25,7 +25,9 @@ typedef struct steif_eigenvalue {
   sunrealtype frequency; /* |Im s| / (2 pi) */
   sunrealtype
     residual; /* max_i |((s E + F) v)_i| / ((|s| ||E_i|| + ||F_i||) max |v|), 1-norms of rows:
-                            relative changes of the entries that make s exact are as small */
+                            relative changes of the entries that make s exact are as small. Of a
+                            dense pencil in units in which entries are of one size, and where |s| is
+                            below 1e-13 of the largest one with that instead: 0 to rounding */
 } steif_eigenvalue;
 
 typedef struct steif_eigenvalue_request {

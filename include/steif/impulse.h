@@ -32,7 +32,8 @@ extern "C" {
 #endif
 
 enum steif_algorithm {
-  STEIF_AUTOMATIC, /* staircase up to n = 400 when dense or small, else contour */
+  STEIF_AUTOMATIC, /* staircase up to n = 400 when dense or small, contour where that is not certified;
+                      else contour */
   STEIF_STAIRCASE, /* dense, checked by STEIF_QZ */
   STEIF_QZ,        /* dense, generalised Schur form reordered */
   STEIF_CONTOUR    /* sparse */

@@ -56,6 +56,105 @@ static void families_come_back(void)
   steif_context_free(&ctx);
 }
 
+/* P diag(s I - D, 1) Q with P and Q from whole numbers of determinant 1 and units of 2^-20 to 2^20. */
+static const double mixed_E[36] = {-0.5,
+                                   0,
+                                   64,
+                                   -0.1875,
+                                   0.5,
+                                   3145728,
+                                   0,
+                                   1.1920928955078125e-07,
+                                   1.1920928955078125e-07,
+                                   -4.656612873077393e-10,
+                                   2.2351741790771484e-08,
+                                   -0.171875,
+                                   0,
+                                   0,
+                                   3.0517578125e-05,
+                                   -8.940696716308594e-08,
+                                   0,
+                                   4,
+                                   0,
+                                   0,
+                                   -1024,
+                                   4,
+                                   -96,
+                                   671088640,
+                                   128,
+                                   0,
+                                   -15360,
+                                   44,
+                                   -112,
+                                   -805306368,
+                                   0.0078125,
+                                   0,
+                                   -1.0625,
+                                   0.003173828125,
+                                   -0.01953125,
+                                   40960},
+                    mixed_F[36] = {-2,
+                                   0,
+                                   224,
+                                   -0.625,
+                                   1,
+                                   16252928,
+                                   -1.4901161193847656e-08,
+                                   0,
+                                   3.0994415283203125e-06,
+                                   -8.381903171539307e-09,
+                                   -4.470348358154297e-08,
+                                   0.7421875,
+                                   0,
+                                   0,
+                                   -9.1552734375e-05,
+                                   2.384185791015625e-07,
+                                   0,
+                                   -12,
+                                   0,
+                                   0,
+                                   0,
+                                   0,
+                                   192,
+                                   -1610612736,
+                                   384,
+                                   0,
+                                   -43008,
+                                   120,
+                                   -288,
+                                   -2348810240,
+                                   0.0234375,
+                                   0,
+                                   -2.625,
+                                   0.00732421875,
+                                   0.0078125,
+                                   -356352};
+
+/* D = diag(2, 0, 0, -2, 4): zeros are certified beside what is not 0, in any units. */
+static void zeros_in_mixed_units(void)
+{
+  static const double wanted[5] = {-2, 0, 0, 2, 4};
+  double found[5];
+  steif_context *ctx = steif_context_new(NULL);
+  SUNMatrix e = dense(ctx, 6, mixed_E), f = dense(ctx, 6, mixed_F);
+  steif_structure s;
+  steif_eigenvalues v;
+  CHECK(!steif_structure_find(ctx, e, f, NULL, &s));
+  CHECK(!steif_eigenvalues_find(ctx, e, f, NULL, &s, NULL, &v));
+  CHECK(s.index == 1 && v.count == 5 && v.all && v.certified);
+  for (int k = 0; k < 5 && v.count == 5; k++) {
+    int at = k;
+    for (; at > 0 && found[at - 1] > v.value[k].re; at--) found[at] = found[at - 1];
+    found[at] = v.value[k].re;
+    CHECK(fabs(v.value[k].im) < 1e-7 && v.value[k].residual < 1e-12);
+  }
+  for (int k = 0; k < 5 && v.count == 5; k++) CHECK(fabs(found[k] - wanted[k]) < 1e-7);
+  steif_eigenvalues_clear(ctx, &v);
+  steif_structure_clear(ctx, &s);
+  SUNMatDestroy(e), SUNMatDestroy(f);
+  steif_context_free(&ctx);
+}
+
 /* x_i' = x_{i-1} - 2 x_i + x_{i+1} on n points, the ends fixed (`open`: free), and the sum of all as one
  * more unknown: s = 2 cos(k pi / (n + 1)) - 2, k = 1 .. n (free: 2 cos(k pi / n) - 2, k = 0 .. n - 1). */
 static void line(steif_context *ctx, int n, bool free_ends, SUNMatrix *to_E, SUNMatrix *to_F)
@@ -161,6 +260,7 @@ CU_TestInfo tests_of_eigenvalues[] = {
   {"a pair of a pencil of index 3", five_by_five},
   {"rates of random families come back", families_come_back},
   {"sparse ones near a point, and at one", sparse_ones_near_a_point},
+  {"zeros in mixed units", zeros_in_mixed_units},
   {"both ways agree", both_ways_agree},
   {"what cannot be asked for is told", bad_requests},
   CU_TEST_INFO_NULL};

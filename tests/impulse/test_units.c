@@ -286,12 +286,47 @@ static void dependent_equations_are_named(void)
   steif_context_free(&ctx);
 }
 
+/* One chain of 3 from whole numbers of determinant 1, in units of 2^-20 to 2^20: staircase and Schur form leave its
+ * index open, circles with exact ranks do not; what is asked for with an algorithm keeps to it. */
+static void circles_decide_what_schur_forms_leave_open(void)
+{
+  static const double E[9] = {0, 1879048192,  -0.28125,
+                              0, 25769803776, -4,
+                              0, 0.125,       -1.8189894035458565e-11},
+                      F[9] = {1024,
+                              6710886400,
+                              -0.90625,
+                              0,
+                              60129542144,
+                              -9,
+                              1.1920928955078125e-07,
+                              0.46875,
+                              -5.820766091346741e-11},
+                      x0[3] = {1, 2, 3};
+  steif_context *ctx = steif_context_new(NULL);
+  SUNMatrix e = dense(ctx, 3, E), f = dense(ctx, 3, F);
+  const steif_analysis by = {.algorithm = STEIF_STAIRCASE};
+  steif_structure s;
+  steif_impulse i;
+  CHECK(!steif_structure_find(ctx, e, f, &by, &s) && !s.certified);
+  steif_structure_clear(ctx, &s);
+  CHECK(!steif_structure_find(ctx, e, f, NULL, &s));
+  CHECK(s.certified && s.index == 3 && s.finite == 0 && !strcmp(s.method, "contour"));
+  CHECK(!steif_impulse_find(ctx, e, f, x0, 0, NULL, NULL, NULL, &s, &i));
+  CHECK(!i.certified || (i.index == 3 && i.count == 2 && !strcmp(i.method, "contour")));
+  steif_impulse_clear(ctx, &i);
+  steif_structure_clear(ctx, &s);
+  SUNMatDestroy(e), SUNMatDestroy(f);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_units[] = {
   {"a shift beside any diagonal has index 3", a_shift_beside_any_diagonal},
   {"the 5 x 5 pencil in any units", five_by_five_in_any_units},
   {"chains are found in any units", chains_in_any_units},
   {"small entries that may be rounding are not certified", small_entries_raise_doubts},
   {"singular exactly, or to rounding", singular_exactly_or_to_rounding},
+  {"circles decide what Schur forms leave open", circles_decide_what_schur_forms_leave_open},
   {"counts leave room for the index", counts_and_indices_agree},
   {"ranks and moments agree", ranks_and_moments_agree},
   {"ranks over a field", ranks_over_a_field},

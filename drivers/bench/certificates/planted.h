@@ -47,7 +47,7 @@ typedef struct planted_outcome {
   sunrealtype off;   /* error of x(0+) over its estimate, where it is known */
   char message[512]; /* of the structure */
 } planted_outcome;
-/* By the staircase where the kind is dense, else by circles. */
+/* By staircase and Schur form, and by circles what these leave open, where the kind is dense; else by circles. */
 int planted_judge(steif_context *ctx, enum planted_kind kind, const planted *p,
                   planted_outcome *out);
 

@@ -6,38 +6,41 @@
 
 enum { FINITE = 10, BLOCKS = 3, LONGEST = 3 };
 
+/* In longer arithmetic, so that what is planted is off by the rounding of the entries alone. */
+typedef long double wide;
+
 /* A <- Q A or A Q of n x n A by columns, Q a product of n reflections given by w. */
-static void reflect(int n, const sunrealtype *w, bool left, sunrealtype *A)
+static void reflect(int n, const wide *w, bool left, wide *A)
 {
   for (int k = 0; k < n; k++)
     for (int j = 0; j < n; j++) {
-      const sunrealtype *v = w + k * n;
-      sunrealtype dot = 0;
+      const wide *v = w + k * n;
+      wide dot = 0;
       for (int i = 0; i < n; i++) dot += v[i] * (left ? A[j * n + i] : A[i * n + j]);
       for (int i = 0; i < n; i++) A[left ? j * n + i : i * n + j] -= 2 * dot * v[i];
     }
 }
 
 /* Q^{-1} x of A Q: the reflection next to A comes first. */
-static void reflect_back(int n, const sunrealtype *w, sunrealtype *x)
+static void reflect_back(int n, const wide *w, wide *x)
 {
   for (int k = 0; k < n; k++) {
-    const sunrealtype *v = w + k * n;
-    sunrealtype dot = 0;
+    const wide *v = w + k * n;
+    wide dot = 0;
     for (int i = 0; i < n; i++) dot += v[i] * x[i];
     for (int i = 0; i < n; i++) x[i] -= 2 * dot * v[i];
   }
 }
 
-static void draw_reflections(stf_random *r, int n, sunrealtype *w)
+static void draw_reflections(stf_random *r, int n, wide *w)
 {
   for (int k = 0; k < n; k++) {
-    sunrealtype square = 0;
+    wide square = 0;
     for (int i = 0; i < n; i++) {
       w[k * n + i] = stf_random_normal(r);
       square += w[k * n + i] * w[k * n + i];
     }
-    for (int i = 0; i < n; i++) w[k * n + i] /= sqrt(square);
+    for (int i = 0; i < n; i++) w[k * n + i] /= sqrtl(square);
   }
 }
 
@@ -58,24 +61,44 @@ static void put_blocks(planted *p, int f, int blocks, const int *size, sunrealty
     for (int i = 0; i + 1 < size[b]; i++) p->E[(at + i + 1) * n + at + i] = 1;
 }
 
-/* E <- Q_1 D Q_2 E Q_3 D Q_4, F likewise; x = Q_4^{-1} D^{-1} Q_3^{-1} z. */
-static void transform(planted *p, sunrealtype kappa)
+static void copy(int count, const sunrealtype *from, wide *to)
 {
-  sunrealtype w[4][PLANTED_MOST * PLANTED_MOST], *both[] = {p->E, p->F};
-  sunrealtype *start[] = {p->before, p->after};
+  for (int k = 0; k < count; k++) to[k] = from[k];
+}
+
+static void rounded(int count, const wide *from, sunrealtype *to)
+{
+  for (int k = 0; k < count; k++) to[k] = (sunrealtype)from[k];
+}
+
+/* A <- Q_1 D Q_2 A Q_3 D Q_4, and x <- Q_4^{-1} D^{-1} Q_3^{-1} x. */
+static void transform(int n, const wide *scale, const wide w[4][PLANTED_MOST * PLANTED_MOST],
+                      sunrealtype *A, sunrealtype *x)
+{
+  wide M[PLANTED_MOST * PLANTED_MOST], z[PLANTED_MOST];
+  copy(n * n, A, M);
+  copy(n, x, z);
+  reflect(n, w[1], true, M);
+  reflect(n, w[2], false, M);
+  for (int k = 0; k < n * n; k++) M[k] *= scale[k % n] * scale[k / n];
+  reflect(n, w[0], true, M);
+  reflect(n, w[3], false, M);
+  reflect_back(n, w[2], z);
+  for (int i = 0; i < n; i++) z[i] /= scale[i];
+  reflect_back(n, w[3], z);
+  rounded(n * n, M, A);
+  rounded(n, z, x);
+}
+
+/* E and F with one transformation each side, and the values before and after with it. */
+static void transform_all(planted *p, sunrealtype kappa)
+{
+  wide w[4][PLANTED_MOST * PLANTED_MOST], scale[PLANTED_MOST];
   const int n = p->n;
+  for (int i = 0; i < n; i++) scale[i] = powl(kappa, n > 1 ? -(wide)i / (n - 1) : 0);
   for (int q = 0; q < 4; q++) draw_reflections(&p->random, n, w[q]);
-  for (int m = 0; m < 2; m++) {
-    reflect(n, w[1], true, both[m]);
-    reflect(n, w[2], false, both[m]);
-    for (int k = 0; k < n * n; k++)
-      both[m][k] *= pow(kappa, n > 1 ? -(sunrealtype)(k % n + k / n) / (n - 1) : 0);
-    reflect(n, w[0], true, both[m]);
-    reflect(n, w[3], false, both[m]);
-    reflect_back(n, w[2], start[m]);
-    for (int i = 0; i < n; i++) start[m][i] *= pow(kappa, n > 1 ? (sunrealtype)i / (n - 1) : 0);
-    reflect_back(n, w[3], start[m]);
-  }
+  transform(n, scale, (const wide(*)[PLANTED_MOST * PLANTED_MOST]) w, p->E, p->before);
+  transform(n, scale, (const wide(*)[PLANTED_MOST * PLANTED_MOST]) w, p->F, p->after);
 }
 
 void planted_dense(planted *p)
@@ -97,5 +120,5 @@ void planted_dense(planted *p)
     p->after[i] = i < f ? p->before[i] : 0;
   }
   p->start = f > 0;
-  transform(p, kappa);
+  transform_all(p, kappa);
 }

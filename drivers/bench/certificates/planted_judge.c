@@ -79,7 +79,7 @@ int planted_judge(steif_context *ctx, enum planted_kind kind, const planted *p,
                   planted_outcome *out)
 {
   const bool dense = kind == PLANTED_DENSE;
-  const steif_analysis by = {.algorithm = dense ? STEIF_STAIRCASE : STEIF_CONTOUR};
+  const steif_analysis by = {.algorithm = dense ? STEIF_AUTOMATIC : STEIF_CONTOUR};
   SUNMatrix E = matrix(ctx, p->n, p->E, dense), F = matrix(ctx, p->n, p->F, dense);
   steif_structure s = {0};
   *out = (planted_outcome){.off = 0};

@@ -129,7 +129,34 @@ static int run(stf_descriptor *d, forcing *f)
   return code;
 }
 
+/* What staircase and Schur form leave open circles may decide, which have exact ranks beside them: are they asked,
+ * and the answer taken if it is certified? Their failures are none. */
+static bool asks_circles(const steif_analysis *wanted, const steif_analysis *used)
+{
+  return (!wanted || wanted->algorithm == STEIF_AUTOMATIC) && stf_analysis_dense(used);
+}
+
 /* -- structure ------------------------------------------------------------------------------ */
+
+/* Of a regular pencil. */
+static int structure_by_circles(const stf_descriptor *open, steif_structure *structure)
+{
+  steif_structure other = {.count = NAN, .degree = -1, .exact = -1};
+  stf_descriptor d = {.ctx = open->ctx,
+                      .E = open->E,
+                      .F = open->F,
+                      .structure = &other,
+                      .options = open->options};
+  d.options.algorithm = STEIF_CONTOUR;
+  const int code = run(&d, NULL);
+  stf_pool_free(&d.pool);
+  const bool taken = !code && other.regular && other.certified;
+  steif_structure_clear(open->ctx, taken ? structure : &other);
+  if (taken) *structure = other;
+  if (code == STEIF_NO_MEMORY || code == STEIF_STOPPED) return code;
+  steif_forget(open->ctx);
+  return STEIF_OK;
+}
 
 int steif_structure_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                          const steif_analysis *analysis, steif_structure *structure)
@@ -139,8 +166,11 @@ int steif_structure_find(steif_context *ctx, SUNMatrix E, SUNMatrix F,
   stf_descriptor d = {.ctx = ctx, .E = E, .F = F, .structure = structure};
   d.options = stf_analysis_resolved(E, F, analysis);
   STEIF_TRY(stf_analysis_check(ctx, E, F, &d.options));
-  const int code = run(&d, NULL);
+  int code = run(&d, NULL);
   stf_pool_free(&d.pool);
+  if (!code && asks_circles(analysis, &d.options) && structure->regular &&
+      !structure->certified)
+    code = structure_by_circles(&d, structure);
   if (code != STEIF_OK) steif_structure_clear(ctx, structure);
   return code;
 }
@@ -197,7 +227,27 @@ static int find_start(stf_descriptor *d, forcing *f, const steif_structure *give
   }
   if (d->structure_known) s.kept = NULL;
   steif_structure_clear(d->ctx, &s);
+  stf_pool_free(&d->pool);
   return code;
+}
+
+static int start_by_circles(const stf_descriptor *open, forcing *f)
+{
+  steif_impulse other = {0}, *first = open->impulse;
+  stf_descriptor d = {.ctx = open->ctx,
+                      .E = open->E,
+                      .F = open->F,
+                      .x0 = open->x0,
+                      .impulse = &other,
+                      .options = open->options};
+  d.options.algorithm = STEIF_CONTOUR;
+  const int code = find_start(&d, f, NULL);
+  const bool taken = !code && other.certified;
+  steif_impulse_clear(open->ctx, taken ? first : &other);
+  if (taken) *first = other;
+  if (code == STEIF_NO_MEMORY || code == STEIF_STOPPED || code == STEIF_CALLBACK) return code;
+  steif_forget(open->ctx);
+  return STEIF_OK;
 }
 
 int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F, const sunrealtype *x0,
@@ -213,8 +263,10 @@ int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F, const sunre
   STEIF_TRY(stf_analysis_check(ctx, E, F, &d.options));
   forcing wanted = {.f = f ? stf_demand_value : NULL, .t = t};
   wanted.demand = stf_demand_of(ctx, &(steif_linear){E, F, f, user}, &d.options);
-  const int code = find_start(&d, &wanted, structure);
-  stf_pool_free(&d.pool);
+  int code = find_start(&d, &wanted, structure);
+  if (!code && asks_circles(analysis, &d.options) && !impulse->certified)
+    code = start_by_circles(&d, &wanted);
+  if (code) steif_impulse_clear(ctx, impulse);
   stf_demand_close(&wanted.demand);
   return code;
 }

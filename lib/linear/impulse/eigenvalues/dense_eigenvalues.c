@@ -3,6 +3,7 @@
 #include "eigenpairs.h"
 #include "lapack.h"
 #include "separated_parts.h"
+#include <math.h>
 #include <string.h>
 
 /* dggev asks for 8 rows of work at least; more for blocks. */
@@ -42,6 +43,10 @@ static int solve(stf_eigenpairs *p, finite *q, const sunrealtype *back, double c
          q->vector, &q->f, q->work, &lwork, &info, 1, 1);
   STEIF_CHECK(!info, p->ctx, STEIF_NOT_CERTIFIED,
               "the QZ algorithm did not converge (dggev: %d): scale the equations", info);
+  for (int j = 0; j < q->f; j++) {
+    const sunrealtype size = hypot(q->re[j], q->im[j]) / fabs(q->beta[j]);
+    if (isfinite(size)) p->largest = fmax(p->largest, size);
+  }
   for (int j = 0; j < q->f; j++) {
     const bool pair = q->im[j] > 0 && j + 1 < q->f;
     const double complex s = (q->re[j] + I * q->im[j]) / q->beta[j];

@@ -32,14 +32,15 @@ void stf_eigenpairs_product(const stf_eigenpairs *p, char which, const double co
 steif_eigenvalue stf_eigenpairs_measure(const stf_eigenpairs *p, double complex s,
                                         const double complex *v)
 {
-  const sunrealtype size = cabs(s);
+  const sunrealtype size = cabs(s), unit = size < STF_NOTHING * p->largest ? p->largest : size;
   sunrealtype most = 0, off = 0;
   stf_eigenpairs_product(p, 'F', v, p->r);
   add(p->E, s, v, p->r);
-  for (int i = 0; i < p->n; i++) most = fmax(most, cabs(v[i]));
+  for (int i = 0; i < p->n; i++) most = fmax(most, cabs(v[i]) / (p->unit ? p->unit[i] : 1));
   for (int i = 0; i < p->n; i++) {
-    const sunrealtype row = size * p->norm[0][i] + p->norm[1][i];
-    if (row > 0) off = fmax(off, cabs(p->r[i]) / row);
+    const sunrealtype row = unit * p->norm[0][i] + p->norm[1][i],
+                      residual = cabs(p->r[i]) * (p->row ? p->row[i] : 1);
+    if (row > 0) off = fmax(off, residual / row);
   }
   return (steif_eigenvalue){.re = creal(s),
                             .im = cimag(s),

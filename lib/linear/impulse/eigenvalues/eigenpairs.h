@@ -9,6 +9,8 @@
 
 /* A residual that certifies an eigenvalue. */
 #define STF_RESIDUAL 1e-8
+/* Below so much of the largest one an eigenvalue is 0 to rounding, which is what its residual is measured by. */
+#define STF_NOTHING 1e-13
 /* Arnoldi's method goes on until residuals are as small. */
 #define STF_CONVERGED 1e-11
 
@@ -23,7 +25,9 @@ typedef struct stf_eigenpairs {
   double complex near;
   long count;              /* found: */
   steif_eigenvalue *value; /* from the pool */
-  sunrealtype *norm[2];    /* 1-norms of the rows of E and F */
+  sunrealtype *norm[2];    /* 1-norms of the rows of E and F, in the units below */
+  sunrealtype largest;     /* |s| of those looked at together; 0: of one at a time */
+  sunrealtype *row, *unit; /* rows and unknowns are measured by these factors; NULL: 1 */
   double complex *r;       /* room for a residual */
 } stf_eigenpairs;
 

@@ -1,5 +1,6 @@
 /* finite_eigenvalues.c: the finite eigenvalues of a pencil, all or those near to a point.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "dense_units.h"
 #include "eigenpairs.h"
 #include <math.h>
 #include <stdio.h>
@@ -20,12 +21,22 @@ static int sparse(stf_eigenpairs *p, SUNMatrix *M)
 
 static void measure_rows(SUNMatrix M, sunrealtype *norm)
 {
-  const bool dense = SUNMatGetID(M) == SUNMATRIX_DENSE;
-  const sunindextype n = dense ? SM_COLUMNS_D(M) : SM_COLUMNS_S(M);
-  const sunindextype count = dense ? SM_LDATA_D(M) : SM_INDEXPTRS_S(M)[n];
-  const sunrealtype *a = dense ? SM_DATA_D(M) : SM_DATA_S(M);
-  for (sunindextype k = 0; k < count; k++)
-    norm[dense ? k % n : SM_INDEXVALS_S(M)[k]] += fabs(a[k]);
+  const sunindextype count = SM_INDEXPTRS_S(M)[SM_COLUMNS_S(M)];
+  for (sunindextype k = 0; k < count; k++) norm[SM_INDEXVALS_S(M)[k]] += fabs(SM_DATA_S(M)[k]);
+}
+
+/* A dense pencil: in the units in which it is analysed, so that those of the unknowns do not matter. */
+static int measure_dense(stf_eigenpairs *p)
+{
+  stf_dense_units u;
+  const size_t n = (size_t)p->n;
+  STEIF_TRY(stf_dense_units_choose(p->ctx, p->pool, p->analysis, p->E, p->F, &u));
+  p->row = u.row, p->unit = u.column;
+  for (size_t k = 0; k < n * n; k++) {
+    p->norm[0][k % n] += fabs(u.E[k]);
+    p->norm[1][k % n] += fabs(u.F[k]);
+  }
+  return STEIF_OK;
 }
 
 static int check(const stf_eigenpairs *p, const steif_eigenvalue_request *request, bool dense)
@@ -56,12 +67,14 @@ static int run(stf_eigenpairs *p, bool dense)
   p->norm[1] = p->norm[0] + n;
   if (!dense) STEIF_TRY(sparse(p, &p->E));
   if (!dense) STEIF_TRY(sparse(p, &p->F));
-  measure_rows(p->E, p->norm[0]);
-  measure_rows(p->F, p->norm[1]);
-  if (dense)
+  if (dense) {
+    STEIF_TRY(measure_dense(p));
     STEIF_TRY(stf_eigenpairs_dense(p));
-  else if (p->wanted)
-    STEIF_TRY(stf_eigenpairs_sparse(p));
+  } else {
+    measure_rows(p->E, p->norm[0]);
+    measure_rows(p->F, p->norm[1]);
+    if (p->wanted) STEIF_TRY(stf_eigenpairs_sparse(p));
+  }
   stf_eigenpairs_sort(p);
   return STEIF_OK;
 }
@@ -97,10 +110,13 @@ static int find(stf_eigenpairs *p, const steif_eigenvalue_request *request,
                 steif_eigenvalues *out)
 {
   const steif_analysis a = stf_analysis_resolved(p->E, p->F, p->analysis);
-  const bool dense = stf_analysis_dense(&a);
+  /* A structure that only circles know is no dense one; of a small pencil all are found all the same. */
+  const bool small = stf_analysis_dense(&a),
+             dense = small && strcmp(p->structure->method, "contour");
   p->analysis = &a;
+  if (small && !dense && !p->wanted) p->wanted = (long)p->structure->finite;
   STEIF_TRY(stf_analysis_check(p->ctx, p->E, p->F, &a));
-  STEIF_TRY(check(p, request, dense));
+  STEIF_TRY(check(p, request, small));
   STEIF_TRY(run(p, dense));
   out->count = shown(p);
   out->value = stf_allocate(p->ctx, (size_t)out->count + 1, sizeof *out->value);
