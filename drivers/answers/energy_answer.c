@@ -22,12 +22,19 @@ static void map_of_step(const struct call *call, steif_report *r, const steif_pr
     MEMBER(steif_step_map, determinant, A_REAL),
     {"symplectic_defect", A_REAL, offsetof(steif_step_map, symplectic)},
     {"reversal_defect", A_REAL, offsetof(steif_step_map, reversal)},
+    MEMBER(steif_step_map, radius, A_REAL),
     MEMBERS_END};
   const double h = real_of(call, "--h");
   steif_step_map map;
   if (p->positions == 0 || !(h > 0) || p->n > MAP_LARGEST) return;
-  if (steif_step_map_find(call->ctx, p, call->word[1], h, NULL, NULL, &map) == STEIF_OK)
+  if (steif_step_map_find(call->ctx, p, call->word[1], h, NULL, NULL, &map) == STEIF_OK) {
     report_members(r, "step.", members, &map);
+    if (p->linear && map.turned > 1)
+      steif_report_text(
+        r, "step.border",
+        "two multipliers of a step meet at -1: h is at the border of stability, "
+        "where the energy of other starts grows");
+  }
   steif_forget(call->ctx);
 }
 

@@ -15,7 +15,7 @@ static steif_step_map map_of(const steif_problem *p, const char *method, double 
                              const double *Omega, double *J)
 {
   steif_context *ctx = steif_context_new(NULL);
-  steif_step_map map = {NAN, NAN, NAN};
+  steif_step_map map = {.determinant = NAN, .symplectic = NAN, .reversal = NAN};
   const int code = steif_step_map_find(ctx, p, method, h, Omega, J, &map);
   if (code) printf("\n  %s: %s", method, steif_message(ctx));
   CHECK(code == STEIF_OK);

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "hamiltonian_thresholds.h"
 #include "base.h"
+#include "lapack.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <steif/energy.h>
@@ -110,6 +111,24 @@ static int reversal(map *m, const sunrealtype *start, sunrealtype *y, sunrealtyp
   return STEIF_OK;
 }
 
+/* The eigenvalues of J, which is lost. A pair at -1 is known to the root of rounding. */
+static int multipliers(steif_context *ctx, sunindextype size, sunrealtype *J, sunrealtype *work,
+                       steif_step_map *out)
+{
+  const int n = (int)size, one = 1, length = STF_STEP_MAP_WORK * n;
+  sunrealtype *re = work, *im = re + n, none;
+  int info;
+  out->radius = 0, out->turned = 0;
+  dgeev_("N", "N", &n, J, &n, re, im, &none, &one, &none, &one, im + n, &length, &info, 1, 1);
+  STEIF_CHECK(info == 0, ctx, STEIF_NO_CONVERGENCE,
+              "the multipliers of a step were not found (dgeev: %d)", info);
+  for (int i = 0; i < n; i++) {
+    out->radius = fmax(out->radius, hypot(re[i], im[i]));
+    out->turned += hypot(re[i] + 1, im[i]) <= STF_STEP_MAP_TURNED;
+  }
+  return STEIF_OK;
+}
+
 static int find(map *m, const sunrealtype *Omega, sunrealtype *J, sunrealtype *work,
                 steif_step_map *out)
 {
@@ -121,6 +140,8 @@ static int find(map *m, const sunrealtype *Omega, sunrealtype *J, sunrealtype *w
   out->determinant = determinant(n, W);
   out->symplectic = out->reversal = NAN;
   if (Omega || 2 * m->problem.positions == n) out->symplectic = defect(n, Omega, J, W);
+  memcpy(W, J, square * sizeof *W);
+  STEIF_TRY(multipliers(m->ctx, n, W, start, out));
   if (m->problem.positions == 0) return STEIF_OK;
   memcpy(start, m->at, (size_t)n * sizeof *start);
   return reversal(m, start, y, &out->reversal);
@@ -138,7 +159,8 @@ int steif_step_map_find(steif_context *ctx, const steif_problem *problem, const 
               "the map of a step needs the start values .y0 of problem '%s'", problem->name);
   const sunindextype n = problem->n;
   const size_t square = (size_t)(n * n);
-  sunrealtype *work = stf_allocate(ctx, 2 * square + 3 * (size_t)n, sizeof *work);
+  sunrealtype *work =
+    stf_allocate(ctx, 2 * square + (STF_STEP_MAP_WORK + 4) * (size_t)n, sizeof *work);
   if (!work) return STEIF_NO_MEMORY;
   map m = {.ctx = ctx, .problem = *problem, .method = method, .at = work, .n = n};
   m.problem.y0 = memcpy(m.at, problem->y0, (size_t)n * sizeof *m.at);
@@ -146,7 +168,8 @@ int steif_step_map_find(steif_context *ctx, const steif_problem *problem, const 
   m.options.h = h;
   m.options.t1 = problem->t0 + h;
   m.options.newton = STF_STEP_MAP_NEWTON; /* differences of steps are taken */
-  const int code = find(&m, Omega, J ? J : work + square + 3 * n, work + n, out);
+  const int code =
+    find(&m, Omega, J ? J : work + square + (STF_STEP_MAP_WORK + 4) * n, work + n, out);
   stf_release(ctx, work);
   return code;
 }
