@@ -109,7 +109,7 @@ static int find_norm(struct call *call, struct norm *norm)
   const char *words = word_of(call, "--g");
   steif_spec spec;
   *norm = (struct norm){given(call, "--ball"), (int)whole_of(call, "--ball"), 0};
-  const bool ball = words && !strncmp(words, "ball:", 5),
+  const bool ball = words && (!strncmp(words, "ball:", 5) || !strcmp(words, "ball")),
              splines = words && (!strncmp(words, "bspline:", 8) || !strcmp(words, "bspline"));
   if (!ball && !splines) return EXIT_OK;
   if (steif_spec_parse(call->ctx, words, &spec)) return fail(call);
@@ -119,7 +119,7 @@ static int find_norm(struct call *call, struct norm *norm)
   if (norm->m < 1 || spec.count != (splines ? 2 : 1) || (splines && norm->cells < 1))
     return bad_usage(call, "--g %s: %s", words,
                      splines ? "bspline takes m, the degree, and cells, 1 or more each"
-                             : "ball takes m, 1 or more");
+                             : "ball takes m, 1 or more, as in ball:m=4");
   return EXIT_OK;
 }
 

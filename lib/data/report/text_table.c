@@ -49,13 +49,18 @@ static bool of_words(const json_t *list)
   return false;
 }
 
-/* A list of numbers over several lines; long ones are cut with their count. */
+/* How many entries of a list are shown: long ones are cut, names later than numbers. */
+static size_t shown_of(const json_t *list)
+{
+  const size_t count = json_array_size(list);
+  const bool numbers = stf_report_is_number(json_array_get(list, 0));
+  return count <= (numbers ? 1 : 2) * LIST_SHOWN ? count : LIST_SHOWN / 2;
+}
+
+/* A list over several lines, with its count where it is cut. */
 static void list(FILE *stream, const char *key, const json_t *value, size_t indent)
 {
-  const size_t count = json_array_size(value);
-  const size_t shown = count > LIST_SHOWN && stf_report_is_number(json_array_get(value, 0))
-                         ? LIST_SHOWN / 2
-                         : count;
+  const size_t count = json_array_size(value), shown = shown_of(value);
   const char *between = of_words(value) ? ", " : "  ";
   char text[CELL * 4], entry[CELL];
   size_t used = 0;

@@ -45,7 +45,7 @@ static void name(const parts *all, const part *p, char *text, size_t room)
   else if (p->q == STF_JUMP)
     snprintf(text, room, "the jump at t = 0");
   else
-    snprintf(text, room, "impulses of order %d, %.1e of the largest", p->q,
+    snprintf(text, room, "impulses of order %d, %.2g of the largest", p->q,
              p->size / all->most);
 }
 
@@ -99,7 +99,8 @@ static void decide(const parts *all, steif_weak_result *r)
   r->order = ordered(all) && isfinite(order) ? order : NAN;
   if (isfinite(r->order))
     snprintf(text, room,
-             "converges weakly, order %.2f, that of %s, by itself; these rows do not show it",
+             "converges weakly, order %.2f, that of %s, by itself; these rows alone decide "
+             "nothing",
              order, what);
   else if (isfinite(order))
     snprintf(text, room,
