@@ -47,7 +47,9 @@ static const struct option options[] = {
    NULL},
   {"--steps", COUNT, "M", "steps in the period P, instead of --h: h = P/M", NULL},
   {"--search", FLAG, NULL, "look for the longest steps that keep the decay in any case", NULL},
-  {"--series", OUTPUT, "FILE", "t, |x| and the local error of every step, comma-separated",
+  {"--series", OUTPUT, "FILE",
+   "t, |x| and the local error of every step of x' = A(t) x, else the averages so far, "
+   "comma-separated",
    NULL},
   {"--accuracy", POSITIVE, "R",
    "accuracy of the sum against the mean trace, in largest exponents", "0.01"},

@@ -165,6 +165,14 @@ if(TIMEOUT)
          ERR "steps averaged")
   begins("0." exponents 0) # 0.9
   begins("undecided: the run was stopped" verdict)
+  file(REMOVE ${FOLDER}/some.csv)
+  expect(143 --preserve-status -s TERM 0.7 ${program} lyapunov lorenz rk4 --h 0.01 --t1 1e5 --series some.csv --quiet
+         ERR "steps averaged")
+  file(STRINGS ${FOLDER}/some.csv lines LIMIT_COUNT 3)
+  list(LENGTH lines count)
+  if(NOT count EQUAL 3)
+    message(SEND_ERROR "lyapunov --series keeps nothing when it is stopped")
+  endif()
   expect(143 --preserve-status -s TERM 0.7 ${program} energy kepler verlet --h 0.01 --t1 1e6 --json
          ERR "stopped from outside at t = ")
   member("*" mean)

@@ -133,8 +133,11 @@ struct lyapunov_answer {
   bool measured; /* growth, and by steps: */
   size_t steps, room;
   double *t, *norm, *lte; /* NULL: not wanted */
-  steif_context *ctx;     /* of the rows of --series: */
-  const char *series;     /* the path; NULL: there is none, or it cannot be written */
+  size_t averages;
+  double
+    *average; /* t and the exponents so far, 1 + count each; where no solution is followed */
+  steif_context *ctx; /* of the rows of --series: */
+  const char *series; /* the path; NULL: there is none, or it cannot be written */
   steif_rows *file;
   steif_decay decay;
   bool judged, decided; /* decay is there; and says something, or is not for this problem */
@@ -142,9 +145,10 @@ struct lyapunov_answer {
   int checks;
 };
 /* Room for the steps, where --series or --plot is given, and its end; tell: for steif_growth_measure. */
-int series_open(struct call *call, struct lyapunov_answer *a, size_t room);
+int series_open(struct call *call, struct lyapunov_answer *a, double steps);
 void series_close(struct lyapunov_answer *a);
 int series_tell(double t, double norm, double lte, void *answer);
+int series_average(double t, int count, const double *mean, void *answer);
 /* --series and --plot. */
 int series_save(const struct call *call, const struct lyapunov_answer *a);
 /* Everything but the room, by the options of the call; then presented. */

@@ -3,6 +3,7 @@
 #include "answers.h"
 #include "integration.h"
 #include "members.h"
+#include <math.h>
 
 static void checks(steif_report *r, const struct lyapunov_answer *a)
 {
@@ -57,7 +58,7 @@ static void diagnostics(steif_report *r, const steif_growth_facts *g)
   for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
     steif_report_row(r, "diagnostics");
     steif_report_text(r, "diagnostics.quantity", row[i].name);
-    steif_report_real(r, "diagnostics.found", row[i].value);
+    report_maybe(r, "diagnostics.", "found", isfinite(row[i].value), row[i].value);
   }
 }
 
@@ -97,7 +98,7 @@ static void fill_trace(steif_report *r, const struct lyapunov_answer *a)
 {
   const bool known = a->checks > 0 && a->check[0].law == STEIF_SUM_LAW;
   report_maybe(r, "", "trace", known, known ? a->check[0].expected : 0);
-  steif_report_real(r, "trace_sampled", a->facts.trace);
+  report_maybe(r, "", "trace_sampled", isfinite(a->facts.trace), a->facts.trace);
 }
 
 static void fill(steif_report *r, const struct call *call, const void *result)
@@ -113,7 +114,8 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_list(r, "errors", a->count, a->error);
   steif_report_matrix(r, "intervals", a->count, 2, a->interval);
   report_maybe(r, "", "dimension", a->facts.dimension >= 0, a->facts.dimension);
-  steif_report_real(r, "mu", a->measured ? a->growth.mu : a->facts.mu);
+  const double mu = a->measured ? a->growth.mu : a->facts.mu;
+  report_maybe(r, "", "mu", isfinite(mu), mu);
   report_maybe(r, "", "lte_mean", a->measured, a->growth.lte_mean);
   report_maybe(r, "", "lte_max", a->measured, a->growth.lte_max);
   report_maybe(r, "", "tau_max", a->measured, a->growth.tau_max);

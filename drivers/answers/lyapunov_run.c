@@ -24,15 +24,41 @@ static double step_of(const struct call *call)
                             : real_of(call, "--period") / (double)whole_of(call, "--steps");
 }
 
-/* Of a run that a signal has stopped: what is known, and no verdict. */
+/* Of a run that a signal has stopped: what is known, and no verdict that was not reached. */
 static int present_part(struct call *call, struct lyapunov_answer *a)
 {
-  snprintf(a->decay.sentence, sizeof a->decay.sentence, "undecided: %s",
-           steif_message(call->ctx));
+  char sentence[500];
+  snprintf(sentence, sizeof sentence, "%s",
+           steif_status(call->ctx) ? steif_message(call->ctx)
+                                   : "stopped by a signal: what was found until then is shown");
+  if (!a->judged)
+    snprintf(a->decay.sentence, sizeof a->decay.sentence, "undecided: %s", sentence);
   a->decided = true;
   a->t1 = a->facts.end;
-  const int output = lyapunov_present(call, a);
-  return output ? output : fail(call);
+  const int output = lyapunov_present(call, a), saved = series_save(call, a);
+  if (output || saved) return output ? output : saved;
+  say(call, "%s", sentence);
+  return interruption_exit();
+}
+
+/* The laws, the verdict, and one solution of a linear problem, which can be followed as long as it does not
+ * overflow. A signal leaves out what comes after it. */
+static int judge(struct call *call, const steif_problem *p, steif_lyapunov_options *o,
+                 struct lyapunov_answer *a)
+{
+  const char *method = call->word[1];
+  const int code = steif_lyapunov_verify(call->ctx, p, method, o, real_of(call, "--accuracy"),
+                                         real_of(call, "--period"), a->exponent, &a->facts,
+                                         a->check, &a->checks);
+  if (code && !interrupted()) return code;
+  if (!interrupted()) decide(call, p, o, a);
+  if (a->t) o->tell = series_tell;
+  if (!interrupted() && a->facts.linear) {
+    const int growth = steif_growth_measure(call->ctx, p, method, o, &a->growth);
+    a->measured = !growth || (growth == STEIF_STOPPED && a->growth.steps > 0);
+  }
+  if (!interrupted()) steif_forget(call->ctx);
+  return STEIF_OK;
 }
 
 int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_answer *a)
@@ -44,25 +70,19 @@ int lyapunov_measure(struct call *call, const steif_problem *p, struct lyapunov_
                               .count = (int)whole_or(call, "--count", 0),
                               .error = a->error,
                               .separation = a->separation,
+                              .user = a,
                               .stop = interruption_poll()};
-  const char *method = call->word[1];
-  const double steps = (a->t1 - p->t0) / o.h + 2;
-  const int full = steps < 1e8 ? series_open(call, a, (size_t)steps) : EXIT_OK;
+  const int full = series_open(call, a, (a->t1 - p->t0) / o.h + 2);
   if (full) return full;
-  progress(call, "%s on %s", method, call->word[0]);
-  const int code =
-    steif_lyapunov(call->ctx, p, method, &o, a->exponent, a->interval, &a->facts);
+  if (a->average) o.average = series_average;
+  progress(call, "%s on %s", call->word[1], call->word[0]);
+  int code =
+    steif_lyapunov(call->ctx, p, call->word[1], &o, a->exponent, a->interval, &a->facts);
   a->count = (size_t)a->facts.count;
   if (code == STEIF_STOPPED && a->facts.steps > 0) return present_part(call, a);
-  if (code || steif_lyapunov_verify(call->ctx, p, method, &o, real_of(call, "--accuracy"),
-                                    real_of(call, "--period"), a->exponent, &a->facts, a->check,
-                                    &a->checks))
-    return fail(call);
-  decide(call, p, &o, a);
-  /* One solution of a linear problem can be followed as long as it neither overflows nor is 0. */
-  if (a->t) o.tell = series_tell, o.user = a;
-  a->measured = a->facts.linear && !steif_growth_measure(call->ctx, p, method, &o, &a->growth);
-  steif_forget(call->ctx);
+  if (!code) code = judge(call, p, &o, a);
+  if (code) return fail(call);
+  if (interrupted()) return present_part(call, a);
   const int output = lyapunov_present(call, a), saved = series_save(call, a);
   return saved ? saved : output;
 }

@@ -69,13 +69,14 @@ typedef struct steif_lyapunov_options {
                             NaN below 32 steps. NULL: not wanted */
   steif_separation
     *separation; /* room for count - 1 (count 0: n - 1) pairs; NULL: not wanted */
-  /* Called by steif_growth_measure after every step: |x_n|, and how far it is from the exact flow of the
-   * step; nonzero ends the run with STEIF_CALLBACK. */
+  /* steif_growth_measure, after every step: |x_n|, and how far it is from the exact flow of the step. */
   int (*tell)(sunrealtype t, sunrealtype norm, sunrealtype lte, void *user);
-  void *user;
+  void *user; /* of both callbacks; nonzero from one ends the run with STEIF_CALLBACK */
   const volatile int
-    *stop; /* nonzero: steif_lyapunov returns STEIF_STOPPED after the step at hand, with
-                               the averages of the steps made; without any where facts.steps is 0 */
+    *stop; /* nonzero: STEIF_STOPPED after the step at hand, with the averages (or
+                            the growth) of the steps made; without any where facts.steps is 0 */
+  /* steif_lyapunov, some 1000 times in a run: the averages of the exponents from the transient to t. */
+  int (*average)(sunrealtype t, int count, const sunrealtype *mean, void *user);
 } steif_lyapunov_options;
 
 typedef struct steif_lyapunov_facts {

@@ -12,19 +12,25 @@
 
 static const double pi = 3.14159265358979323846;
 
-static steif_decay judged(const char *problem, const char *method, double h, double t1)
+static steif_decay searched(const char *problem, const char *method, double h, double t1,
+                            int search)
 {
   steif_context *ctx = steif_context_new(NULL);
   steif_problem p;
   steif_decay d = {.verdict = -2};
   const steif_lyapunov_options o = {.h = h, .t1 = t1};
   CU_ASSERT_FATAL(steif_problem_find(ctx, problem, &p) == STEIF_OK);
-  const int code = steif_decay_find(ctx, &p, method, &o, 0, 0, &d);
+  const int code = steif_decay_find(ctx, &p, method, &o, 0, search, &d);
   if (code) printf("\n  %s %s: %s", problem, method, steif_message(ctx));
   CHECK(code == STEIF_OK);
   steif_problem_clear(ctx, &p);
   steif_context_free(&ctx);
   return d;
+}
+
+static steif_decay judged(const char *problem, const char *method, double h, double t1)
+{
+  return searched(problem, method, h, t1, 0);
 }
 
 /* lambda(t) = -1 + 2 cos(20 pi t) at t = j h, h = 0.1/q. */
@@ -148,6 +154,10 @@ static void the_longest_good_step(void)
     CLOSE_FLOOR(d.mu, rows[i].grows, 1e-6, 1);
     CHECK(d.h_good > rows[i].low && d.h_bad < rows[i].high && d.h_bad < d.h_good * 1.002);
     CLOSE_FLOOR(judged("steyer", rows[i].method, 2 * pi / m, 20).mu, rows[i].decays, 1e-6, 1);
+    if (i != 2) continue;
+    const steif_decay far = searched("steyer", rows[i].method, 2 * pi / 84, 400, 1);
+    CHECK(far.verdict == STEIF_DECAY_KEPT && far.least == rows[i].least);
+    CHECK(far.h_good > rows[i].low && far.h_bad < rows[i].high);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "region.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <steif/collection.h>
 #include <steif/lyapunov.h>
@@ -111,6 +112,52 @@ static void growth_of_a_scalar_equation_is_the_closed_one(void)
   CLOSE(g.mu_window, (a * sin(t) - a * sin(half)) / (t - half) + b, 1e-10);
 }
 
+/* |x| = e^{a sin t + b t} and the local error fall below the smallest double on the way; growth per time does
+ * not. Radau's and BDF's own growth by the same formula: their errors at this step. */
+static void solutions_below_the_smallest_double(void)
+{
+  static const char *const method[] = {"gauss:s=4", "radau:s=3", "bdf:p=3"};
+  const double a = 0.83, b = -0.37, t = 6000, off[] = {1e-10, 1e-8, 1e-3};
+  for (size_t i = 0; i < 3; i++) {
+    steif_growth_facts g = {0};
+    char message[400];
+    CHECK(measure("steyer:a=0.83,b1=-0.37,b2=-0.9,beta=0,omega=0", method[i], 0.05, t, &g,
+                  message) == STEIF_OK);
+    CLOSE(g.mu_last, (a * sin(t) + b * t) / t, off[i]);
+    CLOSE(g.mu_window, (a * sin(t) - a * sin(t / 2)) / (t / 2) + b, off[i]);
+    CHECK(g.norm_end < 1e-300 && g.lte_mean > 0 && isfinite(g.tau_all) && g.tau_all < 1e6);
+    CHECK(isfinite(g.residual_mean) == (i == 2) && isfinite(g.mu_running));
+  }
+}
+
+static int at_ten(sunrealtype t, sunrealtype norm, sunrealtype lte, void *user)
+{
+  volatile int *stop = user;
+  (void)norm, (void)lte;
+  if (t > 0.999) *stop = 1;
+  return 0;
+}
+
+/* Stopped after ten steps: their facts, as of a run that ends there. */
+static void what_was_measured_is_kept(void)
+{
+  volatile int stop = 0;
+  steif_growth_facts part = {0}, whole = {0};
+  char message[400];
+  steif_problem p;
+  steif_context *ctx = steif_context_new(NULL);
+  CU_ASSERT_FATAL(!steif_problem_find(ctx, "steyer", &p));
+  const steif_lyapunov_options o = {
+    .h = 0.1, .t1 = 40, .tell = at_ten, .user = (void *)(uintptr_t)&stop, .stop = &stop};
+  CHECK(steif_growth_measure(ctx, &p, "radau:s=2", &o, &part) == STEIF_STOPPED);
+  CHECK(measure("steyer", "radau:s=2", 0.1, 1, &whole, message) == STEIF_OK);
+  CHECK(part.steps == 10 && whole.steps == 10);
+  CLOSE(part.lte_mean, whole.lte_mean, 1e-12);
+  CLOSE(part.norm_end, whole.norm_end, 1e-12);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
 static void bad_questions_are_rejected(void)
 {
   steif_growth_facts g = {0};
@@ -176,6 +223,8 @@ CU_TestInfo tests_of_growth[] = {
    accurate_steps_follow_the_fundamental_matrix},
   {"the growth of a scalar equation is the closed one",
    growth_of_a_scalar_equation_is_the_closed_one},
+  {"solutions below the smallest double", solutions_below_the_smallest_double},
+  {"what was measured until a stop is kept", what_was_measured_is_kept},
   {"bad questions are rejected with a sentence", bad_questions_are_rejected},
   {"residuals on local solutions", local_residuals},
   {"defects of general linear methods", defects_of_general_methods},

@@ -30,7 +30,7 @@ static void mean_traces_are_integrals(void)
   const steif_problem p = {.name = "quartic", .n = 2, .t1 = 2, .y0 = y0, .f = f, .jac = jac};
   steif_context *ctx = steif_context_new(NULL);
   stf_mean_trace trace;
-  CU_ASSERT_FATAL(!stf_mean_trace_find(ctx, &p, 0, 2, true, &trace));
+  CU_ASSERT_FATAL(!stf_mean_trace_find(ctx, &p, 0, 2, true, NULL, &trace));
   CHECK(trace.known);
   CLOSE(trace.value, 13, 1e-9);
   steif_context_free(&ctx);

@@ -38,7 +38,7 @@ static int sum(trial *t, const steif_problem *p, sunrealtype accuracy)
   sunrealtype most = 0;
   if (t->m < (int)p->n || isnan(t->facts->trace)) return STEIF_OK;
   STEIF_TRY(stf_mean_trace_find(t->ctx, p, t->facts->end - t->facts->time, t->facts->end,
-                                t->facts->linear, &trace));
+                                t->facts->linear, t->options->stop, &trace));
   if (!trace.known) return STEIF_OK;
   for (int i = 0; i < t->m; i++) most = fmax(most, fabs(t->exponent[i]));
   judge(t, STEIF_SUM_LAW, 0, t->facts->sum, trace.value, accuracy * most + trace.error);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PARTS = 16 };
+enum { PARTS = 16, TOLD = 1000 };
 
 typedef struct spectrum {
   stf_variation v;
@@ -190,7 +190,7 @@ static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype
   out.time = (sunrealtype)s->steps * s->v.h;
   out.end = s->constant.end;
   out.trace = s->trace;
-  out.mu = s->mu;
+  out.mu = isfinite(s->mu) ? s->mu : NAN;
   out.rise = s->rise;
   out.flow =
     s->v.problem->autonomous && !s->v.linear ? log(s->last / s->first) / out.time : NAN;
@@ -198,8 +198,9 @@ static void tell(const spectrum *s, const steif_lyapunov_options *o, sunrealtype
     exponent[i] = (s->sum[i] + s->rest[i]) / out.time;
     out.sum += exponent[i];
     if (interval) {
-      interval[2 * i] = s->low[i];
-      interval[2 * i + 1] = s->high[i];
+      const bool any = s->low[i] <= s->high[i]; /* a whole window has been seen */
+      interval[2 * i] = any ? s->low[i] : NAN;
+      interval[2 * i + 1] = any ? s->high[i] : NAN;
     }
     if (o->error)
       o->error[i] = s->parts == PARTS ? sqrt(s->spread[i] / (PARTS * (PARTS - 1))) : NAN;
@@ -223,6 +224,20 @@ static int forget_start(spectrum *s)
               least, v->h, v->problem->name, v->index);
   if (s->window > s->steps) s->window = s->steps;
   return STEIF_OK;
+}
+
+/* The averages so far, at some TOLD of the steps. */
+static int told(spectrum *s, const steif_lyapunov_options *o, long n)
+{
+  const long stride = s->steps > TOLD ? s->steps / TOLD : 1;
+  if (!o->average || (n % stride && n < s->steps)) return STEIF_OK;
+  const sunrealtype time = (sunrealtype)n * s->v.h;
+  sunrealtype *mean = s->w; /* scratch between steps */
+  for (int i = 0; i < s->v.m; i++) mean[i] = (s->sum[i] + s->rest[i]) / time;
+  const int wish = o->average(s->v.t, s->v.m, mean, o->user);
+  return wish == 0 ? STEIF_OK
+                   : STEIF_FAIL(s->v.ctx, STEIF_CALLBACK,
+                                "the callback .average stopped the run at t = %.12g", s->v.t);
 }
 
 /* What is known after n steps is the result. */
@@ -255,6 +270,7 @@ static int run(stf_pool *pool, steif_context *ctx, const steif_problem *p, const
     sunrealtype *moved = n == 1 ? &s->first : n == s->steps ? &s->last : NULL;
     STEIF_TRY(moved ? turn_and_move(s, moved) : turn(s));
     record(s, n);
+    STEIF_TRY(told(s, o, n));
     if (o->stop && *o->stop) return stopped(s, n);
   }
   return STEIF_OK;

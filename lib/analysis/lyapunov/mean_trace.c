@@ -29,6 +29,8 @@ typedef struct quadrature {
 
 static int trace_at(quadrature *q, sunrealtype t, sunrealtype *value)
 {
+  STEIF_CHECK(!q->v.stop || !*q->v.stop, q->v.ctx, STEIF_STOPPED,
+              "the mean trace was stopped from outside at t = %.12g", t);
   STEIF_TRY(stf_variation_matrix(&q->v, 0, t, q->v.y, NULL));
   *value = stf_jacobian_trace(q->v.J[0]);
   q->asked++;
@@ -42,7 +44,7 @@ static int panel(quadrature *q, sunrealtype a, sunrealtype b, sunrealtype *value
   sunrealtype coarse = 0, fine = 0;
   for (int i = 0; i < 15; i++) {
     const int k = i < 8 ? i : 14 - i;
-    sunrealtype f;
+    sunrealtype f = 0;
     STEIF_TRY(trace_at(q, middle + (i < 8 ? -half : half) * node[k], &f));
     fine += kronrod[k] * f;
     if (k % 2) coarse += gauss[k / 2] * f;
@@ -132,7 +134,11 @@ static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
 static int of_run(stf_pool *pool, along *r, const steif_problem *p, sunrealtype t1,
                   stf_mean_trace *trace)
 {
-  steif_options o = {.rtol = STF_REFERENCE_RTOL, .t1 = t1, .observe = observe, .observer = r};
+  steif_options o = {.rtol = STF_REFERENCE_RTOL,
+                     .t1 = t1,
+                     .observe = observe,
+                     .observer = r,
+                     .stop = r->q.v.stop};
   r->y = stf_pool_vector(pool, r->q.v.y);
   if (!r->y) return STEIF_NO_MEMORY;
   r->from = p->t0;
@@ -148,7 +154,8 @@ static int of_run(stf_pool *pool, along *r, const steif_problem *p, sunrealtype 
 }
 
 int stf_mean_trace_find(steif_context *ctx, const steif_problem *problem, sunrealtype t0,
-                        sunrealtype t1, bool linear, stf_mean_trace *trace)
+                        sunrealtype t1, bool linear, const volatile int *stop,
+                        stf_mean_trace *trace)
 {
   enum { MOST = 4000000 };
   along r = {.t0 = t0};
@@ -157,6 +164,7 @@ int stf_mean_trace_find(steif_context *ctx, const steif_problem *problem, sunrea
   stf_pool *pool = stf_pool_new(ctx);
   if (!pool) return STEIF_NO_MEMORY;
   int code = stf_variation_open(pool, ctx, problem, "be", t1 - t0, t1, 1, 1, &r.q.v);
+  r.q.v.stop = stop;
   r.q.tolerance = STF_TRACE_PANEL;
   r.q.most = problem->linear ? 0 : MOST;
   if (!code && problem->linear) {

@@ -13,10 +13,11 @@ typedef struct column {
   sunrealtype *x, *old; /* the solution, and where the flow takes the one before */
   sunrealtype *z, *y;   /* exact column: k blocks, the oldest first; scratch */
   sunrealtype size0, lte_old;
-  long defects, ratios, residuals;
+  long defects, ratios, residuals, made;
   bool multistep, weak_start;
   sunrealtype log_half, t_half,
     log_before; /* ln |w| where the second half begins, a step before */
+  int scale; /* everything kept is the solution by 2^scale: small ones stay above underflow */
   steif_growth_facts out;
 } column;
 
@@ -48,7 +49,7 @@ static void growth(column *c, long n)
   const sunrealtype t = (sunrealtype)n * c->v.h;
   if (n + 1 < half) return;
   stf_variation_principal(&c->v, c->y);
-  const sunrealtype log_w = log(norm(c->v.d, c->y) / c->size0);
+  const sunrealtype log_w = log(norm(c->v.d, c->y) / c->size0) - c->scale * log(2);
   if (n < half || n < 1) c->log_before = log_w;
   if (n < half || n < 1) return;
   if (isnan(c->log_half)) {
@@ -63,24 +64,40 @@ static void growth(column *c, long n)
   out->mu_running = fmax(out->mu_running, out->mu_window);
 }
 
-static void defect(column *c, sunrealtype lte)
+/* scaled: lte by 2^scale, as the one before is kept. A step that was exact has no ratio. */
+static void defect(column *c, sunrealtype scaled, sunrealtype lte)
 {
   steif_growth_facts *out = &c->out;
   if (c->defects++ > 0) {
     const bool early = out->steps >= 2 * LEFT_OUT && c->ratios < LEFT_OUT;
-    out->tau_all = fmax(out->tau_all, lte / c->lte_old);
-    if (!early) out->tau_max = fmax(out->tau_max, lte / c->lte_old);
+    const sunrealtype ratio = c->lte_old > 0 ? scaled / c->lte_old : 0;
+    out->tau_all = fmax(out->tau_all, ratio);
+    if (!early) out->tau_max = fmax(out->tau_max, ratio);
     c->ratios++;
   }
-  c->lte_old = lte;
+  c->lte_old = scaled;
   out->lte_max = fmax(out->lte_max, lte);
   out->lte_mean += (lte - out->lte_mean) / (sunrealtype)c->defects;
 }
 
 static void size(column *c)
 {
-  c->out.norm_end = norm(c->v.d, c->x);
+  c->out.norm_end = ldexp(norm(c->v.d, c->x), -c->scale);
   c->out.norm_max = fmax(c->out.norm_max, c->out.norm_end);
+}
+
+/* The problem is linear: a small solution goes on as a multiple. */
+static void raise(column *c)
+{
+  enum { SMALL = -300, BY = 200 };
+  const size_t d = (size_t)c->v.d, k = (size_t)c->v.g->k;
+  const sunrealtype now = fmax(norm(c->v.d, c->x), norm((int)(k * d), c->z));
+  if (!(now > 0 && now < ldexp(1, SMALL))) return;
+  const sunrealtype factor = ldexp(1, BY);
+  for (size_t i = 0; i < k * d; i++) c->v.X[i] *= factor, c->z[i] *= factor;
+  for (size_t i = 0; i < d; i++) c->x[i] *= factor;
+  c->lte_old *= factor;
+  c->scale += BY;
 }
 
 /* |x_k - sum U_j x_j - h beta J x_k| of k + 1 blocks, the oldest first, J of the step just
@@ -112,7 +129,8 @@ static int residuals(column *c, sunrealtype t, const sunrealtype *before)
   sunrealtype *z = c->z + k * d, *local = z + d;
   memcpy(z, z - d, bytes);
   STEIF_TRY(exact_step(c, t, c->v.h, z));
-  average(formula(c, c->z), ++c->residuals, &c->out.residual_mean, &c->out.residual_max);
+  average(ldexp(formula(c, c->z), -c->scale), ++c->residuals, &c->out.residual_mean,
+          &c->out.residual_max);
   memmove(c->z, c->z + d, (size_t)(k * d) * sizeof *z);
   memcpy(local + k * d, c->old, bytes);
   memcpy(local + (k - 1) * d, before, bytes);
@@ -120,7 +138,8 @@ static int residuals(column *c, sunrealtype t, const sunrealtype *before)
     memcpy(local + j * d, local + (j + 1) * d, bytes);
     STEIF_TRY(exact_step(c, t - (k - 2 - j) * c->v.h, -c->v.h, local + j * d));
   }
-  average(formula(c, local), c->residuals, &c->out.local_mean, &c->out.local_max);
+  average(ldexp(formula(c, local), -c->scale), c->residuals, &c->out.local_mean,
+          &c->out.local_max);
   return STEIF_OK;
 }
 
@@ -185,32 +204,42 @@ static int begin(column *c)
   return begin_general(c);
 }
 
+/* How far the step was from the exact flow, into the facts and to the one who is told. */
+static int measured(column *c, const steif_lyapunov_options *o)
+{
+  const sunrealtype scaled = distance(c->v.d, c->x, c->old), lte = ldexp(scaled, -c->scale);
+  defect(c, scaled, lte);
+  size(c);
+  const int wish = o->tell ? o->tell(c->v.t, c->out.norm_end, lte, o->user) : 0;
+  STEIF_CHECK(wish == 0, c->v.ctx, STEIF_CALLBACK,
+              "the callback .tell stopped the run at t = %.12g", c->v.t);
+  STEIF_CHECK(
+    isfinite(c->out.norm_end) && isfinite(c->out.lte_max), c->v.ctx, STEIF_NOT_FINITE,
+    "the solution of '%s' by %s overflows at t = %.12g: end the run before, or take a "
+    "smaller h",
+    c->v.problem->name, c->v.method, c->v.t);
+  return STEIF_OK;
+}
+
 static int follow(column *c, const steif_lyapunov_options *o)
 {
-  const int lag = c->multistep ? c->v.g->k - 1 : 0;
+  const long lag = c->multistep ? c->v.g->k - 1 : 0, last = c->out.steps;
   const size_t bytes = (size_t)c->v.d * sizeof *c->x;
   sunrealtype *before = c->y + c->v.d;
   growth(c, 0);
-  for (long n = 1; n + lag <= c->out.steps; n++) {
+  c->v.stop = o->stop;
+  for (long n = 1; n + lag <= last; n++) {
     const sunrealtype t = c->v.t;
     memcpy(c->old, c->x, bytes);
     memcpy(before, c->x, bytes);
+    c->made = n - 1 + lag;
     STEIF_TRY(stf_variation_step(&c->v));
     STEIF_TRY(exact_step(c, t, c->v.h, c->old));
     stf_variation_solution(&c->v, c->x);
-    const sunrealtype lte = distance(c->v.d, c->x, c->old);
-    defect(c, lte);
-    size(c);
-    const int wish = o->tell ? o->tell(c->v.t, c->out.norm_end, lte, o->user) : 0;
-    STEIF_CHECK(wish == 0, c->v.ctx, STEIF_CALLBACK,
-                "the callback .tell stopped the run at t = %.12g", c->v.t);
+    STEIF_TRY(measured(c, o));
     growth(c, n);
     if (c->multistep) STEIF_TRY(residuals(c, t, before));
-    STEIF_CHECK(
-      isfinite(c->out.norm_end) && isfinite(c->out.lte_max), c->v.ctx, STEIF_NOT_FINITE,
-      "the solution of '%s' by %s overflows at t = %.12g: end the run before, or take a "
-      "smaller h",
-      c->v.problem->name, c->v.method, c->v.t);
+    raise(c);
   }
   return STEIF_OK;
 }
@@ -260,7 +289,8 @@ int steif_growth_measure(steif_context *ctx, const steif_problem *problem, const
   int code = open(pool, ctx, problem, method, options, &c);
   if (code == STEIF_OK) code = begin(&c);
   if (code == STEIF_OK) code = follow(&c, options);
-  if (code == STEIF_OK) *facts = c.out;
+  if (code == STEIF_STOPPED) c.out.steps = c.made;
+  if (code == STEIF_OK || code == STEIF_STOPPED) *facts = c.out;
   stf_pool_free(&pool);
   return code;
 }

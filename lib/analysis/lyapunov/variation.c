@@ -267,6 +267,8 @@ static void advance(stf_variation *v)
 
 int stf_variation_step(stf_variation *v)
 {
+  STEIF_CHECK(!v->stop || !*v->stop, v->ctx, STEIF_STOPPED,
+              "the run was stopped from outside at t = %.12g", v->t);
   STEIF_TRY(v->linear   ? linear_matrices(v)
             : v->solver ? implicit_matrices(v)
                         : explicit_matrices(v));

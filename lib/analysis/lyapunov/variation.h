@@ -61,6 +61,7 @@ typedef struct stf_variation {
   N_Vector stage, *f;       /* explicit trajectories: f_i */
   N_Vector yp;              /* 0: an affine F has the same matrices everywhere in y' */
   steif_solver *solver;     /* implicit trajectories */
+  const volatile int *stop; /* set by who opened it; nonzero: no step, STEIF_STOPPED */
 } stf_variation;
 
 /* m columns; 0: as many as degrees of freedom. linear as in the options. Everything is owned by the pool. */
@@ -108,7 +109,8 @@ typedef struct stf_mean_trace {
   bool known;
 } stf_mean_trace;
 int stf_mean_trace_find(steif_context *ctx, const steif_problem *problem, sunrealtype t0,
-                        sunrealtype t1, bool linear, stf_mean_trace *trace);
+                        sunrealtype t1, bool linear, const volatile int *stop,
+                        stf_mean_trace *trace);
 
 /* LU of A (n x n by rows) in place, rows exchanged; false when a pivot is 0 or NaN. B := A^{-1} B by
  * rows, n x m. */

@@ -23,12 +23,12 @@
 #define STF_SIGN_ERRORS 4
 /* A step this near a fraction of the period samples it alike for 1000 steps. */
 #define STF_NEAR_FRACTION 1e-3
-/* The search: factor downwards, good steps in a row, steps of the grid in an octave, octaves, relative width of
- * the bracket, smallest step as a part of the first, and steps in all, which take some seconds. */
+/* The search: factor downwards, good steps in a row, steps of the grid in an octave, fewest steps in a run,
+ * relative width of the bracket, smallest step as a part of the first, and steps in all, which take some seconds. */
 #define STF_SEARCH_DOWN 0.618
 #define STF_SEARCH_ROW 3
 #define STF_SEARCH_GRID 24
-#define STF_SEARCH_OCTAVES 4
+#define STF_SEARCH_FEWEST 256
 #define STF_SEARCH_WIDTH 1e-3
 #define STF_SEARCH_LEAST 1e-4
 #define STF_SEARCH_STEPS 4000000

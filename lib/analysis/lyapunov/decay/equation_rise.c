@@ -61,6 +61,7 @@ int stf_equation_rise(const stf_question *q, sunrealtype h, sunrealtype t1, sunr
   stf_pool *pool = stf_pool_new(q->ctx);
   if (!pool) return STEIF_NO_MEMORY;
   int code = stf_variation_open(pool, q->ctx, q->problem, q->exact, h, t1, d, 1, &v);
+  v.stop = q->stop;
   sunrealtype *work = code ? NULL : stf_pool_array(pool, (size_t)d, sizeof *work);
   if (!code && !work) code = STEIF_NO_MEMORY;
   *rise = 0;

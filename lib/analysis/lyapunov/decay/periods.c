@@ -26,6 +26,7 @@ static int open(stf_pool *pool, const stf_question *q, const char *method, sunre
   a->d = (int)d;
   STEIF_TRY(stf_variation_open(pool, q->ctx, q->problem, method, h, q->problem->t0 + h, a->d, 1,
                                &a->v));
+  a->v.stop = q->stop;
   a->Q0 = stf_pool_array(pool, 5 * d * d + (2 + WORK) * d, sizeof *a->Q0);
   if (!a->Q0) return STEIF_NO_MEMORY;
   a->Q = a->Q0 + d * d, a->R = a->Q + d * d, a->T = a->R + d * d, a->spare = a->T + d * d;

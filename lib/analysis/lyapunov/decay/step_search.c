@@ -69,14 +69,16 @@ static sunrealtype near_resonance(const stf_question *q, sunrealtype h, sunrealt
   return next;
 }
 
-static void upwards(search *s, sunrealtype from)
+/* To the first that does not decay; beyond h0 as far as the run has some hundred steps left. */
+static void upwards(search *s, sunrealtype h0, sunrealtype from)
 {
   const sunrealtype factor = exp2(1.0 / STF_SEARCH_GRID),
-                    most = fmin(from * exp2(STF_SEARCH_OCTAVES), s->q->t1 - s->q->problem->t0);
+                    span = s->q->t1 - s->q->problem->t0 - s->q->transient,
+                    most = fmax(h0, span / STF_SEARCH_FEWEST);
   steif_decay *d = s->d;
   sunrealtype at = from * factor;
   d->h_good = from, d->h_bad = INFINITY;
-  for (sunrealtype next = from; next < most;) {
+  for (sunrealtype next = from; next < most && !enough(s);) {
     next = near_resonance(s->q, next, at);
     const bool grid = next == at;
     if (grid) at *= factor;
@@ -152,8 +154,10 @@ int stf_step_search(const stf_question *q, sunrealtype h, steif_decay *d)
   search s = {.q = q, .d = d};
   const sunrealtype from = downwards(&s, h);
   if (!(from > 0)) return STEIF_OK;
-  upwards(&s, from);
+  upwards(&s, h, from);
   if (isfinite(d->h_bad)) bisect(&s);
   if (q->period > 0) fractions(&s);
+  /* Runs that were stopped do not decay for that: nothing of them is kept. */
+  if (q->stop && *q->stop) d->h_good = d->h_bad = NAN, d->least = d->most = 0;
   return STEIF_OK;
 }
