@@ -58,7 +58,7 @@ static const struct option options[] = {
    "each sparse kind, dense ones 200 times as many (default: 500; --quick: 10); verdicts: "
    "systems (default: 10000; --quick: 300)",
    NULL},
-  {"--first", COUNT, "K", "verdicts: the first seed", "1"},
+  {"--first", COUNT, "K", "success, verdicts: the first seed", "1"},
   {"--ranks", COUNT, "P", "scale: up to so many", "4096"},
   {"--rows", POSITIVE, "N", "scale: unknowns of a rank", "24000"},
   {"--latency", POSITIVE, "S", "scale: seconds of a message", "2e-6"},

@@ -93,7 +93,7 @@ typedef struct campaign {
   struct call *call;
   sunrealtype rtol[REALS_MOST], longest;
   size_t rtols;
-  long seeds;
+  long from, seeds; /* random problems from, from + 1, ... of each kind */
   const char *only; /* problems whose names begin so; NULL: all */
 } campaign;
 
@@ -129,7 +129,7 @@ static void one_method(const campaign *c, const steif_method_info *m, success_ru
     steif_problem_clear(c->call->ctx, &p);
   }
   for (int kind = 0; kind < MADE_KINDS; kind++)
-    for (long seed = 1; seed <= c->seeds; seed++) {
+    for (long seed = c->from; seed < c->from + c->seeds; seed++) {
       made one;
       made_new(&one, (enum made_kind)kind, seed);
       progress(c->call, "%s, %s", m->name, one.name);
@@ -162,6 +162,7 @@ int bench_success(struct call *call)
   c.rtols = given(call, "--rtols") ? reals_of(call, "--rtols", c.rtol) : quick ? 3 : 5;
   if (!given(call, "--rtols")) memcpy(c.rtol, quick ? some : five, c.rtols * sizeof *c.rtol);
   c.seeds = whole_or(call, "--seeds", quick ? QUICK_SEEDS : SEEDS);
+  c.from = whole_or(call, "--first", 1);
   c.only = word_of(call, "--problems");
   plan_list wanted = {.count = 0};
   if (given(call, "--methods")) work_split(&wanted, word_of(call, "--methods"), NULL);

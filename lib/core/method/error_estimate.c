@@ -64,10 +64,11 @@ void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transfor
   e->legendre = 1;
   for (int k = 1; k <= s; k++) e->legendre *= (sunrealtype)k / (s + k);
   const bool end = T->claims & STEIF_STIFFLY_ACCURATE;
-  const sunrealtype part = fmin(end ? 0.05 : 0.04, (s > 2 ? 0.002
-                                                    : end ? 0.0003
-                                                          : 0.001) *
-                                                     s * s);
+  const sunrealtype undamped = end || s < 4 ? 1 : 0.1, most = undamped * (end ? 0.05 : 0.04),
+                    low = s > 2 ? 0.002
+                          : end ? 0.0003
+                                : 0.001,
+                    part = fmin(most, undamped * low * s * s);
   e->loosest =
     part * pow(anchor, (s + 1.0) / (2 * s)) * pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
 }

@@ -23,7 +23,7 @@ int stf_newton_open(stf_pool *pool, stf_system *system, const stf_transform *tra
   N_Vector like = system->space.like;
   newton->system = system, newton->transform = *transform, newton->weights = weights;
   newton->stale_rate = 0.1, newton->relax = 1;
-  newton->eta = 1;
+  newton->eta = newton->eta_of = 1;
   newton->Y = stf_pool_vector(pool, like);
   newton->residual = stf_pool_vectors(pool, s, like);
   newton->Zp = stf_pool_vectors(pool, s, like);
@@ -322,7 +322,7 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
 {
   const bool starts = g->predicted && newton->system->krylov;
   if (newton->system->linear) return (starts ? solve_predicted : solve_linear)(newton, g);
-  sunrealtype norm, last = 0, theta = 0;
+  sunrealtype norm, last = 0, theta = 0, first = 0;
   newton->theta = 0;
   newton->eta = fmax(newton->eta_least, sqrt(newton->eta * sqrt(newton->eta))); /* eta^(3/4) */
   newton->eta = fmax(newton->eta, expected(newton));
@@ -340,10 +340,13 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
       }
       if (theta >= 1 || m >= newton->iterations) return refuse(newton, g, m, norm, theta);
       newton->eta = theta / (1 - theta);
+      if (m == 2) first = newton->eta, newton->eta_of = last;
     }
-    if (norm == 0 || newton->eta * norm <= newton->tolerance) break;
+    const sunrealtype larger = m == 1 ? fmax(1, norm / newton->eta_of) : 1;
+    if (norm == 0 || larger * newton->eta * norm <= newton->tolerance) break;
     last = norm;
   }
+  newton->eta = fmax(newton->eta, first);
   if (theta > newton->stale_rate) newton->jacobian_wanted = true;
   return STEIF_OK;
 }

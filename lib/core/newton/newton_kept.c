@@ -18,6 +18,7 @@ void stf_newton_keep(stf_newton *newton, stf_image *m)
   STF_KEEP(m, newton->jacobian_wanted);
   STF_KEEP(m, newton->theta);
   STF_KEEP(m, newton->eta);
+  STF_KEEP(m, newton->eta_of);
   STF_KEEP(m, newton->count);
   STF_KEEP(m, newton->sweeps);
   STF_KEEP(m, newton->fails);

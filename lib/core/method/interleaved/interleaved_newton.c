@@ -216,7 +216,7 @@ int stf_irk_interleaved_iterate(stf_step *s, double h)
   stf_irk_interleaved *e = s->state;
   const double tolerance = floor_of(s, e), mean = 1 / (double)(e->s * e->n);
   const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
-  double last = 0, quotient = 0, theta = 0;
+  double last = 0, quotient = 0, theta = 0, first = 0;
   e->eta = stf_power(fmax(e->eta, STF_EPS), 0.8),
   e->rounding_limited = e->J_from_stage = e->L->residuals = false;
   for (int m = 1, since = 1;; m++, since++) {
@@ -230,6 +230,7 @@ int stf_irk_interleaved_iterate(stf_step *s, double h)
       const double now = norm / last;
       theta = since == 2 ? now : sqrt(now * quotient);
       quotient = now;
+      if (m == 2) first = now < 1 ? now / (1 - now) : 1, e->eta_of = last;
       if (stalled(s, norm, last, tolerance)) break;
       e->eta = theta / (1 - theta);
       if (theta < 1 && e->eta * norm <= tolerance) break;
@@ -252,10 +253,10 @@ int stf_irk_interleaved_iterate(stf_step *s, double h)
         return refuse(s, h, norm, theta,
                       0.8 * stf_power(q, -1.0 / (4 + (left > 0 ? left : 0))));
       }
-    } else if (e->eta * norm <= tolerance)
+    } else if (e->eta * fmax(1, norm / e->eta_of) * norm <= tolerance)
       break;
     last = fmax(norm, STF_EPS);
   }
-  e->theta = theta;
+  e->theta = theta, e->eta = fmax(e->eta, first);
   return once_more(s, h);
 }

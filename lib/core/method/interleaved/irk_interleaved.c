@@ -4,7 +4,9 @@
  *   Start of the iteration: the last polynomial, cut where its terms at the new step begin to grow.
  *   Jacobian: at (t_n + h/4, predicted) while the prediction is good, else at (t_n, y_n); renewed with
  *   the factors when the rate of convergence was above 1e-3.
- *   Newton: theta_m = ||d^m|| / ||d^(m-1)||, eta = theta/(1 - theta), stop at eta ||d|| <= kappa.
+ *   Newton: theta_m = ||d^m|| / ||d^(m-1)||, eta = theta/(1 - theta), stop at eta ||d|| <= kappa. The eta of the last
+ *   step's first two corrections, or that of its last two if larger, judges the first one, as many times larger
+ *   as that is: where f couples y in one direction later corrections vanish, and say nothing of the first.
  *   Where many iterations are left, one new Jacobian and LU at a stage as it is then.
  *   Error: (lambda_0/h M - J)^{-1} [f(t_n, y_n) + M/h sum d_j Z_j], filtered twice at the start and
  *   after a refusal; where the end is not a stage, the same of f and the slope at the end.
@@ -82,7 +84,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->kappa = s->options->newton > 0 ? s->options->newton : 1e-4;
   if (s->problem->dae_index >= 3 && !(s->options->newton > 0))
     e->kappa = 10 * stf_multipliers_known(s->options->rtol, table->order);
-  e->eta = 1, e->J_new = true;
+  e->eta = e->eta_of = 1, e->J_new = true;
   stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
   return STEIF_OK;
 }
@@ -282,6 +284,7 @@ static void keep(stf_step *s, stf_image *m)
   STF_KEEP(m, e->h_factored);
   STF_KEEP(m, e->theta);
   STF_KEEP(m, e->eta);
+  STF_KEEP(m, e->eta_of);
   STF_KEEP(m, e->kappa);
   STF_KEEP(m, e->first_correction);
   STF_KEEP(m, e->rounding_limited);

@@ -24,8 +24,8 @@ typedef struct stf_irk_interleaved {
     u; /* with derivatives by parameters; so are stages and what is set aside: */
   N_Vector *stage;
   double *aside;
-  double h_factored, theta, eta, kappa,
-    first_correction;    /* first_correction: ||first correction|| / ||omega|| */
+  double h_factored, theta, eta, kappa, eta_of,
+    first_correction; /* first_correction: ||first correction|| / ||omega||; eta_of: that eta was seen at */
   bool accurate;         /* the end is a stage */
   bool rounding_limited; /* rounding ended Newton's iteration */
   bool history, f0_known, renew_J, J_new, J_ahead;
