@@ -69,6 +69,8 @@ for _row in (
     ("steif_record_new", POINTER, POINTER, WHOLE, INT),
     ("steif_record_free", None, POINTER),
     ("steif_record_step", INT, POINTER, REAL, POINTER, POINTER),
+    ("steif_record_steps", c.c_size_t, POINTER, POINTER),
+    ("steif_record_values", POINTER, POINTER),
     ("steif_record_at", INT, POINTER, REAL, POINTER, POINTER),
     ("steif_problem_vary", INT, POINTER, POINTER, INT, POINTER, POINTER, POINTER),
     ("steif_sensitivity", INT, POINTER, REAL, INT, POINTER),

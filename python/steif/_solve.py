@@ -8,7 +8,7 @@ import numpy as np
 
 from ._library import (INT, POINTER, REAL, WHOLE, Context, SteifError, Struct, fill_sparse, lib,
                        sparse_columns)
-from ._record import Dense
+from ._record import OBSERVER, Dense, Steps
 
 _RHS = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER)
 _JACOBIAN = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER, POINTER, POINTER, POINTER, POINTER)
@@ -226,35 +226,35 @@ class _Run:
         self.problem.kept["pattern"] = kept, start, rows
 
     def observe(self, steps, record):
-        """Keep all steps as points, or as polynomials in the record, or both."""
-        vector, n = self.arrays.vector, self.n
+        """All steps as points, or as polynomials in the record, by the library alone; both by a callback."""
+        if steps is None or record is None:
+            kept = steps or record
+            if kept is not None:
+                self.options.set("observe", POINTER, OBSERVER)
+                self.options.set("observer", POINTER, kept.record)
+            return
 
         def keep(s, t, y, user):
-            if steps:
-                self.t.append(t)
-                self.y.append(vector(y, n).copy())
-            if record is not None:
-                record.step(s, t, y)
+            steps.step(s, t, y)
+            record.step(s, t, y)
 
-        if steps or record is not None:
-            self.options.set("observe", POINTER, _OBSERVE(self.guarded(keep)))
+        self.options.set("observe", POINTER, _OBSERVE(self.guarded(keep)))
 
-    def go(self, context, method, t0, t1, times):
+    def go(self, context, method, t0, t1, times, steps):
         with _Interrupt(self.options):
             solver = lib.steif_solver_new(context.pointer, self.problem.address, method.encode(),
                                           self.options.address)
             if not solver:
                 raise self.raised or context.error()
             try:
-                return self._advance(context, solver, t0, t1, times)
+                return self._advance(context, solver, t0, t1, times, steps)
             finally:
                 lib.steif_solver_free(c.byref(POINTER(solver)))
 
-    def _advance(self, context, solver, t0, t1, times):
+    def _advance(self, context, solver, t0, t1, times, steps):
         vector, n, code = self.arrays.vector, self.n, 0
         if times is None:
-            self.t.append(t0)
-            self.y.append(vector(lib.steif_solution(solver), n).copy())
+            steps.step(solver, t0, lib.steif_solution(solver))
             code = lib.steif_solve_to(solver, t1)
         else:
             for t in times:
@@ -268,14 +268,15 @@ class _Run:
                 code = lib.steif_solve_to(solver, t1)
         if self.raised:
             raise self.raised
-        return self._result(context, solver, code)
+        points = steps.arrays() if steps else (np.array(self.t), np.array(self.y).T)
+        return self._result(context, solver, code, points)
 
-    def _result(self, context, solver, code):
+    def _result(self, context, solver, code, points):
         r, stats = Result(), Struct("stats")
         stats.address = lib.steif_statistics(solver)
         for name, member in _COUNTS.items():
             setattr(r, name, stats.get(member, c.c_long))
-        r.t, r.y = np.array(self.t), np.array(self.y).T
+        r.t, r.y = points
         r.t_events = [np.array(t) for t in self.t_events] if hasattr(self, "t_events") else None
         r.y_events = [np.array(y) for y in self.y_events] if hasattr(self, "y_events") else None
         r.names = self.names
@@ -389,7 +390,7 @@ def solve(f, t_span=None, y0=None, *, method="auto", rtol=1e-6, atol=None, t_eva
     """
     context = Context()
     named = isinstance(f, (str, bytes, os.PathLike))
-    run = record = result = None
+    run = record = steps = result = None
     try:
         if named:
             run, t0, t1 = _known(context, f, t_span)
@@ -405,11 +406,14 @@ def solve(f, t_span=None, y0=None, *, method="auto", rtol=1e-6, atol=None, t_eva
             run.options.set("max_steps", c.c_long, int(max_steps))
         times = _times(t_eval, t0, t1)
         record = Dense(context, run.n) if dense_output else None
-        run.observe(times is None, record)
-        result = run.go(context, method, t0, t1, times)
+        steps = Steps(context, run.n) if times is None else None
+        run.observe(steps, record)
+        result = run.go(context, method, t0, t1, times, steps)
         result.sol = record  # which keeps the context from here on
         return result
     finally:
+        if steps is not None:
+            steps.close()
         if named and run is not None:
             lib.steif_problem_clear(context.pointer, run.problem.address)
         if result is None or record is None:

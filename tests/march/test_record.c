@@ -90,6 +90,36 @@ static void events_are_seen_from_behind(void)
   steif_context_free(&ctx);
 }
 
+/* y of each step as the solver shows it there; the start by a call of our own. */
+static void steps_alone(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_record *r = steif_record_new(ctx, 2, STEIF_RECORD_STEPS);
+  steif_options o = steif_defaults();
+  const sunrealtype *t, h = 1.0 / 256;
+  double at[2];
+  o.h = h, o.observe = steif_record_step, o.observer = r;
+  steif_solver *s = smooth_open(ctx, &smooth, "radau:s=3", &o);
+  CHECK(!steif_record_step(s, 0.25, steif_solution(s), r));
+  CHECK(!steif_solve_to(s, 1));
+  CU_ASSERT_FATAL(steif_record_steps(r, &t) == 192);
+  const sunrealtype *y = steif_record_values(r);
+  for (int k = 0; k <= 192; k++) {
+    CLOSE(t[k], 0.25 + k * h, 1e-14);
+    CLOSE(y[2 * k + 1], sin(0.25 + k * h), 1e-12);
+  }
+  CHECK(y[385] == NV_Ith_S(steif_solution(s), 1));
+  CHECK(steif_record_at(r, 0.5, at, NULL) == STEIF_BAD_INPUT);
+  CHECK(strstr(steif_message(ctx), "steps alone") != NULL);
+  steif_solver_free(&s);
+  steif_record_free(&r);
+  r = steif_record_new(ctx, 2, 3);
+  CHECK(!steif_record_values(r));
+  steif_record_free(&r);
+  CHECK(!steif_record_new(ctx, 2, -2));
+  steif_context_free(&ctx);
+}
+
 static void wrong_records_are_refused(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -124,7 +154,7 @@ static void short_memory_ends_the_run_and_loses_nothing(void)
     failing f = {.refuse_at = k};
     const steif_setup setup = failing_setup(&f);
     steif_context *ctx = steif_context_new(&setup);
-    steif_record *r = ctx ? steif_record_new(ctx, 2, 4) : NULL;
+    steif_record *r = ctx ? steif_record_new(ctx, 2, k % 2 ? 4 : STEIF_RECORD_STEPS) : NULL;
     steif_options o = steif_defaults();
     o.h = 1.75 / 200, o.observe = steif_record_step, o.observer = r;
     steif_solver *s = r ? steif_solver_new(ctx, &smooth, "be", &o) : NULL;
@@ -142,6 +172,7 @@ static void short_memory_ends_the_run_and_loses_nothing(void)
 CU_TestInfo tests_of_record[] = {
   {"a record is the dense output", a_record_is_the_dense_output},
   {"events are seen from behind", events_are_seen_from_behind},
+  {"steps alone", steps_alone},
   {"wrong records are refused", wrong_records_are_refused},
   {"short memory ends the run and loses nothing", short_memory_ends_the_run_and_loses_nothing},
   CU_TEST_INFO_NULL};

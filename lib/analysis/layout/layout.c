@@ -31,7 +31,7 @@ static const struct {
 
   SIZE(options), AT(options, rtol), AT(options, atol), AT(options, atols), AT(options, h),
   AT(options, h0), AT(options, h_max), AT(options, t1), AT(options, max_steps),
-  AT(options, observe), AT(options, on_event), AT(options, stop),
+  AT(options, observe), AT(options, observer), AT(options, on_event), AT(options, stop),
 
   AT(options, sensitivities), AT(options, active_count), AT(options, active),
 

@@ -14,7 +14,7 @@ enum { DEGREE = 20, USUAL = 6 };
 struct steif_record {
   steif_context *ctx;
   size_t n, count, room; /* steps kept, steps there is room for */
-  int degree;
+  int degree;            /* 0: the steps alone, count + 1 rows of y */
   sunrealtype point[DEGREE + 1];
   sunrealtype *t, *y; /* count + 1 times; count x (degree + 1) x n values */
   stf_pool *pool;
@@ -23,7 +23,7 @@ struct steif_record {
 
 steif_record *steif_record_new(steif_context *ctx, sunindextype n, int degree)
 {
-  if (n < 1 || degree < 0 || degree > DEGREE) {
+  if (n < 1 || degree < STEIF_RECORD_STEPS || degree > DEGREE) {
     STEIF_FAIL(
       ctx, STEIF_BAD_INPUT,
       "a record of %lld components and degree %d: at least 1, and 0 .. %d are possible",
@@ -32,7 +32,8 @@ steif_record *steif_record_new(steif_context *ctx, sunindextype n, int degree)
   }
   steif_record *r = stf_allocate(ctx, 1, sizeof *r);
   if (!r) return NULL;
-  r->ctx = ctx, r->n = (size_t)n, r->degree = degree ? degree : USUAL;
+  r->ctx = ctx, r->n = (size_t)n;
+  r->degree = degree == STEIF_RECORD_STEPS ? 0 : degree ? degree : USUAL;
   const sunrealtype pi = acos(-1);
   for (int j = 0; j <= r->degree; j++) r->point[j] = (1 - cos(j * pi / r->degree)) / 2;
   return r;
@@ -66,7 +67,8 @@ static int grow(steif_record *r)
   sunrealtype *t = longer(r, r->t, r->count ? r->count + 1 : 0, room + 1);
   if (!t) return STEIF_NO_MEMORY;
   r->t = t;
-  sunrealtype *y = longer(r, r->y, r->count * width(r), room * width(r));
+  const size_t kept = r->degree ? r->count : r->room ? r->count + 1 : 0;
+  sunrealtype *y = longer(r, r->y, kept * width(r), (room + 1) * width(r));
   if (!y) return STEIF_NO_MEMORY;
   r->y = y, r->room = room;
   return STEIF_OK;
@@ -84,9 +86,23 @@ static int begin(steif_record *r, const steif_solver *s, N_Vector y)
   return STEIF_OK;
 }
 
+static int keep_row(steif_record *r, const steif_solver *s, sunrealtype t, N_Vector y)
+{
+  if (!r->work) {
+    STEIF_TRY(begin(r, s, y));
+  } else {
+    if (r->count == r->room) STEIF_TRY(grow(r));
+    r->count++;
+  }
+  r->t[r->count] = t;
+  memcpy(r->y + r->count * r->n, stf_array(y), r->n * sizeof *r->y);
+  return STEIF_OK;
+}
+
 int steif_record_step(steif_solver *s, sunrealtype t, N_Vector y, void *record)
 {
   steif_record *r = record;
+  if (!r->degree) return keep_row(r, s, t, y);
   if (!r->work) STEIF_TRY(begin(r, s, y));
   const sunrealtype from = r->t[r->count];
   if (t <= from) return STEIF_OK; /* the other side of an event */
@@ -140,6 +156,9 @@ static void weigh(const steif_record *r, sunrealtype x, sunrealtype *value, sunr
 
 int steif_record_at(const steif_record *r, sunrealtype t, sunrealtype *y, sunrealtype *yp)
 {
+  STEIF_CHECK(r->degree, r->ctx, STEIF_BAD_INPUT,
+              "a record of steps alone has no values between them: take degree 0, or 1 .. %d",
+              DEGREE);
   STEIF_CHECK(r->count > 0 && t >= r->t[0] && t <= r->t[r->count], r->ctx, STEIF_BAD_INPUT,
               "t = %.17g lies outside the record of %zu steps, [%.17g, %.17g]", t, r->count,
               r->count ? r->t[0] : 0, r->count ? r->t[r->count] : 0);
@@ -163,4 +182,9 @@ size_t steif_record_steps(const steif_record *r, const sunrealtype **t)
 {
   *t = r->t;
   return r->count;
+}
+
+const sunrealtype *steif_record_values(const steif_record *r)
+{
+  return r->degree ? NULL : r->y;
 }
