@@ -25,6 +25,8 @@ static void band(const stf_step *s, stf_cost *p)
   p->solve = n * (10 + 2 * lower + upper);
 }
 
+/* Counted in instructions, for the brusselator on grids of 968, 3528 and 9800 unknowns: a solve is 0.60, 0.72, 0.79 of
+ * a step of thirteen explicit stages (here 0.60, 0.79, 1.0), a factor 15 to 18, 27 to 36, 38 to 47 (15, 37, 84). */
 static void sparse(const stf_step *s, stf_cost *p)
 {
   const double n = (double)s->problem->n;
@@ -49,14 +51,15 @@ static double jacobian(const stf_step *s, const stf_cost *p)
   }
 }
 
-/* Of a usual step: Newton's iteration converges in four sweeps, the blended one takes ten and keeps its
- * factors; a Rosenbrock method has eight stages at most. Linear systems need one sweep, and no factors
- * while the length of steps stays; a complex shift costs three real ones. */
+/* Of a usual step: Newton's iteration converges in four sweeps; the blended one, which keeps its factors, takes two
+ * for each stage (16 solves a step with three stages, 47 with five); a Rosenbrock method has eight stages at
+ * most. Linear systems need one sweep, and no factors while the length of steps stays; a complex shift
+ * costs three real ones. */
 static double usual(const stf_step *s, const stf_cost *p)
 {
   const double stages = s->table ? s->table->s : 1, lanes = (stages + 1) / 2;
   if (s->newton.gamma > 0)
-    return 0.3 * (p->factor + p->jacobian) + 10 * stages * (p->solve + p->f / 2);
+    return 0.3 * (p->factor + p->jacobian) + 2 * stages * stages * (p->solve + p->f / 2);
   if (s->table && s->system.linear)
     return (3 * lanes - 2) * (0.5 * p->factor + p->solve) + stages * p->f;
   if (s->table) return lanes * (p->factor + 4 * p->solve) + 4 * stages * p->f + p->jacobian;

@@ -313,9 +313,9 @@ extern const steif_method steif_method_irk;
  * Of the ode form and the matrices at hand. */
 int stf_oscillation(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *omega);
 
-/* The spectral radius of J, by the same power iteration. */
-int stf_spectral_radius(stf_step *s, N_Vector v, N_Vector w, N_Vector work,
-                        sunrealtype *radius);
+/* The spectral radius of J, by the same power iteration; is an eigenvalue of that size real? */
+int stf_spectral_radius(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *radius,
+                        bool *real);
 
 /* step_image.c: what the method in use remembers, and the step with its system; stf_step_keep before. */
 void stf_method_keep(stf_step *s, stf_image *m);

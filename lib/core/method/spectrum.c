@@ -59,10 +59,12 @@ int stf_oscillation(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealt
   return STEIF_OK;
 }
 
-int stf_spectral_radius(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *radius)
+int stf_spectral_radius(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunrealtype *radius,
+                        bool *real)
 {
   sunrealtype size, cosine;
   STEIF_TRY(iterate_together(s, v, w, work, &size, &cosine));
   *radius = sqrt(size);
+  *real = cosine > 0.5;
   return STEIF_OK;
 }
