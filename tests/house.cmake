@@ -146,6 +146,12 @@ if(pythons AND NOT STEIF_SANITIZE)
   add_test(NAME python COMMAND ${interpreter} -m unittest discover -s ${PROJECT_SOURCE_DIR}/tests/python)
   set_tests_properties(python PROPERTIES ENVIRONMENT
     "PYTHONPATH=${PROJECT_SOURCE_DIR}/python;STEIF_LIBRARY=$<TARGET_FILE:steif>;PYTHONDONTWRITEBYTECODE=1")
+  # pip needs nothing from elsewhere, and what it installs runs.
+  execute_process(COMMAND ${interpreter} -m pip --version RESULT_VARIABLE code OUTPUT_QUIET ERROR_QUIET)
+  if(code EQUAL 0)
+    add_test(NAME pip COMMAND ${CMAKE_COMMAND} -DPYTHON=${interpreter} -DSOURCE=${PROJECT_SOURCE_DIR}/python
+             -DFOLDER=${PROJECT_BINARY_DIR}/pip -DLIBRARY=$<TARGET_FILE:steif> -P ${CMAKE_CURRENT_LIST_DIR}/pip.cmake)
+  endif()
   # What the manual prints is what the program prints.
   file(GLOB chapters CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/doc/*.md)
   add_test(NAME manual COMMAND ${interpreter} ${PROJECT_SOURCE_DIR}/doc/transcripts.py
