@@ -3,6 +3,7 @@
 #include "models/models.h"
 #include "suite.h"
 #include "toy.h"
+#include <nvector/nvector_serial.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
@@ -137,9 +138,65 @@ static void honest_jacobians_are_not_accused(void)
   steif_context_free(&ctx);
 }
 
+/* y' = c b((y - m)/w), b of one of four kinds, w from 10 times |y| down to 1e-9 of it. */
+typedef struct bend {
+  int kind;
+  double m, w, c;
+} bend;
+
+static double shape(int kind, double x, double *slope)
+{
+  const double bell = exp(-x * x), well = 1 + x * x;
+  *slope = kind == 0   ? 1 - tanh(x) * tanh(x)
+           : kind == 1 ? -2 * x * bell
+           : kind == 2 ? cos(x)
+                       : -2 * x / well / well;
+  return kind == 0 ? tanh(x) : kind == 1 ? bell : kind == 2 ? sin(x) : 1 / well;
+}
+
+static int bent(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  const bend *b = user;
+  double slope;
+  (void)t;
+  NV_Ith_S(ydot, 0) = b->c * shape(b->kind, (NV_Ith_S(y, 0) - b->m) / b->w, &slope);
+  return 0;
+}
+
+static int bent_jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector p,
+                    N_Vector q, N_Vector r)
+{
+  const bend *b = user;
+  double slope;
+  (void)t, (void)fy, (void)p, (void)q, (void)r;
+  shape(b->kind, (NV_Ith_S(y, 0) - b->m) / b->w, &slope);
+  SM_ELEMENT_D(J, 0, 0) = b->c / b->w * slope;
+  return 0;
+}
+
+/* An exact Jacobian is not accused, however narrow the bends of f are. */
+static void exact_jacobians_are_not_accused(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  for (int k = 0; k < 4 * 10 * 7 * 5; k++) {
+    const double y0 = pow(10, 3 * (k % 5) - 8), away = (k / 5 % 7 - 3) * 0.77 + 0.1;
+    bend b = {.kind = k / 350, .w = 10 * y0 * pow(10, -(k / 35 % 10 + 0.4)), .c = 1e3};
+    b.m = y0 - away * b.w;
+    const steif_problem p = {
+      .name = "bent", .n = 1, .t1 = 1, .y0 = &y0, .f = bent, .jac = bent_jac, .user = &b};
+    steif_cause cause;
+    CHECK(!steif_check_jacobian(ctx, &p, NULL, &cause));
+    if (cause.kind == STEIF_CAUSE_JACOBIAN)
+      printf("\n  kind %d, y %g, w %g: %s", b.kind, y0, b.w, cause.message);
+    CHECK(cause.kind != STEIF_CAUSE_JACOBIAN);
+  }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_jacobians[] = {
   {"forged Jacobians are found before the first step",
    forged_jacobians_are_found_before_the_first_step},
   {"forged Jacobians explain a failure", forged_jacobians_explain_a_failure},
   {"honest Jacobians are not accused", honest_jacobians_are_not_accused},
+  {"exact Jacobians are not accused", exact_jacobians_are_not_accused},
   CU_TEST_INFO_NULL};

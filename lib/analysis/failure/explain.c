@@ -23,6 +23,64 @@ typedef struct suspect {
   sunrealtype given, measured, worth; /* worth: defect relative to its row */
 } suspect;
 
+/* x = the point with component j moved by +-h; its column of residuals, and the difference of both as rounded. */
+static int beside(stf_search *c, char which, size_t j, sunrealtype h, sunrealtype *work,
+                  sunrealtype *apart)
+{
+  stf_point *point = c->point;
+  const size_t n = point->n;
+  const sunrealtype *base = which == 'E' ? point->yp0 : point->y0;
+  sunrealtype *x = work;
+  memcpy(x, base, n * sizeof *x);
+  const volatile sunrealtype end[] = {base[j] + h, base[j] - h};
+  *apart = end[0] - end[1];
+  for (int k = 0; k < 2; k++) {
+    x[j] = end[k];
+    const int code =
+      which == 'E'
+        ? stf_point_residual(point, point->t, point->y0, x, work + (size_t)(1 + k) * n)
+        : stf_point_residual(point, point->t, x, point->yp0, work + (size_t)(1 + k) * n);
+    if (code) return code;
+  }
+  return STEIF_OK;
+}
+
+static sunrealtype noise_of(const stf_search *c, size_t i)
+{
+  return fmax(c->noise[i], STF_EPS * c->scale[i]);
+}
+
+/* Is a suspect guilty? Where an equation bends at the scale of an increment, differences are no derivative, and
+ * an exact one looks wrong. With increments that fall by 4 as long as rounding leaves the defect visible, all
+ * differences must agree (noise may be such a bend), and there must be enough of them. What bends below the
+ * rounding of its equation is never seen: an entry far larger than measured must matter to it. */
+static int convict(stf_search *c, const suspect *s, sunrealtype h, sunrealtype *work,
+                   bool *guilty)
+{
+  enum { ENOUGH = 5, MOST = 400 };
+  const size_t n = c->point->n;
+  const sunrealtype *base = s->which == 'E' ? c->point->yp0 : c->point->y0;
+  const sunrealtype defect = fabs(s->given - s->measured), part = 0.05, matters = 1,
+                    rounding = 64 * STF_EPS * fabs(base[s->j]);
+  sunrealtype noise = 0; /* by the values seen: scales hold the entry itself */
+  int seen = 0;
+  *guilty = false;
+  for (int k = 0; k < MOST && h > rounding && noise / h < part * defect; k++, h /= 4) {
+    sunrealtype apart;
+    const int code = beside(c, s->which, s->j, h, work, &apart);
+    if (code) return code;
+    const sunrealtype up = work[n + s->i], down = work[2 * n + s->i],
+                      slope = (up - down) / apart;
+    noise = fmax(noise, 20 * STF_EPS * fmax(fabs(up), fabs(down)));
+    if (!(fabs(slope - s->measured) < part * defect + noise / h)) return STEIF_OK;
+    seen++;
+  }
+  const bool larger = fabs(s->given) > 10 * fabs(s->measured),
+             tells = defect * c->point->size[s->j] > matters * noise / (20 * STF_EPS);
+  *guilty = seen >= ENOUGH && (tells || !larger);
+  return STEIF_OK;
+}
+
 /* Column j of E or F_y against differences with two increments. */
 static int compare(stf_search *c, char which, size_t j, const sunrealtype *given,
                    const sunrealtype *top, sunrealtype *work, suspect *s)
@@ -30,27 +88,28 @@ static int compare(stf_search *c, char which, size_t j, const sunrealtype *given
   stf_point *point = c->point;
   const size_t n = point->n;
   const sunrealtype *base = which == 'E' ? point->yp0 : point->y0;
-  sunrealtype *x = work, *r[4] = {work + n, work + 2 * n, work + 3 * n, work + 4 * n};
   sunrealtype h = 1e-4 * fmax(fabs(base[j]), point->floor[j] * (which == 'E' ? 1 : 1e-2));
-  memcpy(x, base, n * sizeof *x);
-  for (int tries = 0, code = 1; code; tries++, h /= 16) {
-    for (int k = 0; k < 4; k++) {
-      x[j] = base[j] + (k % 2 ? -1 : 1) * (k < 2 ? h : h / 4);
-      code = which == 'E' ? stf_point_residual(point, point->t, point->y0, x, r[k])
-                          : stf_point_residual(point, point->t, x, point->yp0, r[k]);
-      if (code) break;
-    }
+  sunrealtype *slope = work + 3 * n, apart;
+  for (int tries = 0, code = 1; code; tries++) {
+    code = beside(c, which, j, h, work, &apart);
+    for (size_t i = 0; i < n && !code; i++) slope[i] = (work[n + i] - work[2 * n + i]) / apart;
+    if (!code) code = beside(c, which, j, h / 4, work, &apart);
     if (code < 0 || (code && tries > 4)) return code;
-    if (!code) break;
+    if (code) h /= 16;
   }
+  for (size_t i = 0; i < n; i++) slope[n + i] = (work[n + i] - work[2 * n + i]) / apart;
   for (size_t i = 0; i < n; i++) {
-    const sunrealtype coarse = (r[0][i] - r[1][i]) / (2 * h);
-    const sunrealtype fine = (r[2][i] - r[3][i]) / (h / 2), defect = fabs(given[i] - fine);
-    const sunrealtype noise = fmax(c->noise[i], STF_EPS * c->scale[i]);
-    const sunrealtype doubt = 10 * (fabs(coarse - fine) + 20 * noise / (h / 4));
+    const sunrealtype coarse = slope[i], fine = slope[n + i], defect = fabs(given[i] - fine);
+    const sunrealtype doubt = 10 * (fabs(coarse - fine) + 20 * noise_of(c, i) / (h / 4));
     const sunrealtype worth = top[i] > 0 ? defect * point->size[j] / top[i] : 1;
-    if (defect > wrong * fmax(fabs(given[i]), fabs(fine)) && defect > doubt && worth > s->worth)
-      *s = (suspect){which, i, j, given[i], fine, worth};
+    if (!(defect > wrong * fmax(fabs(given[i]), fabs(fine)) && defect > doubt &&
+          worth > s->worth))
+      continue;
+    const suspect now = {which, i, j, given[i], fine, worth};
+    bool guilty;
+    const int code = convict(c, &now, h / 4, work, &guilty);
+    if (code < 0) return code;
+    if (!code && guilty) *s = now;
   }
   return STEIF_OK;
 }
