@@ -25,16 +25,18 @@ steif_options options_of(const struct call *call)
   return o;
 }
 
-/* What a run that stopped by itself stopped for. */
+/* What a run that stopped by itself stopped for, if the run made again stops where it did: one that went on from a
+ * checkpoint may have had other limits before. */
 static void explain(steif_context *ctx, const steif_problem *problem, const char *method,
-                    const steif_options *options, outcome *o)
+                    const steif_options *options, bool begins, outcome *o)
 {
   static const int codes[] = {STEIF_NOT_FINITE, STEIF_SINGULAR,   STEIF_NO_CONVERGENCE,
                               STEIF_CALLBACK,   STEIF_STEP_LIMIT, STEIF_STEP_SIZE,
                               STEIF_UNSUPPORTED};
   static steif_failure f;
   for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
-    if (o->code == codes[i] && !steif_failure_find(ctx, problem, method, options, &f))
+    if (o->code == codes[i] && !steif_failure_find(ctx, problem, method, options, &f) &&
+        (begins || f.t == o->t))
       snprintf(o->why, sizeof o->why, "%s", f.message);
   speak(o->why, sizeof o->why);
 }
@@ -85,8 +87,9 @@ outcome integrate(steif_context *ctx, const steif_problem *problem, const char *
                   const steif_options *options, steif_solver **solver)
 {
   steif_solver *s = solver ? *solver : NULL;
+  const bool begins = !s;
   outcome o = integrate_from(ctx, problem, method, options, &s, NULL, NULL);
-  if (s && o.code < 0) explain(ctx, problem, method, options, &o);
+  if (s && o.code < 0) explain(ctx, problem, method, options, begins, &o);
   if (solver)
     *solver = s;
   else

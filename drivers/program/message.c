@@ -39,6 +39,12 @@ static void object(const struct call *call, int code, const char *text)
   steif_report_free(&r);
 }
 
+/* The word on the command line: a run that goes on is one of solve, but it was called by resume. */
+static const char *verb_called(const struct call *call)
+{
+  return call->continues ? "resume" : call->verb ? call->verb->name : "";
+}
+
 /* symbol: the code's, NULL where the sentence is no failure or names it itself. */
 static void sentence(const struct call *call, int code, const char *symbol, const char *format,
                      va_list arguments)
@@ -48,7 +54,7 @@ static void sentence(const struct call *call, int code, const char *symbol, cons
   fflush(stdout);
   vsnprintf(text, sizeof text, format, arguments);
   speak(text, sizeof text);
-  fprintf(stderr, call->verb ? "steif %s: " : "steif: ", call->verb ? call->verb->name : "");
+  fprintf(stderr, call->verb ? "steif %s: " : "steif: ", verb_called(call));
   fprintf(stderr, symbol ? "%s [%s]\n" : "%s%s\n", text, symbol ? symbol : "");
   if (symbol) object(call, code, text);
 }
