@@ -113,10 +113,10 @@ typedef struct steif_impulse {
                                max |F| times the norm of c_{k-3} or x- - x+) */
   sunrealtype resolution; /* of the structure: valid for time scales from 1 / resolution on */
   sunrealtype
-    estimate;         /* of the error of x_plus relative to its norm, or to a thousandth of what
-                               E x(0-) and f stand for where that is larger, so that 0 is as good
-                               as any: two radii, or two algorithms and four times what changes of all
-                               entries and of x(0-) in the last place make of x_plus, the larger */
+    estimate; /* of the error of x_plus, in the units given, relative to its norm, or to a thousandth of
+                 what E x(0-) and f stand for where that is larger, so that 0 is as good as any: two
+                 radii, or two algorithms and four times what changes of all entries and of x(0-) in
+                 the last place make of x_plus, the larger; at least what it is in even units */
   sunrealtype radius; /* of the circle that x_plus and c are from; 0: of none */
   int certified;
   const char *method;

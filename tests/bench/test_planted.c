@@ -54,8 +54,44 @@ static void certificates_are_right(void)
   steif_context_free(&ctx);
 }
 
+/* Equations and unknowns in units of 2^-20 to 2^20, which rounds nothing. */
+static void change_units(planted *p, stf_random *r)
+{
+  int row[PLANTED_MOST], column[PLANTED_MOST];
+  for (int i = 0; i < p->n; i++) {
+    row[i] = (int)stf_random_below(r, 41) - 20, column[i] = (int)stf_random_below(r, 41) - 20;
+    p->before[i] = ldexp(p->before[i], -column[i]);
+    p->after[i] = ldexp(p->after[i], -column[i]);
+  }
+  for (int k = 0; k < p->n * p->n; k++) {
+    const int power = row[k % p->n] + column[k / p->n];
+    p->E[k] = ldexp(p->E[k], power), p->F[k] = ldexp(p->F[k], power);
+  }
+}
+
+/* What is said of the error of x(0+) holds in the units given, whatever they are. */
+static void errors_in_mixed_units(void)
+{
+  static planted p;
+  planted_outcome out;
+  stf_random r = {.state = 12};
+  long right = 0;
+  steif_context *ctx = steif_context_new(NULL);
+  for (long seed = 1; seed <= 150; seed++) {
+    CHECK(!planted_new(ctx, PLANTED_DENSE, seed, &p));
+    change_units(&p, &r);
+    CHECK(!planted_judge(ctx, PLANTED_DENSE, &p, &out));
+    CHECK(out.structure != PLANTED_WRONG && out.start != PLANTED_WRONG);
+    if (out.start == PLANTED_WRONG) printf("\n  %ld: %g times the estimate", seed, out.off);
+    right += out.start == PLANTED_RIGHT;
+  }
+  CHECK(right > 130);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_planted[] = {
   {"whole numbers have the structure that they are made with",
    whole_numbers_have_their_structure},
+  {"errors in mixed units are those told", errors_in_mixed_units},
   {"no certificate of a random pencil is wrong, few are withheld", certificates_are_right},
   CU_TEST_INFO_NULL};

@@ -291,7 +291,8 @@ static int compare(stf_descriptor *d)
   const size_t n = (size_t)out->n, count = (size_t)out->count;
   memcpy(out->x_plus, w->at[0].x, n * sizeof *out->x_plus);
   if (count) memcpy(out->c, w->at[0].x + n, n * count * sizeof *out->c);
-  stf_units_leave(&w->units, out);
+  for (size_t i = 0; i < n; i++) d->apart[i] = fabs(w->at[0].x[i] - w->at[1].x[i]);
+  stf_units_leave(&w->units, out, d->apart);
   out->radius = w->R;
   out->resolution = d->structure->resolution;
   out->cost = spent(&w->before, steif_pencil_statistics(w->circle->scaled.pencil));

@@ -30,7 +30,19 @@ static sunrealtype relative(const stf_two_starts *p, const sunrealtype *x_plus)
   return off > 0 ? off / measure(p) : off;
 }
 
-sunrealtype stf_starts_apart(const stf_two_starts *p) { return relative(p, p->two->x_plus); }
+/* What was compared last, component by component. */
+static void keep(const stf_two_starts *p, sunrealtype factor)
+{
+  for (int i = 0; p->apart && i < p->units->n; i++)
+    p->apart[i] = fmax(p->apart[i], factor * fabs(p->difference[i]));
+}
+
+sunrealtype stf_starts_apart(const stf_two_starts *p)
+{
+  const sunrealtype off = relative(p, p->two->x_plus);
+  keep(p, 1);
+  return off;
+}
 
 bool stf_starts_agree(const stf_two_starts *p, sunrealtype tolerance)
 {
@@ -77,8 +89,10 @@ static int move(const stf_two_starts *p, uint64_t *state, sunrealtype *E, sunrea
   }
   if (!code && (longer || !found.regular || other.index != p->one->index))
     *moved = INFINITY;
-  else if (!code)
+  else if (!code) {
     *moved = fmax(*moved, relative(p, other.x_plus));
+    keep(p, STF_DRAW_FACTOR);
+  }
   steif_structure_clear(p->ctx, &found);
   steif_impulse_clear(p->ctx, &other);
   return code;

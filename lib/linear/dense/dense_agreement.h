@@ -16,6 +16,9 @@ typedef struct stf_two_starts {
   const sunrealtype *x0; /* x(0-), of which sources has E x(0-) */
   const steif_impulse *one, *two;
   sunrealtype *difference; /* scratch, n */
+  sunrealtype *
+    apart; /* n, the largest differences so far, those of stf_start_moves as STF_DRAW_FACTOR times
+                              as large; NULL: not wanted */
 } stf_two_starts;
 
 /* ||x(0+) - x(0+)|| relative to stf_sources_measure. */

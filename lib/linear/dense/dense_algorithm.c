@@ -153,7 +153,8 @@ static stf_two_starts starts(const stf_descriptor *d, dense *p)
                           .x0 = p->x0,
                           .one = &p->answer[STAIRCASE],
                           .two = &p->answer[SCHUR],
-                          .difference = p->difference};
+                          .difference = p->difference,
+                          .apart = d->apart};
 }
 
 /* Without x(0-) no answer is given whose error would matter: then both ways may differ by what rounding
@@ -256,6 +257,7 @@ static void certify_start(stf_descriptor *d, dense *p)
   steif_impulse *from = &p->answer[qz ? SCHUR : STAIRCASE];
   unscale(&p->units, &p->answer[STAIRCASE]);
   if (both) unscale(&p->units, &p->answer[SCHUR]);
+  for (int j = 0; j < p->units.n; j++) d->apart[j] *= p->units.column[j];
   *d->impulse = *from;
   d->impulse->estimate = both ? fmax(p->both.off, STF_DRAW_FACTOR * p->both.moved) : INFINITY;
   d->impulse->method = qz ? "qz" : "staircase";

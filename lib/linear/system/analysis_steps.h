@@ -15,7 +15,8 @@ typedef struct stf_descriptor {
   const sunrealtype *x0;  /* n values x(0-); NULL: the structure alone is wanted */
   stf_sources sources;    /* with x0: E x0, f, f', ... as far as the index asks */
   steif_impulse *impulse; /* with x0: the answer */
-  void *state;            /* of the algorithm, in the pool */
+  sunrealtype *apart; /* with x0: how far its comparisons are apart, n, in the units given */
+  void *state;        /* of the algorithm, in the pool */
 } stf_descriptor;
 
 /* The steps of an analysis, in the order in which they are called. */

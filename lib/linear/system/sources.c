@@ -50,7 +50,7 @@ int stf_sources_force(steif_context *ctx, steif_forcing f, void *user, sunrealty
   return STEIF_OK;
 }
 
-static sunrealtype length(sunindextype n, const sunrealtype *x)
+sunrealtype stf_sources_length(sunindextype n, const sunrealtype *x)
 {
   sunrealtype sum = 0;
   for (sunindextype i = 0; i < n; i++) sum += x[i] * x[i];
@@ -62,9 +62,9 @@ sunrealtype stf_sources_measure(const stf_sources *s, sunrealtype plus, sunrealt
 {
   static const sunrealtype part = 1e-3;
   sunrealtype scale = 0;
-  if (E > 0) scale = length(s->n, s->Ex0) / E;
+  if (E > 0) scale = stf_sources_length(s->n, s->Ex0) / E;
   sunrealtype over = F > 0 ? 1 / F : 0; /* F^-1 (E / F)^j: what f^(j) is multiplied by */
   for (int j = 0; s->f && j <= s->derivatives; j++, over *= E / F)
-    scale = fmax(scale, over * length(s->n, s->f + j * s->n));
+    scale = fmax(scale, over * stf_sources_length(s->n, s->f + j * s->n));
   return fmax(plus, part * scale);
 }

@@ -74,11 +74,12 @@ int stf_units_enter(stf_pool *pool, const stf_units *u, const sunrealtype **x0,
   return STEIF_OK;
 }
 
-void stf_units_leave(const stf_units *u, steif_impulse *impulse)
+void stf_units_leave(const stf_units *u, steif_impulse *impulse, sunrealtype *apart)
 {
   const sunindextype n = impulse->n;
   for (sunindextype j = 0; u->exponent && j < n; j++) {
     impulse->x_plus[j] = ldexp(impulse->x_plus[j], u->exponent[n + j]);
+    apart[j] = ldexp(apart[j], u->exponent[n + j]);
     for (int i = 0; i < impulse->count; i++)
       impulse->c[i * n + j] = ldexp(impulse->c[i * n + j], u->exponent[n + j]);
   }

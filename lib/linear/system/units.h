@@ -17,7 +17,7 @@ int stf_units_open(steif_context *ctx, stf_pool *pool, SUNMatrix E, SUNMatrix F,
 /* Sources of the equations in these units; x0 of the unknowns. */
 int stf_units_enter(stf_pool *pool, const stf_units *u, const sunrealtype **x0,
                     stf_sources *sources);
-/* x(0+) and c_i back in the units given. */
-void stf_units_leave(const stf_units *u, steif_impulse *impulse);
+/* x(0+), its error and c_i back in the units given. */
+void stf_units_leave(const stf_units *u, steif_impulse *impulse, sunrealtype *apart);
 
 #endif
