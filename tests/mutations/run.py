@@ -1,21 +1,26 @@
 #!/usr/bin/env python3
-"""Does a test notice when the code is wrong? Each row of list.txt is a mutation: the tests to run as a
-regular expression of ctest, a file, a text that occurs in it once, and the wrong text instead, separated by
-tabulators. Every mutation is made alone in a copy of the tree, built and tested; it is killed when it does
-not compile or a test fails, else it has survived.
+"""Does a test notice when the code is wrong? Each row of list.txt is a mutation: the tests to run, separated
+by |, a file, a text that occurs in it once, and the wrong text instead, separated by tabulators. Every mutation
+is made alone in a copy of the tree, built and tested; it is killed when it does not compile, when a test fails,
+or when a test takes more than ten times the processor time that it takes on the right tree. A test that is
+not at its end after an hour of waiting decides nothing; it is said and counted apart.
 
     run.py [--only N,N-N,...] [--jobs N] FOLDER      FOLDER: for the copy and its build, kept for the next run
 
-The exit code is the number of survivors, at most 100. All of them take hours on two cores.
+The exit code is the number of mutations not killed, at most 100. All of them take hours on two cores.
 """
 import argparse
 import os
+import resource
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+TIMES, LEAST, WAIT = 10, 60, 3600  # of the processor time of the right tree; seconds of it, and of patience
 
 
 def rows():
@@ -56,31 +61,88 @@ def renew(source, target):
 
 
 def build(folder, tests, jobs):
-    targets = [f"test_{name}" for name in tests.split("|")]
+    targets = [f"test_{name}" for name in tests]
     return run(["cmake", "--build", "tree/build", "-j", str(jobs), "--target", *targets], folder)
 
 
-def judge(folder, jobs, tests):
+def tested(folder, name, limit):
+    """One test, ended at its first failure: "passed", "failed", "endless" or "late"; and its processor time."""
+
+    def bounded():
+        resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))
+        resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
+
+    test = subprocess.Popen(["stdbuf", "-oL", f"./test_{name}"], cwd=os.path.join(folder, "tree", "build"),
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, preexec_fn=bounded)
+    late = threading.Timer(WAIT, os.kill, (test.pid, signal.SIGKILL))  # Popen.kill would reap it
+    late.start()
+    failed = False
+    for line in test.stdout:
+        failed = failed or b"had failures" in line
+        if failed:
+            os.kill(test.pid, signal.SIGKILL)
+            break
+    test.stdout.close()
+    _, status, used = os.wait4(test.pid, 0)
+    test.returncode = os.waitstatus_to_exitcode(status)
+    out_of_time = not late.is_alive()
+    late.cancel()
+    seconds = used.ru_utime + used.ru_stime
+    if failed:
+        return "failed", seconds
+    if test.returncode == -signal.SIGXCPU or seconds >= limit:
+        return "endless", seconds
+    if out_of_time:
+        return "late", seconds
+    return "failed" if test.returncode else "passed", seconds
+
+
+class Right:
+    """The processor time of each test on the right tree, where it must pass."""
+
+    def __init__(self, folder, jobs):
+        self.folder, self.jobs, self.seconds = folder, jobs, {}
+
+    def measure(self, tests):
+        missing = [name for name in tests if name not in self.seconds]
+        if missing:
+            built = build(self.folder, missing, self.jobs)
+            if built.returncode:
+                sys.exit(built.stdout[-4000:] + "\nthe tree does not build without a mutation")
+        for name in missing:
+            said, self.seconds[name] = tested(self.folder, name, WAIT)
+            if said != "passed":
+                sys.exit(f"{name} does not pass without a mutation: {said}")
+
+
+def judge(folder, jobs, right, tests):
     if build(folder, tests, jobs).returncode:
         return "killed by the compiler"
-    command = ["ctest", "-R", f"^({tests})$", "-j", str(jobs), "--timeout", "300", "--stop-on-failure"]
-    tested = run(command, os.path.join(folder, "tree", "build"))
-    failed = [line.split(" - ")[1].split()[0] for line in tested.stdout.splitlines() if " - " in line]
-    slow = "  (time was up)" if "***Timeout" in tested.stdout else ""
-    return f"killed by {', '.join(failed)}{slow}" if tested.returncode else "SURVIVED"
+    late = []
+    for name in sorted(tests, key=right.seconds.get):
+        said, _ = tested(folder, name, LEAST + int(TIMES * right.seconds[name]))
+        if said == "failed":
+            return f"killed by {name}"
+        if said == "endless":
+            return f"killed by {name}: more than {TIMES} times its processor time"
+        if said == "late":
+            late.append(name)
+    return f"not decided: {', '.join(late)} did not end" if late else "SURVIVED"
 
 
-def mutate(folder, tree, jobs, row):
-    tests, name, right, wrong = row
+def mutate(folder, tree, jobs, right, row):
+    tests, name, correct, wrong = row
+    tests = tests.split("|")
     path = os.path.join(tree, name)
     with open(path, encoding="utf-8") as text:
         whole = text.read()
-    if whole.count(right) != 1:
-        return f"not made: its text occurs {whole.count(right)} times in {name}"
+    if whole.count(correct) != 1:
+        return f"not made: its text occurs {whole.count(correct)} times in {name}"
+    right.measure(tests)
     with open(path, "w", encoding="utf-8") as text:
-        text.write(whole.replace(right, wrong))
+        text.write(whole.replace(correct, wrong))
     try:
-        return judge(folder, jobs, tests)
+        return judge(folder, jobs, right, tests)
     finally:
         with open(path, "w", encoding="utf-8") as text:
             text.write(whole)
@@ -97,17 +159,16 @@ def main():
     tree = copy(given.folder)
     all_rows = rows()
     first = run(["cmake", "-S", tree, "-B", os.path.join(tree, "build")], given.folder)
-    if first.returncode == 0:
-        first = build(given.folder, "|".join({row[0] for row in all_rows}), given.jobs)
     if first.returncode:
-        sys.exit(first.stdout[-4000:] + "\nthe tree does not build without a mutation")
+        sys.exit(first.stdout[-4000:])
+    right = Right(given.folder, given.jobs)
     counts = {"killed": 0, "SURVIVED": 0, "not": 0}
     for k in chosen(given.only, len(all_rows)):
-        said = mutate(given.folder, tree, given.jobs, all_rows[k - 1])
+        said = mutate(given.folder, tree, given.jobs, right, all_rows[k - 1])
         counts[said.split()[0]] += 1
         print(f"{k:3}  {all_rows[k - 1][1]}: {all_rows[k - 1][2][:60]}\n     {said}", flush=True)
     made = counts["killed"] + counts["SURVIVED"]
-    print(f"{counts['killed']} of {made} killed, {counts['SURVIVED']} survived, {counts['not']} not made")
+    print(f"{counts['killed']} of {made} killed, {counts['SURVIVED']} survived, {counts['not']} not made or not decided")
     sys.exit(min(100, counts["SURVIVED"] + counts["not"]))
 
 

@@ -6,7 +6,7 @@ extern CU_TestInfo tests_of_bdf[], tests_of_breaks[], tests_of_cobb[], tests_of_
   tests_of_euler[], tests_of_exact[], tests_of_exact_norms[], tests_of_functions[],
   tests_of_layer[], tests_of_many_digits[], tests_of_mesh[], tests_of_moments[],
   tests_of_norm[], tests_of_pair[], tests_of_restarts[], tests_of_rk[], tests_of_rounding[],
-  tests_of_subject[], tests_of_ut5[], tests_of_weak[];
+  tests_of_subject[], tests_of_ut5[], tests_of_verdict[], tests_of_weak[];
 
 SUITE_MAIN(
   {.pName = "bdf", .pTests = tests_of_bdf}, {.pName = "breaks", .pTests = tests_of_breaks},
@@ -21,4 +21,4 @@ SUITE_MAIN(
   {.pName = "restarts", .pTests = tests_of_restarts}, {.pName = "rk", .pTests = tests_of_rk},
   {.pName = "rounding", .pTests = tests_of_rounding},
   {.pName = "subject", .pTests = tests_of_subject}, {.pName = "ut5", .pTests = tests_of_ut5},
-  {.pName = "weak", .pTests = tests_of_weak})
+  {.pName = "verdict", .pTests = tests_of_verdict}, {.pName = "weak", .pTests = tests_of_weak})
