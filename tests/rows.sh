@@ -58,6 +58,10 @@ for signal in "KILL 137" "TERM 143"; do
   disturbed $1 $2 a.csv compare kepler radau:s=3 radau:s=3 --hs 0.5,0.25,0.125,1e-8 --csv a.csv
   disturbed $1 $2 a.csv impulse switchrlc --method radau:s=7 --h 1e-10 --t1 0.1 --csv a.csv
 done
+# Of a benchmark, which says so after SIGTERM.
+disturbed KILL 137 a.csv bench success --problems vdpol --longest 0.1 --rtols 1e-9 --csv a.csv
+disturbed TERM 143 a.csv bench success --problems vdpol --longest 0.1 --rtols 1e-9 --csv a.csv
+grep -q "STEIF_STOPPED" err || fail "bench does not say that it was interrupted: $(cat err)"
 # Every row of a sweep.
 disturbed KILL 137 a.csv sweep rober be --h 1e-4 --p k1=0.01:0.07:100000 --t1 40 --csv a.csv
 # Of one solution: after the exponents, which take a part of the time.

@@ -22,8 +22,11 @@ int bench_lorenz(struct call *call);
 int bench_scale(struct call *call);
 int bench_sensitivity(struct call *call);
 
-/* The report of a benchmark that has come to the end of its plan, or why it stopped; frees it. */
+/* Benchmarks look at interrupted() between rows and write rows as they come. At the end of the plan: the report,
+ * freed, or why it stopped; after an interruption what there is. */
 int bench_present(struct call *call, steif_report **r);
+/* A sentence where the benchmark was interrupted; the exit code, else `code`. */
+int bench_end(struct call *call, int code);
 
 /* The answer of the first Python that has SciPy to a script with one argument, for pclose;
  * scipy_missing says what to do where there is none. */

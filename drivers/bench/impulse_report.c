@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "benchmarks.h"
 #include "impulse_cost.h"
+#include <signal.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -51,7 +52,9 @@ static int apart(struct call *call, const char *problem, steif_bench_impulse *ro
   close(end[1]);
   const bool got = child > 0 && read(end[0], row, sizeof *row) == (ssize_t)sizeof *row;
   close(end[0]);
+  if (child > 0 && interrupted()) kill(child, SIGKILL);
   if (child > 0) waitpid(child, &status, 0);
+  if (interrupted()) return EXIT_FAILED;
   if (got && WIFEXITED(status)) return WEXITSTATUS(status);
   say(call,
       "%s could not be measured: its process did not end by itself; is memory short? "
@@ -98,10 +101,13 @@ int bench_impulse(struct call *call)
     code = apart(call, problem, &row[i]);
     if (code) break;
     add(r, &row[i]);
+    rows_come(call, r);
     rows++;
   }
-  if (!code) grow(r, row, rows);
-  if (!code) code = present(call, r);
+  if (!code || interrupted()) {
+    grow(r, row, rows);
+    code = present(call, r);
+  }
   steif_report_free(&r);
-  return code;
+  return bench_end(call, code);
 }

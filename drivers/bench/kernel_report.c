@@ -20,12 +20,20 @@ static void add(steif_report *r, const steif_bench_row *row)
   steif_report_real(r, "rows.limit", row->limit);
 }
 
+int bench_end(struct call *call, int code)
+{
+  if (!interrupted()) return code;
+  say(call, "interrupted: what is left of the benchmark is not made [STEIF_STOPPED]");
+  return interruption_exit();
+}
+
 int bench_present(struct call *call, steif_report **r)
 {
   progress(call, NULL);
+  if (interrupted()) steif_forget(call->ctx);
   const int code = *r && !steif_status(call->ctx) ? present(call, *r) : fail(call);
   steif_report_free(r);
-  return code;
+  return bench_end(call, code);
 }
 
 static int against_kernels(struct call *call, const char *name,
@@ -38,9 +46,10 @@ static int against_kernels(struct call *call, const char *name,
   steif_report_text(r, "benchmark", name);
   steif_report_text(r, "sundials", build);
   steif_report_real(r, "sundials_vectors", sums);
-  for (size_t i = 0; r && !measure(call->ctx, i, &row); i++) {
-    progress(call, "%s %s %s", row.kind, row.problem, row.method);
+  for (size_t i = 0; r && !interrupted() && !measure(call->ctx, i, &row); i++) {
     add(r, &row);
+    rows_come(call, r);
+    progress(call, "%s %s %s", row.kind, row.problem, row.method);
   }
   return bench_present(call, &r);
 }

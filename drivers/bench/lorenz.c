@@ -109,6 +109,7 @@ int bench_lorenz(struct call *call)
     steif_report_real(r, "ratios.h", ours.h);
     steif_report_real(r, "ratios.rtol", ours.rtol);
     steif_report_real(r, "ratios.scipy_to_steif", theirs.cpu_s / ours.cpu_s);
+    rows_come(call, r);
   }
   return bench_present(call, &r);
 }

@@ -148,6 +148,7 @@ int bench_phi(struct call *call)
     return code;
   }
   tell(r, &e);
+  rows_come(call, r);
   actions(call, r);
   if (!steif_status(call->ctx)) squares(call, r);
   return bench_present(call, &r);

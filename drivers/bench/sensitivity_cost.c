@@ -218,7 +218,7 @@ static int compare(struct call *call, size_t i, steif_report *r)
   STEIF_TRY(steif_problem_find(call->ctx, plan[i].problem, &w.problem));
   w.options.t1 = plan[i].t1;
   const int code = prepare(&w);
-  for (int m = 0; !code && m < METHODS; m++) {
+  for (int m = 0; !code && m < METHODS && !interrupted(); m++) {
     outcome at = {0};
     progress(call, "%s by %s", plan[i].problem, methods[m]);
     for (int j = 0; j < JOBS && (j || find_tolerance(&w, methods[m], &at)); j++)
@@ -226,6 +226,7 @@ static int compare(struct call *call, size_t i, steif_report *r)
   }
   for (int m = 0; !code && m < METHODS; m++)
     for (int j = 0; j < JOBS; j++) tell(&w, r, m, j);
+  if (!code) rows_come(call, r);
   free(w.reference), free(w.found);
   steif_problem_clear(call->ctx, &w.problem);
   return code;
@@ -239,6 +240,6 @@ int bench_sensitivity(struct call *call)
   sundials_describe(call->ctx, build, sizeof build);
   steif_report_text(r, "sundials", build);
   for (size_t i = 0; r && i < PLANS; i++)
-    if (compare(call, i, r)) break;
+    if (interrupted() || compare(call, i, r)) break;
   return bench_present(call, &r);
 }

@@ -58,17 +58,16 @@ int bench_workprec(struct call *call)
   if (code) return code;
   steif_report *r = steif_report_new(call->ctx);
   work_header(&w, call, r);
-  interruption_poll();
   for (size_t i = 0; i < w.problems.count && !interrupted(); i++) {
     w.runs = 0;
     for (size_t k = 0; k < w.methods.count; k++)
       one_method(call, &w, w.problems.item[i], w.methods.item[k]);
     work_problem(&w, call, r);
+    rows_come(call, r);
   }
   work_summary(&w, r);
   code = r ? present(call, r) : fail(call);
   steif_report_free(&r);
-  if (!interrupted()) return code ? code : work_picture(&w, call);
-  say(call, "interrupted: solves that were left are not made [STEIF_STOPPED]");
-  return interruption_exit();
+  if (!code && !interrupted()) code = work_picture(&w, call);
+  return bench_end(call, code);
 }

@@ -70,12 +70,13 @@ static int campaign(struct call *call, enum planted_kind kind, long seeds, steif
   const long count = kind == PLANTED_DENSE ? DENSE_MORE * seeds : seeds;
   const clock_t from = clock();
   tally t = {0};
-  for (long seed = 1; seed <= count; seed++) {
+  for (long seed = 1; seed <= count && !interrupted(); seed++) {
     if (seed % 100 == 1) progress(call, "%s %ld of %ld", planted_name(kind), seed, count);
     if (judge(call, kind, seed, &t, r)) return fail(call);
   }
   *wrong = *wrong || t.verdict[PLANTED_WRONG] || t.start[PLANTED_WRONG];
   row(r, kind, &t, (double)(clock() - from) / CLOCKS_PER_SEC);
+  if (!interrupted()) rows_come(call, r); /* the last one may be cut */
   return EXIT_OK;
 }
 
@@ -85,7 +86,7 @@ int bench_certificates(struct call *call)
   bool wrong = false;
   steif_report *r = steif_report_new(call->ctx);
   int code = r ? EXIT_OK : fail(call);
-  for (int kind = 0; !code && kind < PLANTED_KINDS; kind++)
+  for (int kind = 0; !code && !interrupted() && kind < PLANTED_KINDS; kind++)
     code = campaign(call, (enum planted_kind)kind, seeds, r, &wrong);
   if (!code) code = bench_present(call, &r);
   steif_report_free(&r);

@@ -75,6 +75,7 @@ static int one(struct call *call, steif_report *r, const char *method, double rt
   add_run(r, &run);
   for (double ranks = 1; ranks < most; ranks *= 8) add_price(r, &run, &machine, ranks);
   add_price(r, &run, &machine, most);
+  rows_come(call, r);
   return real_of(call, "--delay") > 0 ? check(call, r, side, &run) : STEIF_OK;
 }
 
@@ -84,9 +85,9 @@ static int all(struct call *call, steif_report *r)
   double rtol[REALS_MOST];
   const bool told = given(call, "--rtols");
   if (told) reals_of(call, "--rtols", rtol);
-  for (int i = 0; !list && i < USUAL; i++)
+  for (int i = 0; !list && i < USUAL && !interrupted(); i++)
     STEIF_TRY(one(call, r, usual[i].method, told ? rtol[0] : usual[i].rtol));
-  while (list && *list) {
+  while (list && *list && !interrupted()) {
     char name[STEIF_SPEC_WORD];
     const size_t size = strcspn(list, ",");
     snprintf(name, sizeof name, "%.*s", (int)size, list);

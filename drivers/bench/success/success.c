@@ -57,7 +57,7 @@ static int end_when_late(steif_solver *s, sunrealtype t, N_Vector y, void *user)
   watch *w = user;
   (void)s, (void)t, (void)y;
   if (++w->ticks % 64 == 0) w->late = stf_now() > w->end;
-  return w->late;
+  return w->late || interrupted();
 }
 
 static void solve(struct call *call, const steif_problem *p, const char *method,
@@ -103,7 +103,7 @@ static void all_tolerances(const campaign *c, const steif_problem *p,
   const int form = steif_problem_form(c->call->ctx, p);
   if (!form || (strcmp(m->family, "auto") && !(m->forms & (unsigned)form))) return;
   if (c->only && strncmp(p->name, c->only, strlen(c->only))) return;
-  for (size_t k = 0; k < c->rtols && all->count < SUCCESS_RUNS; k++) {
+  for (size_t k = 0; k < c->rtols && all->count < SUCCESS_RUNS && !interrupted(); k++) {
     success_run *run = &all->run[all->count++];
     solve(c->call, p, m->name, c->rtol[k], c->longest, run);
   }
@@ -169,12 +169,13 @@ int bench_success(struct call *call)
   steif_report *r = steif_report_new(call->ctx);
   steif_report_text(r, "benchmark", "success");
   steif_method_info m;
-  for (size_t i = 0; r && method_at(call, &wanted, i, &m); i++) {
+  for (size_t i = 0; r && !interrupted() && method_at(call, &wanted, i, &m); i++) {
     if (!takes_part(&wanted, &m)) continue;
     all.method = m.name;
     all.count = 0;
     one_method(&c, &m, &all);
     success_report(&all, given(call, "--runs"), r);
+    rows_come(call, r);
   }
   return steif_status(call->ctx) == STEIF_UNKNOWN_NAME ? fail(call) : bench_present(call, &r);
 }

@@ -57,7 +57,7 @@ static int run(struct call *call, campaign *p, long seeds, steif_report *r)
 {
   const long first = whole_or(call, "--first", 1);
   const bool runs = given(call, "--runs");
-  for (long k = 0; k < seeds; k++) {
+  for (long k = 0; k < seeds && !interrupted(); k++) {
     const long seed = first + k;
     if (k % 50 == 0) progress(call, "%ld of %ld", k, seeds);
     if (verdict_case_run(call->ctx, seed, &p->known, &p->one)) return fail(call);
