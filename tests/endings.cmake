@@ -53,6 +53,19 @@ foreach(file none.txt bad.txt)
   endforeach()
 endforeach()
 
+file(WRITE ${FOLDER}/bad.steif "no model\n")
+expect(3 order be --problem bad.steif ERR "bad.steif:1")
+expect(3 solve bad.steif be ERR "bad.steif:1")
+
+# What a finished run left is a row, though it kept none.
+expect(0 solve rober radau:s=3 --checkpoint r.ck)
+expect(0 resume r.ck --csv r.csv OUT "ok")
+file(STRINGS ${FOLDER}/r.csv lines)
+list(LENGTH lines count)
+if(NOT count EQUAL 2 OR NOT lines MATCHES "t,y1,y2,y3;100000000000[.0]*,")
+  message(SEND_ERROR "resume --csv of a finished run: ${count} lines")
+endif()
+
 # The bad input of a run has its own code, whatever the family says later.
 expect(2 solve rober radau:s=3 --t1 1e-320 ERR "take another unit of time")
 

@@ -113,16 +113,21 @@ static bool about_table(const struct call *call, const char *message)
   return false;
 }
 
-/* Is a model file, "ball.steif:e=0.5" or "-", what it begins with? Another parameter is a matter of usage:
- * "ball.steif has no parameter". */
+/* Does the message begin with this word, a model file? "ball.steif:e=0.5" or "-". Another parameter is a matter of
+ * usage: "ball.steif has no parameter". */
+static bool names_model(const char *word, const char *message)
+{
+  const char *end = strstr(word, ".steif");
+  const size_t length = end ? (size_t)(end - word) + 6 : *word == '-';
+  return length && !strncmp(message, word, length) && message[length] == ':';
+}
+
 static bool about_model(const struct call *call, const char *message)
 {
-  for (int i = 0; i < call->words; i++) {
-    const char *word = call->word[i], *end = strstr(word, ".steif");
-    const size_t length = end ? (size_t)(end - word) + 6 : *word == '-';
-    if (length && !strncmp(message, word, length) && message[length] == ':') return true;
-  }
-  return false;
+  for (int i = 0; i < call->words; i++)
+    if (names_model(call->word[i], message)) return true;
+  const char *option = given(call, "--problem") ? word_of(call, "--problem") : NULL;
+  return option && names_model(option, message);
 }
 
 int exit_of_run(const struct call *call, int code, const char *message)

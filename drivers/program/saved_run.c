@@ -69,5 +69,8 @@ int saved_run_load(struct call *call, const steif_problem *p, const steif_option
   *s = steif_checkpoint_load(call->ctx, call->continues, p, options);
   tr->saved = true;
   tr->saved_at = now();
+  /* The first row of a run whose steps until here were not kept. */
+  if (*s && !tr->count && !tr->asked && options->observe)
+    options->observe(*s, steif_time(*s), steif_solution(*s), options->observer);
   return *s ? extend(call, *s, real_of(call, "--t1"), before) : fail_file(call);
 }
