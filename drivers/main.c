@@ -1,12 +1,11 @@
 /* main.c: the program steif: one verb per file.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _DEFAULT_SOURCE /* MAP_ANON */
+#include "blas_memory.h"
 #include "parallel.h"
 #include "program.h"
 #include "verbs.h"
 #include <stdio.h>
 #include <string.h>
-#include <sys/mman.h>
 
 static bool is(const char *text, const char *name, const char *option, const char *letter)
 {
@@ -33,14 +32,6 @@ static int run(struct call *call, int argc, char **argv)
   return call->verb->run(call);
 }
 
-/* OpenBLAS waits without end for the memory of its buffers, a few of 32 to 128 MB: is there as much? */
-static bool roomy(void)
-{
-  const size_t enough = (size_t)256 << 20;
-  void *room = mmap(NULL, enough, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANON, -1, 0);
-  return room != MAP_FAILED && !munmap(room, enough);
-}
-
 /* The verb is named by argv[1], or after "help". */
 static int dispatch(struct call *call, int argc, char **argv)
 {
@@ -54,7 +45,7 @@ static int dispatch(struct call *call, int argc, char **argv)
   call->ctx = steif_context_new(NULL);
   if (!call->ctx) return no_memory(call, "a context", "give the process more");
   if (parallel_asked(argc, argv)) return parallel_become(call, argv);
-  if (!roomy()) return no_memory(call, "the buffers of BLAS, 256 MB", "raise 'ulimit -v'");
+  need_blas_memory(call);
   if (name && !call->verb)
     return unknown_name(call, "no verb \"%s\"%s 'steif --help' lists them", name,
                         verb_guess(name, text));

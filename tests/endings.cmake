@@ -95,6 +95,15 @@ if(NOT lines MATCHES "P1_1,P1_2.*K4_4")
   message(SEND_ERROR "hamiltonian --csv")
 endif()
 
+# Too little memory for BLAS is said at once, whatever its threads wait for.
+if(NOT CMAKE_HOST_APPLE AND NOT SANITIZE) # whose shadow memory is larger
+  execute_process(COMMAND sh -c "ulimit -v 200000; OPENBLAS_NUM_THREADS=2 exec \"$0\" list --json" ${PROGRAM}
+                  TIMEOUT 20 RESULT_VARIABLE got OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  if(NOT got EQUAL 1 OR NOT err MATCHES "ulimit -v.*STEIF_NO_MEMORY" OR NOT out MATCHES "\"no memory\"")
+    message(SEND_ERROR "with 200 MB: exit ${got}: ${out} ${err}")
+  endif()
+endif()
+
 # signal(NAME CODE words ...): ended by that signal after two seconds; leaves out and err.
 find_program(SHELL sh)
 function(signal name code)

@@ -44,7 +44,8 @@ house_test(extend -DSOURCE=${PROJECT_SOURCE_DIR} -DFOLDER=${PROJECT_BINARY_DIR}/
            -DCC=${CMAKE_C_COMPILER} ${how})
 
 if(TARGET steif_program)
-  house_test(endings -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/endings)
+  house_test(endings -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/endings
+             -DSANITIZE=${STEIF_SANITIZE})
   house_test(program -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/program)
   house_test(impulses -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/impulses)
   house_test(workprec -DPROGRAM=$<TARGET_FILE:steif_program>)

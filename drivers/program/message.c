@@ -96,8 +96,7 @@ int refuse(const struct call *call, int code, const char *symbol, const char *fo
 
 int no_memory(const struct call *call, const char *what, const char *remedy)
 {
-  say(call, "no memory for %s; %s [STEIF_NO_MEMORY]", what, remedy);
-  return EXIT_FAILED;
+  return refuse(call, STEIF_NO_MEMORY, "STEIF_NO_MEMORY", "no memory for %s; %s", what, remedy);
 }
 
 /* Is a file of a tableau, glm:file=PATH, what the message is about? */
