@@ -6,20 +6,19 @@
 static const struct {
   const char *name;
   int (*run)(struct call *call);
-  bool waits; /* for another program: a signal ends it at once, and the rows until then stay */
-} benchmarks[] = {{"step", bench_step, false},
-                  {"books", bench_cost_accounting, false},
-                  {"workprec", bench_workprec, false},
-                  {"success", bench_success, false},
-                  {"impulse", bench_impulse, false},
-                  {"phi", bench_phi, true},
-                  {"lyapunov", bench_lyapunov, false},
-                  {"model", bench_model, false},
-                  {"lorenz", bench_lorenz, true},
-                  {"certificates", bench_certificates, false},
-                  {"verdicts", bench_verdicts, false},
-                  {"scale", bench_scale, false},
-                  {"sensitivity", bench_sensitivity, false}};
+} benchmarks[] = {{"step", bench_step},
+                  {"books", bench_cost_accounting},
+                  {"workprec", bench_workprec},
+                  {"success", bench_success},
+                  {"impulse", bench_impulse},
+                  {"phi", bench_phi},
+                  {"lyapunov", bench_lyapunov},
+                  {"model", bench_model},
+                  {"lorenz", bench_lorenz},
+                  {"certificates", bench_certificates},
+                  {"verdicts", bench_verdicts},
+                  {"scale", bench_scale},
+                  {"sensitivity", bench_sensitivity}};
 enum { BENCHMARKS = sizeof benchmarks / sizeof *benchmarks };
 
 static const char *name_at(const void *list, size_t i)
@@ -31,11 +30,10 @@ static const char *name_at(const void *list, size_t i)
 static int run(struct call *call)
 {
   const char *name = call->words ? call->word[0] : "step";
-  for (size_t i = 0; i < BENCHMARKS; i++) {
-    if (strcmp(name, benchmarks[i].name)) continue;
-    if (!benchmarks[i].waits) interruption_poll();
-    return benchmarks[i].run(call);
-  }
+  if (strcmp(name, "phi") && strcmp(name, "lorenz"))
+    interruption_poll(); /* these wait for SciPy */
+  for (size_t i = 0; i < BENCHMARKS; i++)
+    if (!strcmp(name, benchmarks[i].name)) return benchmarks[i].run(call);
   char text[GUESS];
   return unknown_name(call, "no benchmark '%s'%s 'steif bench --help' lists them", name,
                       guess(name, name_at, NULL, text));
@@ -52,8 +50,7 @@ static const struct option options[] = {
    "a solve ends after S processor seconds (default: 2; phi: 10; --quick: 0.1)", NULL},
   {"--runs", FLAG, NULL,
    "workprec, success: every run as well, not the best, or the worst, alone; verdicts: those "
-   "left "
-   "open, too",
+   "left open, too",
    NULL},
   {"--quick", FLAG, NULL,
    "success, certificates, verdicts: a part of the campaign, in a minute", NULL},

@@ -127,7 +127,7 @@ typedef struct steif_event {
 } steif_event;
 
 struct steif_problem {
-  const char *name, *about; /* about: one sentence and a citation */
+  const char *name, *about; /* NULL: a run calls it "unnamed"; one sentence and a citation */
   sunindextype n;
   const steif_names *names; /* of its components and equations; NULL: none */
   sunrealtype t0, t1;       /* default interval of integration, t1 > t0 */

@@ -247,7 +247,11 @@ int steif_fit_find(steif_context *ctx, steif_problem *problem, const char *metho
                    steif_fit *fit)
 {
   const steif_fit_options none = {0};
+  STEIF_CHECK(fit, ctx, STEIF_BAD_INPUT, "no place for the fit: it is NULL");
   *fit = (steif_fit){0};
+  if (!ctx) return STEIF_BAD_INPUT;
+  STEIF_CHECK(problem && method && data, ctx, STEIF_BAD_INPUT,
+              "a problem, a method and measurements are needed, got NULL");
   stf_descent d = {.ctx = ctx, .problem = problem, .method = method, .data = data};
   if (!(d.pool = stf_pool_new(ctx))) return STEIF_NO_MEMORY;
   int code = find(&d, options ? options : &none, fit);

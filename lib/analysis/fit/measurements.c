@@ -295,7 +295,11 @@ int steif_measurements_read(steif_context *ctx, const steif_problem *problem, co
                             steif_measurements *data)
 {
   stf_plain plain;
+  STEIF_CHECK(data, ctx, STEIF_BAD_INPUT, "no place for the measurements: it is NULL");
   *data = (steif_measurements){0};
+  if (!ctx) return STEIF_BAD_INPUT;
+  STEIF_CHECK(problem && path, ctx, STEIF_BAD_INPUT,
+              "a problem and the path of a file are needed, got NULL");
   char *text = stf_input_text(ctx, path);
   if (!text) return steif_status(ctx);
   table *T = stf_allocate(ctx, 1, sizeof *T);

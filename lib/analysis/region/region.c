@@ -152,6 +152,8 @@ static int find(stf_scan *scan, steif_region *region)
 int steif_region_find(steif_context *ctx, const char *method, steif_region *region)
 {
   stf_scan scan;
+  STEIF_CHECK(method && region, ctx, STEIF_BAD_INPUT,
+              "a method and a place for its region are needed, got NULL");
   *region = (steif_region){0};
   STEIF_TRY(stf_scan_open(&scan, ctx, method));
   const int code = find(&scan, region);

@@ -7,7 +7,7 @@
 
 void *steif_allocate(steif_context *ctx, size_t count, size_t size)
 {
-  return stf_allocate(ctx, count, size);
+  return ctx ? stf_allocate(ctx, count, size) : NULL;
 }
 
 void steif_release(steif_context *ctx, void *block)

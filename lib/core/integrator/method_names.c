@@ -255,6 +255,7 @@ int steif_method_find(steif_context *ctx, const char *text, steif_method_info *i
 
 int steif_method_at(steif_context *ctx, size_t i, steif_method_info *info)
 {
+  STEIF_CHECK(info, ctx, STEIF_BAD_INPUT, "no place for the method: it is NULL");
   char text[STEIF_SPEC_WORD];
   return spec_at(i, text, sizeof text) ? steif_method_find(ctx, text, info) : STEIF_BAD_INPUT;
 }

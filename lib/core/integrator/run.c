@@ -291,6 +291,7 @@ int steif_dense(steif_solver *s, sunrealtype t, N_Vector y)
 int steif_stages(steif_solver *s, int *count, const sunrealtype **c, const sunrealtype **b,
                  N_Vector **X)
 {
+  if (!count || !c || !b || !X) return STEIF_BAD_INPUT;
   *count = 0;
   if (!s || s->engine || !s->step.method->stages || s->step.count == 0) return STEIF_OK;
   return s->step.method->stages(&s->step, count, c, b, X);

@@ -334,6 +334,10 @@ static int take_given(steif_solver *s, const steif_problem *problem, size_t prob
                       const steif_options *options, size_t options_bytes)
 {
   STEIF_TRY(stf_whole_problem(s->ctx, problem, problem_bytes, &s->whole, &s->problem));
+  if (s->problem && !s->problem->name) {
+    s->whole = *s->problem, s->problem = &s->whole;
+    s->whole.name = "unnamed"; /* in messages */
+  }
   s->given = s->problem;
   s->options = steif_defaults();
   if (options)

@@ -178,6 +178,7 @@ static sunrealtype turn(const stf_program *program, int k, sunrealtype t0, sunre
 
 int steif_function_smooth(steif_function *f, sunrealtype t0, sunrealtype t1, sunrealtype *where)
 {
+  if (!f || !where) return false;
   *where = NAN;
   for (sunindextype i = 0; f->program && i < f->inputs; i++)
     for (int k = 0; k < f->program[i].length; k++) {
@@ -333,10 +334,11 @@ static void multiply(const steif_function *f, const sunrealtype *u, sunrealtype 
 
 int steif_function_inputs(sunrealtype t, steif_function *f, sunrealtype *u)
 {
+  if (!f || !u) return STEIF_BAD_INPUT;
   return f->samples.points ? stf_samples_value(f, t, 0, u) : expressions(f, t, 0, u);
 }
 
-size_t steif_function_count(const steif_function *f) { return (size_t)f->inputs; }
+size_t steif_function_count(const steif_function *f) { return f ? (size_t)f->inputs : 0; }
 
 int steif_function_value(sunrealtype t, int derivative, N_Vector g, void *function)
 {

@@ -99,6 +99,7 @@ static void add(SUNMatrix M, const sunrealtype *x, sunrealtype *y)
 void steif_output_value(SUNMatrix C, SUNMatrix D, const sunrealtype *x, const sunrealtype *u,
                         sunrealtype *y)
 {
+  if (!C || !x || !y) return;
   memset(y, 0, (size_t)stf_input_rows(C) * sizeof *y);
   add(C, x, y);
   if (u) add(D, u, y);

@@ -97,6 +97,7 @@ int stf_samples_value(steif_function *f, sunrealtype t, int derivative, sunrealt
 int steif_function_accuracy(const steif_function *f, sunrealtype t, int derivative,
                             sunrealtype *accuracy)
 {
+  if (!f || !accuracy) return STEIF_BAD_INPUT;
   const stf_samples *s = &f->samples;
   *accuracy = 0;
   if (!s->points) return STEIF_OK;

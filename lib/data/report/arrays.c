@@ -50,5 +50,5 @@ static const char *find(json_t *object, size_t *i, size_t *rows, size_t *columns
 const char *steif_report_array_at(const steif_report *r, size_t i, size_t *rows,
                                   size_t *columns, sunrealtype *value)
 {
-  return find(r->root, &i, rows, columns, value);
+  return r && rows && columns ? find(r->root, &i, rows, columns, value) : NULL;
 }

@@ -62,6 +62,7 @@ int steif_plot_components(steif_context *ctx, const char *title, size_t count, s
   struct component c[CURVES];
   steif_curve curve[CURVES];
   steif_plot panel[CURVES];
+  if (!ctx) return STEIF_BAD_INPUT;
   double *x = stf_allocate(ctx, count * curves + 1, sizeof *x);
   if (!x) return STEIF_NO_MEMORY;
   for (size_t k = 0; k < curves; k++) {

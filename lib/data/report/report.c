@@ -8,6 +8,7 @@ enum { NAME = 128 };
 
 steif_report *steif_report_new(steif_context *ctx)
 {
+  if (!ctx) return NULL;
   steif_report *r = stf_allocate(ctx, 1, sizeof *r);
   if (!r) return NULL;
   r->ctx = ctx;

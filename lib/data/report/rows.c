@@ -43,6 +43,7 @@ static int open(steif_rows *r, const char *path, const char *const *name)
 steif_rows *steif_rows_new(steif_context *ctx, const char *path, size_t columns,
                            const char *const *name)
 {
+  if (!ctx) return NULL;
   steif_rows *r = stf_allocate(ctx, 1, sizeof *r);
   if (!r) return NULL;
   r->ctx = ctx, r->columns = columns;

@@ -165,6 +165,7 @@ int steif_c2d(steif_context *ctx, const steif_state_space *s, const char *scheme
 {
   steif_spec spec;
   stf_plan p = {.ctx = ctx, .s = s, .spec = &spec, .dt = dt};
+  STEIF_CHECK(d, ctx, STEIF_BAD_INPUT, "no place for the discretisation: it is NULL");
   *d = (steif_discrete){.dt = dt};
   STEIF_TRY(stf_state_space_check(ctx, s));
   STEIF_CHECK(isfinite(dt) && dt > 0, ctx, STEIF_BAD_INPUT,

@@ -7,6 +7,8 @@
 static int settle(steif_context *ctx, const steif_problem *problem, sunrealtype t,
                   sunrealtype rtol, bool stages, N_Vector y, N_Vector yp)
 {
+  STEIF_CHECK(problem && y && yp, ctx, STEIF_BAD_INPUT,
+              "a problem, y and y' are needed, got NULL");
   sunrealtype *to = N_VGetArrayPointer(y), *slope = N_VGetArrayPointer(yp);
   STEIF_CHECK(to && slope, ctx, STEIF_UNSUPPORTED,
               "a jump at t = %.12g needs vectors with a host array", t);

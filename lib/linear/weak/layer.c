@@ -132,6 +132,7 @@ int steif_layer_measure(steif_context *ctx, const char *method, const char *prob
                         sunrealtype *x, sunrealtype *exact, sunrealtype *error,
                         steif_layer_result *result)
 {
+  STEIF_CHECK(result, ctx, STEIF_BAD_INPUT, "no place for the result: it is NULL");
   *result = (steif_layer_result){0};
   layer l = {.ctx = ctx, .method = method, .start = start, .h = h, .steps = steps};
   STEIF_TRY(check(&l));
@@ -146,6 +147,7 @@ int steif_layer_linear(steif_context *ctx, const char *method, const steif_linea
                        sunrealtype *t, sunrealtype *x, sunrealtype *exact, sunrealtype *error,
                        steif_layer_result *result)
 {
+  STEIF_CHECK(result, ctx, STEIF_BAD_INPUT, "no place for the result: it is NULL");
   *result = (steif_layer_result){0};
   layer l = {.ctx = ctx, .method = method, .start = start, .h = h, .steps = steps};
   STEIF_TRY(check(&l));

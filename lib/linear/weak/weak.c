@@ -209,6 +209,8 @@ int stf_weak_rows(steif_context *ctx, const steif_weak_query *query, steif_weak_
 int steif_weak_measure(steif_context *ctx, const steif_weak_query *query, steif_weak_row *row,
                        steif_weak_result *result)
 {
+  STEIF_CHECK(query && row && result, ctx, STEIF_BAD_INPUT,
+              "a query and places for rows and result are needed, got NULL");
   return measure(ctx, query, row, true, result);
 }
 
@@ -217,6 +219,8 @@ int steif_weak_measure(steif_context *ctx, const steif_weak_query *query, steif_
 int steif_convention_usual(steif_context *ctx, const char *method, const char *start,
                            enum steif_convention *convention)
 {
+  STEIF_CHECK(method && convention, ctx, STEIF_BAD_INPUT,
+              "a method and a place for its convention are needed, got NULL");
   steif_method_info m = {.family = "cobb",
                          .stages = 1}; /* no method, but a limit beside them */
   if (strcmp(method, "cobb")) STEIF_TRY(steif_method_find(ctx, method, &m));

@@ -22,6 +22,7 @@ int stf_drift_open(steif_solver *s)
 
 int steif_drift_now(steif_solver *s, int *count, sunrealtype *drift)
 {
+  if (!count) return STEIF_BAD_INPUT;
   const int room = *count;
   *count = s && s->invariants ? s->problem->invariants : 0;
   if (!*count) return STEIF_OK;

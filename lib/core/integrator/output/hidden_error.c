@@ -88,6 +88,7 @@ static bool served(const steif_solver *s)
 
 int steif_hidden_error(steif_solver *s, sunrealtype *error)
 {
+  if (!error) return STEIF_BAD_INPUT;
   *error = NAN;
   if (!s || s->engine || s->failed || !s->step.adaptive || s->step.count == 0 ||
       !stf_array(s->shown) || !served(s))

@@ -102,6 +102,7 @@ static int keep_row(steif_record *r, const steif_solver *s, sunrealtype t, N_Vec
 int steif_record_step(steif_solver *s, sunrealtype t, N_Vector y, void *record)
 {
   steif_record *r = record;
+  if (!s || !y || !r) return STEIF_BAD_INPUT;
   if (!r->degree) return keep_row(r, s, t, y);
   if (!r->work) STEIF_TRY(begin(r, s, y));
   const sunrealtype from = r->t[r->count];
@@ -156,6 +157,7 @@ static void weigh(const steif_record *r, sunrealtype x, sunrealtype *value, sunr
 
 int steif_record_at(const steif_record *r, sunrealtype t, sunrealtype *y, sunrealtype *yp)
 {
+  if (!r || !y) return STEIF_BAD_INPUT;
   STEIF_CHECK(r->degree, r->ctx, STEIF_BAD_INPUT,
               "a record of steps alone has no values between them: take degree 0, or 1 .. %d",
               DEGREE);
@@ -180,8 +182,8 @@ int steif_record_at(const steif_record *r, sunrealtype t, sunrealtype *y, sunrea
 
 size_t steif_record_steps(const steif_record *r, const sunrealtype **t)
 {
-  *t = r->t;
-  return r->count;
+  if (t) *t = r ? r->t : NULL;
+  return r ? r->count : 0;
 }
 
 const sunrealtype *steif_record_values(const steif_record *r)

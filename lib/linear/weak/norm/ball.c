@@ -347,6 +347,8 @@ static int open(ball *b, int m)
 int steif_weak_measure_ball(steif_context *ctx, const steif_weak_query *query, int m,
                             steif_ball_row *row, steif_weak_ball *result)
 {
+  STEIF_CHECK(query && row && result, ctx, STEIF_BAD_INPUT,
+              "a query and places for rows and result are needed, got NULL");
   ball b = {.result = result};
   *result = (steif_weak_ball){.converges = -1};
   STEIF_TRY(stf_measure_check(ctx, query));
