@@ -83,6 +83,7 @@ static int steep(long double t, int order, long double *c, void *user)
 #define NONE 1e-13L /* of the largest value: what the quadrature leaves of errors that are 0 */
 #define SEEN 1e-10L /* likewise: an error that is not */
 #define SAME 0.15   /* orders on both sides of a row that are one */
+#define WHOLE 0.1 /* which is a whole number in the end: further from one it is not seen yet */
 
 /* The order that errors at h, h / 2 and h / 4 show; infinite: they are 0; NAN: not known. */
 static double order_of(const long double error[3], long double size)
@@ -91,7 +92,8 @@ static double order_of(const long double error[3], long double size)
   if (error[2] <= SEEN * size) return NAN;
   const double before = (double)log2l(error[0] / error[1]),
                after = (double)log2l(error[1] / error[2]);
-  return fabs(before - after) <= SAME ? after : (double)NAN;
+  const bool same = fabs(before - after) <= SAME, seen = fabs(after - round(after)) <= WHOLE;
+  return same && seen ? after : (double)NAN;
 }
 
 /* Largest error of the components at 1/h = steps. */

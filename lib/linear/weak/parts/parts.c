@@ -64,6 +64,24 @@ static void oppose(const parts *all, steif_weak_result *r)
            what);
 }
 
+/* A part that may be there or be rounding, and would not converge: rows in which it is not seen yet do not tell. */
+static void withhold(const parts *all, steif_weak_result *r)
+{
+  char what[64];
+  const sunrealtype seen = r->order;
+  name(all, &all->open, what, sizeof what);
+  r->converges = -1, r->order = NAN;
+  if (isfinite(seen))
+    snprintf(r->verdict, sizeof r->verdict,
+             "undecided: order %.2f with these steps; that of %s is not known, and may be 0",
+             seen, what);
+  else
+    snprintf(
+      r->verdict, sizeof r->verdict,
+      "undecided: below rounding with these steps; the order of %s is not known, and may be 0",
+      what);
+}
+
 /* All parts converge that are known, and so do rows. */
 static void lower(const parts *all, bool whole, steif_weak_result *r)
 {
@@ -72,6 +90,10 @@ static void lower(const parts *all, bool whole, steif_weak_result *r)
   const size_t room = sizeof r->verdict;
   const sunrealtype seen = r->order, order = all->lowest.order;
   const bool other = order < seen - APART || (whole && order > seen + APART && isfinite(order));
+  if (whole && !all->known) {
+    withhold(all, r);
+    return;
+  }
   if (!isfinite(seen)) return;
   if (whole && !ordered(all)) {
     r->order = NAN;
