@@ -159,7 +159,7 @@ int method_order_on_impulse(steif_context *ctx, int method, int q, method_orders
 int method_order_without(steif_context *ctx, int method, const planted_system *of,
                          int component, double *order)
 {
-  enum { STEPS = 128 };
+  enum { STEPS = 512 };
   planted_system *s = malloc(sizeof *s);
   if (!s) return STEIF_FAIL(ctx, STEIF_NO_MEMORY, "no memory for a system");
   *s = *of;
