@@ -568,7 +568,7 @@ expect(0 weak bdf:p=2 ut5 --start cq --convention C --h 0.0625 --halvings 3 --js
 member(3 index)
 about(39576696923424 exact 0)
 about(40548735705979 exact 1)
-about(15612155130 exact 4)
+about(1561215513 exact 4)
 about(286447 rows 0 error)
 about(799387 rows 1 error)
 about(211132 rows 2 error)

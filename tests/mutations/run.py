@@ -134,6 +134,8 @@ def mutate(folder, tree, jobs, right, row):
     tests, name, correct, wrong = row
     tests = tests.split("|")
     path = os.path.join(tree, name)
+    if not os.path.isfile(path):
+        return f"not made: there is no {name}"
     with open(path, encoding="utf-8") as text:
         whole = text.read()
     if whole.count(correct) != 1:
