@@ -170,9 +170,9 @@ STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);
 
 /* Components of index 2 and 3 (velocities, multipliers) are controlled through h^(index - 1) only: *error is
  * the largest error of theirs in the solution shown, in tolerances rtol |y_i| + atol_i: its distance from a second
- * run from the start, by auto for a hundredth of the tolerance (1e-13 at least), recomputed (below). It costs what
- * that run costs, mostly less than the first, and calls what the problem calls; what the problem remembers is put
- * back by its begin and restore.
+ * run from the start, by auto for a hundredth of the tolerance (1e-13 at least), recomputed (below); that run has errors of
+ * its own there, so below one tolerance it tells little. It costs what that run costs, mostly less than the first, and
+ * calls what the problem calls; what the problem remembers is put back by its begin and restore.
  * NaN: not known, or there are no such components. With at most STEIF_DIAGNOSE_LARGEST unknowns, adaptive
  * steps of steif's own methods, serial vectors, without options.ewt, rtol above 5e-13; not where events are handled or
  * begin is set and the problem has no save, nor where the second run would take more than four times the steps. */
