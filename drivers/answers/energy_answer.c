@@ -29,7 +29,7 @@ static void map_of_step(const struct call *call, steif_report *r, const steif_pr
   if (p->positions == 0 || !(h > 0) || p->n > MAP_LARGEST) return;
   if (steif_step_map_find(call->ctx, p, call->word[1], h, NULL, NULL, &map) == STEIF_OK) {
     report_members(r, "step.", members, &map);
-    if (p->linear && map.turned > 1)
+    if (p->linear && map.border)
       steif_report_text(
         r, "step.border",
         "two multipliers of a step meet at -1: h is at the border of stability, "

@@ -58,10 +58,12 @@ typedef struct steif_step_map {
   sunrealtype reversal; /* largest component of R Phi R Phi(y) - y with R (q, p) = (q, -p), for
                               systems that R reverses; NaN without positions */
   sunrealtype
-    radius;   /* largest |multiplier|, eigenvalue of J: where the problem is linear and this is
+    radius; /* largest |multiplier|, eigenvalue of J: where the problem is linear and this is
                          above 1, the numbers grow */
-  int turned; /* multipliers at -1 to 1e-6: where two meet a linear problem is at the border of
-                         stability (verlet: h times the frequency is 2), and most starts grow like t */
+  int
+    border; /* 1: multipliers meet at -1, to 1e-6, with fewer vectors than there are of them: a linear problem is at
+                 the border of stability (verlet: h times the frequency is 2), most starts grow like t. Where they
+                 meet with as many (gauss:s=2: h times the frequency is 12^(1/2)) nothing grows */
 } steif_step_map;
 
 /* One step of length h from the start of the problem, and its Jacobian by differences of

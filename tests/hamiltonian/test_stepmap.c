@@ -49,6 +49,35 @@ static void factors_stand_in_the_order_of_the_flows(void)
   steif_context_free(&ctx);
 }
 
+/* Two multipliers at -1. Verlet's at h = 2 share a vector: (2n)^2 + 1 times the energy after n steps from the other
+ * start (verdicts on energies see one start). Those of gauss:s=2 at h = 12^(1/2), where R(i h) = -1, do not, and
+ * no start grows. Beyond 2 verlet's radius is (h^2 - 2 + h (h^2 - 4)^(1/2)) / 2. */
+static void borders_of_stability(void)
+{
+  static const struct {
+    const char *method;
+    double h;
+    int border;
+    double radius;
+  } rows[] = {{"verlet", 2, 1, 1},
+              {"verlet:first=drift", 2, 1, 1},
+              {"verlet", 1.9, 0, 1},
+              {"verlet", 2.1, 0, 1.87732804493},
+              {"gauss:s=2", 3.4641016151377544, 0, 1},
+              {"gauss:s=1", 2, 0, 1}};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(steif_problem_find(ctx, "harmonic", &p) == STEIF_OK);
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    double J[4];
+    const steif_step_map m = map_of(&p, rows[i].method, rows[i].h, NULL, J);
+    CHECK(m.border == rows[i].border);
+    CLOSE(m.radius, rows[i].radius, 1e-7); /* of a double root: the root of rounding */
+  }
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
 /* -- linear systems q' = m p, p' = -S q ---------------------------------------------------------- */
 
 typedef struct pair {
@@ -241,6 +270,7 @@ static void bad_questions_are_rejected(void)
 }
 
 CU_TestInfo tests_of_stepmap[] = {
+  {"borders of stability", borders_of_stability},
   {"factors stand in the order of the flows", factors_stand_in_the_order_of_the_flows},
   {"determinant one is not symplectic", determinant_one_is_not_symplectic},
   {"circulatory forces blow up", circulatory_forces_blow_up},

@@ -27,8 +27,8 @@
 #define STF_STEP_MAP_DIFFERENCE 2e-4
 /* Newton's iteration in units of the tolerance: the Jacobian of a step is a difference of steps. */
 #define STF_STEP_MAP_NEWTON 1e-6
-/* Multipliers within this of -1 are there: a double one is known to the root of rounding. Room for dgeev, in
- * unknowns: re, im and its own 8. */
+/* Multipliers within this of -1 are there: a double one is known to the root of rounding, 1e-8. Room for dgeev and
+ * dgesvd, in unknowns: 8 and those of their results. */
 #define STF_STEP_MAP_TURNED 1e-6
 #define STF_STEP_MAP_WORK 8
 

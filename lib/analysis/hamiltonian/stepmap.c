@@ -111,21 +111,52 @@ static int reversal(map *m, const sunrealtype *start, sunrealtype *y, sunrealtyp
   return STEIF_OK;
 }
 
-/* The eigenvalues of J, which is lost. A pair at -1 is known to the root of rounding. */
-static int multipliers(steif_context *ctx, sunindextype size, sunrealtype *J, sunrealtype *work,
-                       steif_step_map *out)
+/* Vectors that J turns round, J v = -v: singular values of J + I, which is lost, that are 0. */
+static int turned_vectors(steif_context *ctx, int n, sunrealtype *J, sunrealtype *work,
+                          int *count)
 {
-  const int n = (int)size, one = 1, length = STF_STEP_MAP_WORK * n;
+  const int one = 1, length = STF_STEP_MAP_WORK * n;
+  sunrealtype none;
+  int info;
+  for (int i = 0; i < n; i++) J[i * (n + 1)] += 1;
+  dgesvd_("N", "N", &n, &n, J, &n, work, &none, &one, &none, &one, work + n, &length, &info, 1,
+          1);
+  STEIF_CHECK(info == 0, ctx, STEIF_NO_CONVERGENCE,
+              "the singular values of a step were not found (dgesvd: %d)", info);
+  *count = 0;
+  for (int i = 0; i < n; i++) *count += work[i] <= STF_STEP_MAP_TURNED * fmax(1, work[0]);
+  return STEIF_OK;
+}
+
+/* The eigenvalues of J, which is lost; how many are at -1. */
+static int multipliers(steif_context *ctx, int n, sunrealtype *J, sunrealtype *work,
+                       sunrealtype *radius, int *turned)
+{
+  const int one = 1, length = STF_STEP_MAP_WORK * n;
   sunrealtype *re = work, *im = re + n, none;
   int info;
-  out->radius = 0, out->turned = 0;
+  *radius = 0, *turned = 0;
   dgeev_("N", "N", &n, J, &n, re, im, &none, &one, &none, &one, im + n, &length, &info, 1, 1);
   STEIF_CHECK(info == 0, ctx, STEIF_NO_CONVERGENCE,
               "the multipliers of a step were not found (dgeev: %d)", info);
   for (int i = 0; i < n; i++) {
-    out->radius = fmax(out->radius, hypot(re[i], im[i]));
-    out->turned += hypot(re[i] + 1, im[i]) <= STF_STEP_MAP_TURNED;
+    *radius = fmax(*radius, hypot(re[i], im[i]));
+    *turned += hypot(re[i] + 1, im[i]) <= STF_STEP_MAP_TURNED;
   }
+  return STEIF_OK;
+}
+
+/* W: n x n. More multipliers at -1 than vectors of theirs: others grow like the number of steps. */
+static int look_at_border(const map *m, const sunrealtype *J, sunrealtype *W, sunrealtype *work,
+                          steif_step_map *out)
+{
+  const size_t bytes = (size_t)(m->n * m->n) * sizeof *J;
+  int turned, vectors = 0;
+  memcpy(W, J, bytes);
+  STEIF_TRY(multipliers(m->ctx, (int)m->n, W, work, &out->radius, &turned));
+  memcpy(W, J, bytes);
+  if (turned > 1) STEIF_TRY(turned_vectors(m->ctx, (int)m->n, W, work, &vectors));
+  out->border = turned > 1 && turned > vectors;
   return STEIF_OK;
 }
 
@@ -140,8 +171,7 @@ static int find(map *m, const sunrealtype *Omega, sunrealtype *J, sunrealtype *w
   out->determinant = determinant(n, W);
   out->symplectic = out->reversal = NAN;
   if (Omega || 2 * m->problem.positions == n) out->symplectic = defect(n, Omega, J, W);
-  memcpy(W, J, square * sizeof *W);
-  STEIF_TRY(multipliers(m->ctx, n, W, start, out));
+  STEIF_TRY(look_at_border(m, J, W, start, out));
   if (m->problem.positions == 0) return STEIF_OK;
   memcpy(start, m->at, (size_t)n * sizeof *start);
   return reversal(m, start, y, &out->reversal);
