@@ -64,8 +64,9 @@ typedef struct steif_weak_result {
    * rows do not show it; where all parts converge, these decide what the rows leave open, and the lowest
    * order is that of the whole. Where it is not known, `order` is NAN. */
   char verdict[256];
-  int converges;        /* 1, 0, or -1: undecided */
-  sunrealtype order;    /* where it converges and shows one, else NAN */
+  int converges; /* 1, 0, or -1: undecided */
+  sunrealtype
+    order; /* where it converges and shows one for this g (for all: a ball), else NAN */
   sunrealtype accuracy; /* of exact, as far as seen; 0: closed formulas */
   char source[160];     /* how exact was found */
   int index;            /* of the system */

@@ -1,5 +1,6 @@
 /* test_verdict.c: what rows with known errors entitle to say.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "parts.h"
 #include "suite.h"
 #include "weak_inside.h"
 #include <string.h>
@@ -97,7 +98,35 @@ static void orders_that_differ_are_none(void)
   CLOSE(r.order, 1, 1e-12);
 }
 
-CU_TestInfo tests_of_verdict[] = {{"a high rounding level is no zero", a_high_level_is_no_zero},
-                                  {"two zeros decide nothing", two_zeros_decide_nothing},
-                                  {"orders that differ are none", orders_that_differ_are_none},
-                                  CU_TEST_INFO_NULL};
+/* Rows of order 1 beside impulses that would not converge if they are there: undecided where they may be rounding, no
+ * convergence where they are there; beside parts that are all known rows decide. */
+static void a_part_in_doubt_decides_nothing(void)
+{
+  const part known = {.q = STF_SMOOTH, .converges = 1, .order = 1, .least = 1};
+  part other = {.q = 2, .converges = 0, .doubtful = true, .order = NAN, .size = 4.5e-8};
+  for (int k = 0; k < 3; k++) {
+    parts all = {.known = true,
+                 .least = INFINITY,
+                 .lowest = {.order = INFINITY},
+                 .bad = {.converges = 1},
+                 .most = 1};
+    steif_weak_result r = {
+      .converges = 1, .order = 1, .verdict = "converges weakly, order 1.00"};
+    other.doubtful = k == 0;
+    stf_parts_note(&all, &known);
+    if (k < 2) stf_parts_note(&all, &other);
+    stf_parts_conclude(&all, true, &r);
+    CHECK(r.converges == (k == 0 ? -1 : k - 1));
+    CHECK(begins(&r, k == 0
+                       ? "undecided: order 1.00 with these steps; that of impulses of order 2"
+                     : k == 1 ? "does not converge weakly: impulses of order 2"
+                              : "converges weakly, order 1.00"));
+  }
+}
+
+CU_TestInfo tests_of_verdict[] = {
+  {"a high rounding level is no zero", a_high_level_is_no_zero},
+  {"two zeros decide nothing", two_zeros_decide_nothing},
+  {"orders that differ are none", orders_that_differ_are_none},
+  {"a part in doubt decides nothing", a_part_in_doubt_decides_nothing},
+  CU_TEST_INFO_NULL};

@@ -98,13 +98,6 @@ static int draw(residue *w, sunrealtype R, answer *out)
   return STEIF_OK;
 }
 
-static sunrealtype length(sunindextype n, const sunrealtype *x)
-{
-  sunrealtype square = 0;
-  for (sunindextype i = 0; i < n; i++) square += x[i] * x[i];
-  return sqrt(square);
-}
-
 static sunrealtype distance(sunindextype n, const sunrealtype *a, const sunrealtype *b)
 {
   sunrealtype square = 0;
@@ -119,7 +112,7 @@ static sunrealtype difference(const residue *w, const answer *a, const answer *b
   const sunrealtype off = distance(n, a->x, b->x);
   if (off == 0) return 0;
   const sunrealtype by =
-    stf_sources_measure(&w->sources, length(n, a->x), w->norm[0], w->norm[1]);
+    stf_sources_measure(&w->sources, stf_sources_length(n, a->x), w->norm[0], w->norm[1]);
   return by > 0 ? off / by : INFINITY;
 }
 
@@ -129,10 +122,10 @@ static sunrealtype impulses_apart(const residue *w, const answer *a, const answe
 {
   const sunindextype n = w->impulse->n;
   const sunrealtype E = w->norm[0], F = w->norm[1];
-  sunrealtype most = 0, before = length(n, a->x);
-  if (E > 0) before += length(n, w->sources.Ex0) / E;
+  sunrealtype most = 0, before = stf_sources_length(n, a->x);
+  if (E > 0) before += stf_sources_length(n, w->sources.Ex0) / E;
   for (int k = 1; k <= w->impulse->count; k++) {
-    const sunrealtype size = length(n, a->x + k * n),
+    const sunrealtype size = stf_sources_length(n, a->x + k * n),
                       off = distance(n, a->x + k * n, b->x + k * n);
     const sunrealtype could = before * E / F;
     if (off > 0) most = fmax(most, off / fmax(size, STF_IMPULSE_PART * could));
@@ -153,14 +146,6 @@ static void swap(answer *a, answer *b)
   const answer keep = *a;
   *a = *b;
   *b = keep;
-}
-
-static sunrealtype frobenius(SUNMatrix M)
-{
-  sunrealtype square = 0;
-  for (sunindextype k = 0; k < SM_INDEXPTRS_S(M)[SM_COLUMNS_S(M)]; k++)
-    square += SM_DATA_S(M)[k] * SM_DATA_S(M)[k];
-  return sqrt(square);
 }
 
 /* The circles of the structure serve again if they are of these matrices. */
@@ -189,8 +174,8 @@ static int open_start(stf_descriptor *d, residue *w)
   STEIF_TRY(stf_units_enter(d->pool, &w->units, &w->x0, &w->sources));
   STEIF_TRY(stf_impulse_allocate(d->ctx, w->sources.n, index, w->impulse));
   w->impulse->method = "contour";
-  w->norm[0] = frobenius(w->units.E);
-  w->norm[1] = frobenius(w->units.F);
+  w->norm[0] = stf_sources_frobenius(w->units.E);
+  w->norm[1] = stf_sources_frobenius(w->units.F);
   w->R = stf_radius(w->units.E, w->units.F, &d->options, s);
   if (!(d->options.radius > 0) && w->norm[0] > 0)
     w->R = fmax(w->R, STF_LEAST_RADIUS * w->norm[1] / w->norm[0]);

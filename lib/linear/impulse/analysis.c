@@ -9,6 +9,7 @@
 #include "pencil.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
+#include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
@@ -24,14 +25,6 @@ typedef struct forcing {
 static int collect_sources(stf_descriptor *d, forcing *f);
 static int no_start(stf_descriptor *d);
 
-/* Frobenius norm. */
-static sunrealtype norm(SUNMatrix M)
-{
-  const bool dense = SUNMatGetID(M) == SUNMATRIX_DENSE;
-  const sunindextype count = dense ? SM_LDATA_D(M) : SM_INDEXPTRS_S(M)[SM_COLUMNS_S(M)];
-  return stf_sources_length(count, dense ? SM_DATA_D(M) : SM_DATA_S(M));
-}
-
 /* Algorithms measure in units of their own; what is said of the error holds in those given as well. */
 static void estimate_as_given(stf_descriptor *d)
 {
@@ -39,7 +32,8 @@ static void estimate_as_given(stf_descriptor *d)
   const sunrealtype off = stf_sources_length(i->n, d->apart);
   if (!(off > 0)) return;
   const sunrealtype plus = stf_sources_length(i->n, i->x_plus),
-                    by = stf_sources_measure(&d->sources, plus, norm(d->E), norm(d->F));
+                    by = stf_sources_measure(&d->sources, plus, stf_sources_frobenius(d->E),
+                                             stf_sources_frobenius(d->F));
   i->estimate = fmax(i->estimate, by > 0 ? off / by : INFINITY);
 }
 
@@ -158,6 +152,11 @@ static bool asks_circles(const steif_analysis *wanted, const steif_analysis *use
   return (!wanted || wanted->algorithm == STEIF_AUTOMATIC) && stf_analysis_dense(used);
 }
 
+bool stf_found_by_circles(const steif_structure *s)
+{
+  return s && s->method && !strcmp(s->method, "contour");
+}
+
 /* -- structure ------------------------------------------------------------------------------ */
 
 /* Of a regular pencil. */
@@ -228,6 +227,19 @@ static void check_equations(steif_impulse *out)
            out->first);
 }
 
+/* In the units given an error may be larger than in those of the analysis: the same bound holds for both. */
+static void check_estimate(steif_impulse *out)
+{
+  static const sunrealtype most = 1e-3; /* up to which differences follow the error */
+  if (!out->certified || out->estimate <= most) return;
+  out->certified = 0;
+  snprintf(out->message, sizeof out->message,
+           "not certified: in the units given x(0+) is known to %.1e of its size, or of a "
+           "thousandth of "
+           "x(0-); take units in which unknowns are of one size",
+           out->estimate);
+}
+
 static int find_start(stf_descriptor *d, forcing *f, const steif_structure *given)
 {
   const sunindextype n = is_dense(d->E) ? SM_COLUMNS_D(d->E) : SM_COLUMNS_S(d->E);
@@ -244,6 +256,7 @@ static int find_start(stf_descriptor *d, forcing *f, const steif_structure *give
   if (code == STEIF_OK) {
     stf_impulse_residuals(d->E, d->F, d->x0, d->impulse);
     check_equations(d->impulse);
+    check_estimate(d->impulse);
   } else {
     steif_impulse_clear(d->ctx, d->impulse);
   }
@@ -282,6 +295,8 @@ int steif_impulse_find(steif_context *ctx, SUNMatrix E, SUNMatrix F, const sunre
   STEIF_CHECK(x0, ctx, STEIF_BAD_INPUT, "x(0-) is missing");
   stf_descriptor d = {.ctx = ctx, .E = E, .F = F, .x0 = x0, .impulse = impulse};
   d.options = stf_analysis_resolved(E, F, analysis);
+  if (asks_circles(analysis, &d.options) && stf_found_by_circles(structure))
+    d.options.algorithm = STEIF_CONTOUR;
   STEIF_TRY(stf_analysis_check(ctx, E, F, &d.options));
   forcing wanted = {.f = f ? stf_demand_value : NULL, .t = t};
   wanted.demand = stf_demand_of(ctx, &(steif_linear){E, F, f, user}, &d.options);

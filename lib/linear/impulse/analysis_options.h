@@ -11,5 +11,7 @@ int stf_analysis_check(steif_context *ctx, SUNMatrix E, SUNMatrix F,
                        const steif_analysis *analysis);
 /* By staircase and generalised Schur form? */
 bool stf_analysis_dense(const steif_analysis *analysis);
+/* Such a structure stays with them: no dense algorithm may know it. */
+bool stf_found_by_circles(const steif_structure *structure);
 
 #endif

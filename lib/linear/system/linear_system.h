@@ -21,8 +21,9 @@ void stf_sources_product(SUNMatrix E, const sunrealtype *x, sunrealtype *y);
 int stf_sources_force(steif_context *ctx, steif_forcing f, void *user, sunrealtype t,
                       int derivatives, N_Vector g, sunrealtype *rows);
 
-/* The 2-norm of n numbers. */
+/* The 2-norm of n numbers; that of all entries of a matrix, dense or CSC. */
 sunrealtype stf_sources_length(sunindextype n, const sunrealtype *x);
+sunrealtype stf_sources_frobenius(SUNMatrix M);
 /* What errors of an x(0+) of size `plus` are relative to: that, or a thousandth of what E x(0-), f, f',
  * ... stand for in units of the unknowns, where it is smaller: x(0+) = 0 is as good as any. E and F:
  * Frobenius norms. */

@@ -57,6 +57,13 @@ sunrealtype stf_sources_length(sunindextype n, const sunrealtype *x)
   return sqrt(sum);
 }
 
+sunrealtype stf_sources_frobenius(SUNMatrix M)
+{
+  const bool dense = SUNMatGetID(M) == SUNMATRIX_DENSE;
+  const sunindextype count = dense ? SM_LDATA_D(M) : SM_INDEXPTRS_S(M)[SM_COLUMNS_S(M)];
+  return stf_sources_length(count, dense ? SM_DATA_D(M) : SM_DATA_S(M));
+}
+
 sunrealtype stf_sources_measure(const stf_sources *s, sunrealtype plus, sunrealtype E,
                                 sunrealtype F)
 {

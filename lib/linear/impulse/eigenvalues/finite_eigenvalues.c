@@ -110,10 +110,10 @@ static int find(stf_eigenpairs *p, const steif_eigenvalue_request *request,
                 steif_eigenvalues *out)
 {
   const steif_analysis a = stf_analysis_resolved(p->E, p->F, p->analysis);
-  /* A structure that only circles know is no dense one; of a small pencil all are found all the same. */
   const bool small = stf_analysis_dense(&a),
-             dense = small && strcmp(p->structure->method, "contour");
+             dense = small && !stf_found_by_circles(p->structure);
   p->analysis = &a;
+  /* Of a small pencil all are found all the same. */
   if (small && !dense && !p->wanted) p->wanted = (long)p->structure->finite;
   STEIF_TRY(stf_analysis_check(p->ctx, p->E, p->F, &a));
   STEIF_TRY(check(p, request, small));
