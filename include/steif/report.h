@@ -85,8 +85,8 @@ typedef struct steif_array {
 /* Up to 16 arrays as an .npz file: numpy.load(path)[name]. At most 4 GB (STEIF_UNSUPPORTED). */
 STEIF_EXPORT int steif_npz_save(steif_context *ctx, const char *path, size_t count,
                                 const steif_array *array);
-/* Arrays as an HDF5 file, a data set of doubles or texts each: h5py.File(path)[name], MATLAB's h5read, which counts the dimensions the
- * other way round. By the libhdf5, 1.10 or later, of the system; STEIF_UNSUPPORTED: there is none. Threads of one
+/* Arrays as an HDF5 file, a data set of doubles or texts each: h5py.File(path)[name], MATLAB's h5read, which
+ * counts the dimensions the other way round. By the libhdf5, 1.10 or later, of the system; STEIF_UNSUPPORTED: there is none. Threads of one
  * program must not call it at the same time, unless that library was built for it. */
 STEIF_EXPORT int steif_h5_save(steif_context *ctx, const char *path, size_t count,
                                const steif_array *array);

@@ -28,6 +28,7 @@ static void no_solver(void)
   CHECK(steif_record_at(NULL, 0, &x, NULL) == STEIF_BAD_INPUT);
   CHECK(steif_record_steps(NULL, &c) == 0 && c == NULL);
   CHECK(steif_record_steps(NULL, NULL) == 0);
+  CHECK(steif_record_values(NULL) == NULL);
 }
 
 static void no_context(void)

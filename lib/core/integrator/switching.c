@@ -12,6 +12,7 @@
  * Costs are counted (cost_model.c), not timed: the same run takes the same course every time.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "random.h"
 #include "switching.h"
 #include <math.h>
 #include <stdio.h>
@@ -317,11 +318,8 @@ static int symmetric(stf_step *s, N_Vector work, bool *answer)
   static const double noise = 1e-6; /* of Jacobians by differences */
   sunrealtype *v = stf_array(s->next), *Jv = stf_array(s->error), *JJv = stf_array(work);
   double product = 0, square = 0, sum = 0;
-  unsigned bits = 1;
-  for (sunindextype i = 0; i < s->problem->n; i++) {
-    bits = 1664525 * bits + 1013904223;
-    v[i] = bits / 4294967296.0 - 0.5;
-  }
+  stf_random random = {.state = 1};
+  for (sunindextype i = 0; i < s->problem->n; i++) v[i] = stf_random_in(&random, -0.5, 0.5);
   STEIF_TRY(steif_pencil_product(s->system.pencil, 'A', s->next, s->error));
   STEIF_TRY(steif_pencil_product(s->system.pencil, 'A', s->error, work));
   for (sunindextype i = 0; i < s->problem->n; i++) {

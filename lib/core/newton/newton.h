@@ -7,10 +7,11 @@
  * of the pencil: one with eigenvalue lambda solves (lambda/h E - A) d omega = -(Tinv F).
  *
  * Convergence (Hairer and Wanner, Solving ODEs II, IV.8): theta_m = ||dZ^m|| / ||dZ^(m-1)||,
- * eta = theta/(1 - theta), stop when eta ||dZ|| <= the tolerance. A first correction is judged by the eta of the
- * first two corrections of the last solve, or of its last two if larger, as many times larger as the correction is: where F
- * couples y in one direction later corrections vanish, and say nothing of the first. theta >= 1 or too many iterations: the stage is refused; with an old Jacobian it is tried
- * again with a new one first.
+ * eta = theta/(1 - theta), stop when eta ||dZ|| <= the tolerance. A first correction is judged by the eta of
+ * the first two corrections of the last solve, or of its last two if larger, as many times larger as the
+ * correction is: where F couples y in one direction later corrections vanish, and say nothing of the first.
+ * theta >= 1 or too many iterations: the stage is refused; with an old Jacobian it is tried again with a new
+ * one first.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_NEWTON_H

@@ -1,8 +1,8 @@
 /* npz.c: arrays as numpy's .npz: a zip archive of stored (not compressed) .npy files.
  *
  * A member is a local header, "\x93NUMPY", a dictionary of type and shape padded to 64 bytes, and the
- * numbers, or texts as code points of 32 bits; after all members comes the list of them. Format: numpy.lib.format (NEP 1) and PKWARE's
- * APPNOTE 4.3 without the 64-bit extension, so that members end below 4 GB.
+ * numbers, or texts as code points of 32 bits; after all members comes the list of them. Format:
+ * numpy.lib.format (NEP 1) and PKWARE's APPNOTE 4.3 without the 64-bit extension, so that members end below 4 GB.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "report.h"

@@ -188,5 +188,5 @@ size_t steif_record_steps(const steif_record *r, const sunrealtype **t)
 
 const sunrealtype *steif_record_values(const steif_record *r)
 {
-  return r->degree ? NULL : r->y;
+  return r && !r->degree ? r->y : NULL;
 }
