@@ -32,7 +32,7 @@ static void map_of_step(const struct call *call, steif_report *r, const steif_pr
     if (p->linear && map.border)
       steif_report_text(
         r, "step.border",
-        "two multipliers of a step meet at -1: h is at the border of stability, "
+        "two eigenvalues of the map of one step meet at -1: h is at the border of stability, "
         "where the energy of other starts grows");
   }
   steif_forget(call->ctx);

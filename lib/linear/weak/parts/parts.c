@@ -45,7 +45,7 @@ static void name(const parts *all, const part *p, char *text, size_t room)
   else if (p->q == STF_JUMP)
     snprintf(text, room, "the jump at t = 0");
   else
-    snprintf(text, room, "impulses of order %d, %.2g of the largest", p->q,
+    snprintf(text, room, "impulses of order %d (%.2g of the largest)", p->q,
              p->size / all->most);
 }
 
