@@ -17,7 +17,8 @@ static int run(struct call *call)
 }
 
 static const struct option options[] = {
-  {"--data", WORD, "FILE.csv", "measurements: a first line t,y1,y2; empty cells are skipped",
+  {"--data", WORD, "FILE.csv",
+   "measurements: a first line t and names of unknowns or outputs; empty cells are skipped",
    NULL},
   {"--parameters", WORD, "P=START,...", "parameters, perhaps with start values, or all", "all"},
   {"--log", FLAG, NULL, "fit log p (default where start values and bounds are positive)", NULL},

@@ -3,29 +3,22 @@
 #include "impulse.h"
 #include <string.h>
 
-static int on_system(struct call *call)
-{
-  struct descriptor l;
-  int code = descriptor_open(call, &l, 0, true);
-  if (!code) code = descriptor_started(call, &l);
-  if (!code && given(call, "--t1") && real_of(call, "--t1") <= l.t0)
-    code = bad_usage(call, "--t1 is %s and must be later than the jump at %g",
-                     word_of(call, "--t1"), l.t0);
-  if (!code) code = impulse_of_system(call, &l);
-  descriptor_close(call, &l);
-  return code;
-}
-
 static int run(struct call *call)
 {
-  steif_problem nonlinear;
-  if (impulse_is_nonlinear(call, &nonlinear)) return impulse_nonlinear(call, &nonlinear);
+  steif_problem p = {0};
+  if (impulse_is_nonlinear(call, &p)) return impulse_nonlinear(call, &p);
+  if (!p.name && !strcmp(call->word[0], "-")) return fail(call);
+  int code = EXIT_OK;
   if (given(call, "--restitution") || given(call, "--stages"))
-    return bad_usage(call,
-                     "--restitution and --stages are for nonlinear problems: leave them out");
-  if (given(call, "--rtol") && !given(call, "--method") && !given(call, "--vs"))
-    return bad_usage(call, "--rtol is the tolerance of a run; add --method and --t1, or --vs");
-  return strcmp(call->word[0], "all") ? on_system(call) : impulse_collection(call);
+    code =
+      bad_usage(call, "--restitution and --stages are for nonlinear problems: leave them out");
+  else if (given(call, "--rtol") && !given(call, "--method") && !given(call, "--vs"))
+    code = bad_usage(call, "--rtol is the tolerance of a run; add --method and --t1, or --vs");
+  else
+    return strcmp(call->word[0], "all") ? impulse_on_system(call, &p)
+                                        : impulse_collection(call);
+  steif_problem_clear(call->ctx, &p);
+  return code;
 }
 
 static const struct option options[] = {

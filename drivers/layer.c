@@ -72,6 +72,7 @@ const struct verb verb_layer = {
   .least = 1,
   .most = 3,
   .picture = true,
+  .matrices = true,
   .option = options,
   .rule = rules,
   .run = run,

@@ -33,12 +33,15 @@ static void schemes(steif_report *r)
 
 static void codes(steif_report *r)
 {
+  char cure[160];
   for (int code = STEIF_EVENT; code >= STEIF_INFEASIBLE; code--) {
     steif_report_row(r, "codes");
     steif_report_whole(r, "codes.code", code);
     steif_report_text(r, "codes.name", steif_code_symbol(code));
     steif_report_text(r, "codes.meaning", steif_code_name(code));
-    steif_report_text(r, "codes.cure", steif_code_remedy(code));
+    snprintf(cure, sizeof cure, "%s", steif_code_remedy(code));
+    speak(cure, sizeof cure);
+    steif_report_text(r, "codes.cure", cure);
   }
 }
 

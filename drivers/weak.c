@@ -61,6 +61,7 @@ const struct verb verb_weak = {
   .least = 1,
   .most = 3,
   .picture = true,
+  .matrices = true,
   .option = options,
   .rule = rules,
   .run = run,

@@ -151,7 +151,7 @@ if(NOT count EQUAL 4 OR NOT lines EQUAL 5)
   message(SEND_ERROR "${count} eigenvalues near 1.5 i, ${lines} lines")
 endif()
 expect(2 pencil springs --near up ERR "must be a number, or two as RE,IM")
-expect(1 pencil springs --plot all.svg ERR "ask for those nearest to a point")
+expect(1 pencil springs --plot all.svg ERR "--near S ask for the N nearest to S")
 
 # Capacitors 0.1, 0.2, 0.3 in a ring, 1 S to ground: 0.1 + 0.2 is rounded, and 2 finite eigenvalues
 # become 3. In whole numbers, combinations of rows: det(s E + F) = 0.

@@ -45,7 +45,11 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   matrices(r, call, f);
   steif_report_whole(r, "undetermined", f->undetermined);
   if (f->starts > 1) steif_report_list(r, "starts", (size_t)f->starts, f->chi2_of);
-  steif_report_text(r, "message", f->message);
+  if (a->status) steif_report_text(r, "status", steif_code_name(a->status));
+  char message[sizeof f->message];
+  snprintf(message, sizeof message, "%s", f->message);
+  speak(message, sizeof message);
+  steif_report_text(r, "message", message);
   steif_report_whole(r, "cost.iterations", f->iterations);
   steif_report_whole(r, "cost.runs", f->runs);
   steif_report_whole(r, "cost.failed", f->failed);
@@ -74,8 +78,10 @@ int fitted_find(struct call *call, struct fitted *a)
   progress(call, "%s by %s", a->problem->name, call->word[1]);
   const int found = steif_fit_find(call->ctx, a->problem, call->word[1], &a->data, &o, &a->fit);
   if (!a->fit.p) return fail(call);
-  if (found) code = fail(call);
-  const int shown = found && call->json ? EXIT_OK : fitted_present(call, a);
+  if (found) say(call, "%s", steif_message(call->ctx));
+  if (found) code = exit_of(found);
+  a->status = found;
+  const int shown = fitted_present(call, a);
   const int drawn = fitted_plot(call, a);
   return code ? code : shown ? shown : drawn;
 }

@@ -13,6 +13,7 @@ struct picture {
   bool log_t;
   double t[POINTS], y[PANELS][POINTS];
   double *bar_t, *bar, *at, *value; /* of one panel after another */
+  double *output;                   /* of a model; NULL: it has none */
   char label[PANELS][STEIF_SPEC_WORD];
   steif_curve curve[PANELS][CURVES];
   steif_plot panel[PANELS];
@@ -43,6 +44,16 @@ static void times(const struct fitted *a, struct picture *x)
   }
 }
 
+/* What is measured, at point i; of an output, component n + its number. */
+static void take(const steif_problem *p, struct picture *x, int i, N_Vector y)
+{
+  if (x->output) steif_model_outputs(p, x->t[i], y, x->output);
+  for (size_t k = 0; k < x->panels; k++)
+    x->y[k][i] = x->component[k] < p->n ? N_VGetArrayPointer(y)[x->component[k]]
+                 : x->output            ? x->output[x->component[k] - p->n]
+                                        : NAN;
+}
+
 /* The problem with the parameters found, and its solution. */
 static int solution(const struct call *call, struct fitted *a, struct picture *x)
 {
@@ -52,8 +63,7 @@ static int solution(const struct call *call, struct fitted *a, struct picture *x
   int code = s ? STEIF_OK : STEIF_BAD_INPUT;
   for (int i = 0; !code && i < POINTS; i++) {
     if (x->t[i] > a->problem->t0) code = steif_solve_to(s, x->t[i]);
-    for (size_t k = 0; !code && k < x->panels; k++)
-      x->y[k][i] = N_VGetArrayPointer(steif_solution(s))[x->component[k]];
+    if (!code) take(a->problem, x, i, steif_solution(s));
   }
   steif_solver_free(&s);
   return code ? fail(call) : EXIT_OK;
@@ -98,7 +108,11 @@ static void panels(const struct fitted *a, struct picture *x)
     const long long i = x->component[k];
     double *bar_t = x->bar_t + 3 * used, *bar = x->bar + 3 * used;
     const size_t count = points(&a->data, i, bar_t, bar, x->at + used, x->value + used);
-    if (names && names->unknown)
+    const char *output =
+      i < a->problem->n ? NULL : steif_model_output(a->problem, (size_t)(i - a->problem->n));
+    if (output)
+      snprintf(x->label[k], sizeof x->label[k], "%s", output);
+    else if (names && names->unknown)
       snprintf(x->label[k], sizeof x->label[k], "%s", names->unknown[i]);
     else
       snprintf(x->label[k], sizeof x->label[k], "y%lld", i + 1);
@@ -133,13 +147,17 @@ int fitted_plot(const struct call *call, struct fitted *a)
   const size_t m = a->data.count;
   if (!call->plot) return EXIT_OK;
   struct picture *x = calloc(1, sizeof *x);
+  size_t outputs = 0;
+  while (steif_model_output(a->problem, outputs)) outputs++;
   double *room = malloc(8 * m * sizeof *room);
   int code = EXIT_OK;
+  if (x && outputs) x->output = malloc(outputs * sizeof *x->output);
   if (x && room) {
     x->bar_t = room, x->bar = room + 3 * m, x->at = room + 6 * m, x->value = room + 7 * m;
     code = draw(call, a, x);
   } else
     code = no_memory(call, "the picture", "leave --plot out");
+  if (x) free(x->output);
   free(x);
   free(room);
   return code;

@@ -13,6 +13,7 @@ struct fitted {
   double start[FITTED], low[FITTED], high[FITTED];
   steif_measurements data;
   steif_fit fit;
+  int status; /* of the search */
 };
 
 /* --parameters, --bounds, --data, --sd: exit codes after a sentence. */

@@ -47,7 +47,10 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   report_natural(r, "index", a->p->dae_index);
   if (steif_model_start(a->p)[0]) steif_report_text(r, "guesses", steif_model_start(a->p));
   steif_report_real(r, "t0", a->p->t0);
-  steif_report_real(r, "t1", a->p->t1);
+  if (a->p->t1 > a->p->t0)
+    steif_report_real(r, "t1", a->p->t1);
+  else
+    steif_report_text(r, "t1", NULL);
   parameters(r, a->p);
   unknowns(r, a->p);
 }

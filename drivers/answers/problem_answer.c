@@ -65,7 +65,10 @@ static void fill(steif_report *r, const struct call *call, const void *result)
     steif_report_texts(r, "unknowns", (size_t)p->n, p->names->unknown);
   steif_report_text(r, "form", steif_form_name(steif_problem_form(call->ctx, p)));
   report_natural(r, "index", p->dae_index);
-  steif_report_list(r, "interval", 2, (const double[]){p->t0, p->t1});
+  if (p->t1 > p->t0)
+    steif_report_list(r, "interval", 2, (const double[]){p->t0, p->t1});
+  else
+    steif_report_text(r, "interval", NULL);
   steif_report_text(r, "storage", storage[p->storage]);
   entries(r, call, p);
   steif_report_whole(r, "invariants", p->invariants);

@@ -9,25 +9,32 @@
 
 enum { ARRAYS = 16 }; /* of a .npz file */
 
-/* Of --mtx PREFIX: the array as PREFIXname.mtx, a list as one column. */
-static int write_matrix(const struct call *call, const steif_array *a)
+bool wants_arrays(const struct call *call) { return call->npz || call->h5 || call->mtx; }
+
+int save_matrix(const struct call *call, const char *name, SUNMatrix M)
 {
   char path[4096];
+  if (!call->mtx) return EXIT_OK;
+  if (snprintf(path, sizeof path, "%s%s.mtx", call->mtx, name) >= (int)sizeof path)
+    return bad_usage(call, "--mtx is longer than a path may be; shorten it");
+  if (steif_matrix_write(call->ctx, M, path) == STEIF_OK) return EXIT_OK;
+  say(call, "%s", steif_message(call->ctx));
+  return EXIT_FAILED;
+}
+
+/* The array as a file, a list as one column. */
+static int write_matrix(const struct call *call, const steif_array *a)
+{
   const size_t columns = a->columns ? a->columns : 1;
-  const int length = snprintf(path, sizeof path, "%s%s.mtx", call->mtx, a->name);
   SUNMatrix M =
     SUNDenseMatrix((sunindextype)a->rows, (sunindextype)columns, steif_sundials(call->ctx));
   if (!M) return no_memory(call, "a matrix", "leave --mtx out");
   for (size_t i = 0; i < a->rows; i++)
     for (size_t j = 0; j < columns; j++)
       SM_ELEMENT_D(M, (sunindextype)i, (sunindextype)j) = a->value[i * columns + j];
-  const bool fits = length < (int)sizeof path;
-  const bool good = fits && steif_matrix_write(call->ctx, M, path) == STEIF_OK;
+  const int code = save_matrix(call, a->name, M);
   SUNMatDestroy(M);
-  if (!fits) return bad_usage(call, "--mtx is longer than a path may be; shorten it");
-  if (good) return EXIT_OK;
-  say(call, "%s", steif_message(call->ctx));
-  return EXIT_FAILED;
+  return code;
 }
 
 int save_arrays(const struct call *call, size_t count, const steif_array *array)
@@ -52,7 +59,7 @@ int save_report_arrays(const struct call *call, const steif_report *report)
   steif_array array[ARRAYS] = {{0}};
   size_t count = 0, rows, columns;
   int code = EXIT_OK;
-  if (!call->verb->matrices || (!call->npz && !call->h5 && !call->mtx)) return EXIT_OK;
+  if (!call->verb->matrices || !wants_arrays(call)) return EXIT_OK;
   for (const char *name;
        !code && count < ARRAYS &&
        (name = steif_report_array_at(report, count, &rows, &columns, NULL));) {

@@ -5,6 +5,7 @@
 
 #include "command_line.h"
 #include <steif/report.h>
+#include <sundials/sundials_matrix.h>
 
 /* Before a long run: can the files asked for be written? EXIT_OK, or an exit code after a sentence;
  * so do the next ones. */
@@ -14,6 +15,9 @@ int show(const struct call *call, steif_report *report);
 /* --npz and --mtx of a verb that makes matrices: done by show. */
 /* Of --npz and --h5, in those that are given; an exit code. */
 int save_arrays(const struct call *call, size_t count, const steif_array *array);
+bool wants_arrays(const struct call *call);
+/* Of --mtx PREFIX, where it is given: PREFIXname.mtx, sparse or dense. */
+int save_matrix(const struct call *call, const char *name, SUNMatrix M);
 int save_report_arrays(const struct call *call, const steif_report *report);
 /* The rows of its first sheet that are new, each of which is complete, in --csv and, without --json, on stdout; show
  * then shows the rest. A failure is left to save_csv. */

@@ -1,6 +1,7 @@
 /* problem.c: a problem of the collection by a word of a call, and a point of its solution.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "problem.h"
+#include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,14 +59,49 @@ static int with_values(struct call *call, const char *word, char *text, size_t r
   return used < room ? EXIT_OK : bad_usage(call, "--set is longer than %zu characters", room);
 }
 
+/* --storage: matrices that the callbacks of the problem do not fill, or whose places nobody knows. */
+static int storage_fits(struct call *call, const steif_problem *p)
+{
+  const char *word = given(call, "--storage") ? word_of(call, "--storage") : "";
+  if (!strcmp(word, "band") && p->storage != STEIF_BAND)
+    return bad_usage(call, "--storage band: the Jacobian of '%s' is no band; leave it out",
+                     p->name);
+  if (!strcmp(word, "sparse") && p->storage != STEIF_SPARSE && !p->pattern && p->nnz <= 0)
+    return bad_usage(
+      call, "--storage sparse: the Jacobian of '%s' is dense and has no pattern; leave it out",
+      p->name);
+  return EXIT_OK;
+}
+
+/* The end of the run of a model without `time`; measurements bring their own. */
+static int find_end(struct call *call, steif_problem *p)
+{
+  bool runs = false;
+  const struct option *o;
+  for (size_t i = 0; (o = option_at(call->verb, i)); i++)
+    runs = runs || !strcmp(o->name, "--t1");
+  if (p->t1 > p->t0 || !runs || given(call, "--data")) return EXIT_OK;
+  if (given(call, "--t1")) p->t1 = fmax(p->t0, real_of(call, "--t1"));
+  if (p->t1 > p->t0) return EXIT_OK;
+  say(call, "%s: no time interval; add 'time %.12g to %.12g' or give --t1 [STEIF_BAD_INPUT]",
+      p->name, p->t0, p->t0 + 10);
+  steif_problem_clear(call->ctx, p);
+  return EXIT_FILE;
+}
+
 int find_problem(struct call *call, const char *word, steif_problem *p)
 {
   char text[4096];
   const int wrong = with_values(call, word, text, sizeof text);
   if (wrong) return wrong;
   if (steif_problem_find(call->ctx, text, p) != STEIF_OK) return no_problem(call, word);
+  const int unfit = storage_fits(call, p);
+  if (unfit) {
+    steif_problem_clear(call->ctx, p);
+    return unfit;
+  }
   if (given(call, "--compile")) compile(call, p);
-  return EXIT_OK;
+  return find_end(call, p);
 }
 
 int with_problem(struct call *call, int (*work)(struct call *call, const steif_problem *p))

@@ -196,6 +196,7 @@ void trajectory_free(trajectory *tr)
   free(tr->output);
   free(tr->drawn.t);
   free(tr->drawn.y);
+  free(tr->drawn.row);
   free(tr->at);
   free(tr->line);
   free(tr->attributes);

@@ -7,11 +7,12 @@
 #include "attributes.h"
 #include "program.h"
 
-/* The first components as a picture shows them, between the steps, too. */
+/* The first components and outputs as a picture shows them, between the steps, too. */
 enum { DRAWN = 8 };
 struct drawn {
-  size_t n, count, room; /* components; points */
-  double *t, *y;
+  size_t n, count, room; /* curves; points */
+  size_t unknowns;       /* of the curves; the others are outputs */
+  double *t, *y, *row;   /* row: unknowns, then all outputs, of one point */
 };
 
 typedef struct trajectory {

@@ -89,35 +89,36 @@ int trajectory_save(const struct call *call, trajectory *tr)
   return tr->csv_code ? EXIT_FAILED : arrays;
 }
 
-/* Unknowns and outputs side by side, at the steps. */
-static int plot_outputs(const struct call *call, const trajectory *tr, const char *title)
+/* A run that went on has no points between its steps: unknowns and outputs side by side, at the steps. */
+static int steps_of(const trajectory *tr, struct drawn *d)
 {
   const size_t columns = tr->n + tr->outputs;
-  const char **names = calloc(columns, sizeof *names);
-  double *all = malloc((tr->count * columns + 1) * sizeof *all);
-  for (size_t i = 0; names && i < columns; i++)
-    names[i] = i < tr->n ? tr->names ? tr->names->unknown[i] : NULL
-                         : steif_model_output(tr->problem, i - tr->n);
-  for (size_t i = 0; all && i < tr->count; i++) {
-    memcpy(all + i * columns, tr->y + i * tr->n, tr->n * sizeof *all);
-    memcpy(all + i * columns + tr->n, tr->output + i * tr->outputs, tr->outputs * sizeof *all);
+  *d = (struct drawn){.n = columns, .count = tr->count, .unknowns = tr->n, .t = tr->t};
+  d->y = malloc((tr->count * columns + 1) * sizeof *d->y);
+  for (size_t i = 0; d->y && i < tr->count; i++) {
+    memcpy(d->y + i * columns, tr->y + i * tr->n, tr->n * sizeof *d->y);
+    memcpy(d->y + i * columns + tr->n, tr->output + i * tr->outputs,
+           tr->outputs * sizeof *d->y);
   }
-  const int code = all && names
-                     ? steif_plot_components(call->ctx, title, tr->count, columns,
-                                             tr->names ? names : NULL, tr->t, all, call->plot)
-                     : no_memory(call, "the picture", "make fewer steps");
-  free(all);
-  free(names);
-  return code;
+  return d->y ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 static int plot(const struct call *call, const trajectory *tr, const char *title)
 {
-  const struct drawn steps = {tr->n, tr->count, tr->count, tr->t, tr->y},
-                     *d = tr->drawn.count ? &tr->drawn : &steps;
-  const char *const *names = tr->names ? tr->names->unknown : NULL;
-  if (tr->outputs) return plot_outputs(call, tr, title);
-  return steif_plot_components(call->ctx, title, d->count, d->n, names, d->t, d->y, call->plot);
+  struct drawn steps = {0};
+  const bool dense = tr->drawn.count;
+  const struct drawn *d = dense ? &tr->drawn : &steps;
+  int code = dense ? STEIF_OK : steps_of(tr, &steps);
+  const char **names = code ? NULL : calloc(d->n + 1, sizeof *names);
+  for (size_t i = 0; names && i < d->n; i++)
+    names[i] = i < d->unknowns ? tr->names && tr->names->unknown ? tr->names->unknown[i] : NULL
+                               : steif_model_output(tr->problem, i - d->unknowns);
+  code = names ? steif_plot_components(call->ctx, title, d->count, d->n,
+                                       names[0] ? names : NULL, d->t, d->y, call->plot)
+               : no_memory(call, "the picture", "make fewer steps");
+  free(steps.y);
+  free(names);
+  return code;
 }
 
 int trajectory_plot(const struct call *call, const trajectory *tr, const char *title)

@@ -1,6 +1,7 @@
 /* descriptor.c: E x' + F x = f from files, or from the collection.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "descriptor.h"
+#include "output.h"
 #include <stdlib.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -108,7 +109,7 @@ static int from_files(struct call *call, struct descriptor *l, int from)
 static int from_collection(struct call *call, struct descriptor *l, int from)
 {
   const char *name = call->word[from];
-  if (steif_problem_find(call->ctx, name, &l->problem)) return fail(call);
+  if (!l->problem.name && steif_problem_find(call->ctx, name, &l->problem)) return fail(call);
   if (call->words > from + 1)
     return bad_usage(call, "\"%s\" is one word too many after the problem %s",
                      call->word[from + 1], name);
@@ -137,14 +138,21 @@ static int read_names(struct call *call, struct descriptor *l)
 
 int descriptor_open(struct call *call, struct descriptor *l, int from, bool start)
 {
-  *l = (struct descriptor){0};
+  return descriptor_open_found(call, l, from, start, &(steif_problem){0});
+}
+
+int descriptor_open_found(struct call *call, struct descriptor *l, int from, bool start,
+                          const steif_problem *found)
+{
+  *l = (struct descriptor){.problem = *found};
   int code = descriptor_is_file(call->word[from]) ? from_files(call, l, from)
                                                   : from_collection(call, l, from);
   if (!code) code = read_names(call, l);
   if (!code && start) code = descriptor_read_x0(call, l);
   if (!code && start) code = descriptor_read_ports(call, l, call->word[from]);
   l->t0 = real_or(call, "--t0", l->t0);
-  return code;
+  if (!code) code = save_matrix(call, "E", l->system.E);
+  return code ? code : save_matrix(call, "F", l->system.F);
 }
 
 int descriptor_started(const struct call *call, const struct descriptor *l)
@@ -154,7 +162,8 @@ int descriptor_started(const struct call *call, const struct descriptor *l)
 
 bool descriptor_as_published(const struct call *call, const struct descriptor *l)
 {
-  return l->problem.name && !given(call, "--x0") && !l->function;
+  return l->problem.name && strcmp(l->problem.name, "-") && !given(call, "--x0") &&
+         !l->function;
 }
 
 void descriptor_close(struct call *call, struct descriptor *l)

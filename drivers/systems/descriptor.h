@@ -47,6 +47,9 @@ struct descriptor {
 /* The system of words `from` and, of files, from + 1: EXIT_OK, or the exit code after a sentence;
  * close it in any case. start: x(0-), f and y too. */
 int descriptor_open(struct call *call, struct descriptor *l, int from, bool start);
+/* The same with the problem of the word, where it has been found (.name): standard input is read once. */
+int descriptor_open_found(struct call *call, struct descriptor *l, int from, bool start,
+                          const steif_problem *found);
 /* l->x0 of l->n values from --x0, where it is given. */
 int descriptor_read_x0(struct call *call, struct descriptor *l);
 /* f = B u and y = C x + D u, where there are any; path: of E. */

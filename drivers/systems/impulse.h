@@ -15,8 +15,10 @@ int impulse_of_system(struct call *call, struct descriptor *l);
 int impulse_run(struct call *call, const struct descriptor *l);
 /* Every descriptor system of the collection beside --vs. */
 int impulse_collection(struct call *call);
-/* Is the word a problem without a pencil of its own? Then it is opened, and impulse_nonlinear closes
- * it. */
+/* The system of the words, or that of the problem found (.name), which is closed here. */
+int impulse_on_system(struct call *call, const steif_problem *found);
+/* Is the word a problem without a pencil of its own? It is opened where it is a problem at all, and impulse_nonlinear or
+ * impulse_on_system closes it. */
 bool impulse_is_nonlinear(struct call *call, steif_problem *problem);
 int impulse_nonlinear(struct call *call, steif_problem *problem);
 

@@ -55,9 +55,7 @@ bool impulse_is_nonlinear(struct call *call, steif_problem *p)
   if (descriptor_is_file(call->word[0]) || steif_problem_find(call->ctx, call->word[0], p))
     return false;
   const int form = steif_problem_form(call->ctx, p);
-  if (form && form != STEIF_DESCRIPTOR) return true;
-  steif_problem_clear(call->ctx, p);
-  return false;
+  return form && form != STEIF_DESCRIPTOR;
 }
 
 int impulse_nonlinear(struct call *call, steif_problem *p)

@@ -98,3 +98,16 @@ int impulse_of_system(struct call *call, struct descriptor *l)
   steif_structure_clear(call->ctx, &s);
   return code;
 }
+
+int impulse_on_system(struct call *call, const steif_problem *found)
+{
+  struct descriptor l;
+  int code = descriptor_open_found(call, &l, 0, true, found);
+  if (!code) code = descriptor_started(call, &l);
+  if (!code && given(call, "--t1") && real_of(call, "--t1") <= l.t0)
+    code = bad_usage(call, "--t1 is %s and must be later than the jump at %g",
+                     word_of(call, "--t1"), l.t0);
+  if (!code) code = impulse_of_system(call, &l);
+  descriptor_close(call, &l);
+  return code;
+}

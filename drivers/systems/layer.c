@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "layer.h"
 #include "members.h"
+#include "output.h"
 #include "settings.h"
 #include <stdlib.h>
 #include <string.h>
@@ -83,6 +84,14 @@ static outcome best_against(const struct call *call, const struct layer *l, cons
   return best;
 }
 
+static void arrays(steif_report *r, const struct layer *l)
+{
+  steif_report_list(r, "t", l->steps + 1, l->t);
+  steif_report_matrix(r, "x", l->steps + 1, l->k, l->x);
+  steif_report_matrix(r, "exact", l->steps + 1, l->k, l->exact);
+  steif_report_list(r, "error", l->steps + 1, l->error);
+}
+
 static void fill(steif_report *r, const struct call *call, const void *result)
 {
   const struct layer *l = result;
@@ -101,6 +110,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
     steif_report_list(r, "rows.exact", n, l->exact + i * l->k + first);
     steif_report_real(r, "rows.error", l->error[i]);
   }
+  if (wants_arrays(call)) arrays(r, l);
   if (!other) return;
   double error;
   const char *spec = other;

@@ -184,10 +184,19 @@ int matrix_ports(struct call *call, long n, struct matrix *B, struct matrix *C,
   return call->words > 1 ? matrix_read(call, call->word[1], n, 0, B) : EXIT_OK;
 }
 
+/* A model by its name, or on standard input, where a matrix would begin with %%MatrixMarket. */
+static bool is_model(const char *path)
+{
+  if (strcmp(path, "-")) return strstr(path, ".steif");
+  const int first = getc(stdin);
+  if (first != EOF) ungetc(first, stdin);
+  return first != '%';
+}
+
 int matrix_system(struct call *call, const char *path, const char *what, struct matrix *A,
                   struct matrix *E)
 {
-  return is_mat(path)             ? of_mat(call, path, A, E)
-         : strstr(path, ".steif") ? of_model(call, path, A, E)
-                                  : matrix_square(call, path, what, A);
+  return is_mat(path)     ? of_mat(call, path, A, E)
+         : is_model(path) ? of_model(call, path, A, E)
+                          : matrix_square(call, path, what, A);
 }

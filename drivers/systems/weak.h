@@ -7,8 +7,21 @@
 #include "descriptor.h"
 #include "test_function.h"
 
+struct weak;
+
+/* A report: what comes before its rows, a row of them, what comes after. */
+struct weak_form {
+  void (*head)(steif_report *r, const struct weak *w);
+  void (*row)(steif_report *r, const struct weak *w, size_t i);
+  void (*tail)(steif_report *r, const struct weak *w);
+};
+
 /* About a Jordan block, or a system. */
 struct weak {
+  struct call *call;
+  const struct weak_form *form;
+  steif_report *report;   /* rows stand in it as they come */
+  size_t n;               /* unknowns of the system */
   long k;                 /* index of the block; 0: query has problem or linear */
   const char *kind;       /* "N-inc" */
   const char *convention; /* "P", "R", "C", "stage"; NULL: the usual one of the method */
@@ -25,15 +38,15 @@ int weak_prepare(steif_context *ctx, struct weak *w);
 int weak_measure(steif_context *ctx, struct weak *w);
 /* Norms in H^-m; m 0: the usual one. */
 int weak_ball(struct call *call, struct weak *w, int m);
-/* With what asks for the problem filled in: one test function and its rows by `fill`, or a family. Its
- * exit code. */
-int weak_answer(struct call *call, struct weak *w, report_filler *fill, const void *result);
+/* With what asks for the problem filled in: one test function and its rows in this form, or a family. Its exit
+ * code. */
+int weak_answer(struct call *call, struct weak *w, const struct weak_form *form);
 /* Each of several test functions, in words separated by ';'. */
 int weak_family(struct call *call, struct weak *w, const char *words);
 /* Where the test functions end: the last of them. */
 int weak_end_of_test(struct call *call, double *t1);
 /* What a call asks for. */
-struct weak weak_asked(const struct call *call);
+struct weak weak_asked(struct call *call);
 /* A row of the report: what comes before its values, and after. */
 void weak_row_begin(steif_report *r, const steif_weak_row *row);
 void weak_row_end(steif_report *r, const steif_weak_row *row);

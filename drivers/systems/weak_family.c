@@ -1,5 +1,6 @@
 /* weak_family.c: weak convergence for each of several test functions.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "output.h"
 #include "weak.h"
 #include <math.h>
 #include <stdlib.h>
@@ -23,6 +24,8 @@ struct members {
 
 static void fill(steif_report *r, const struct call *call, const void *result)
 {
+  enum { LISTED = 256 };
+  double error[LISTED];
   const struct members *m = result;
   steif_report_text(r, "method", call->word[0]);
   steif_report_whole(r, "index", m->member->result.index);
@@ -39,6 +42,10 @@ static void fill(steif_report *r, const struct call *call, const void *result)
     steif_report_real(r, "functions.order", g->last.usable ? g->last.order : NAN);
     steif_report_whole(r, "functions.converges", g->result.converges);
   }
+  for (size_t i = 0; wants_arrays(call) && i < m->count && i < LISTED; i++)
+    error[i] = m->member[i].last.error;
+  if (wants_arrays(call))
+    steif_report_list(r, "error", m->count < LISTED ? m->count : LISTED, error);
   steif_report_text(r, "verdict", m->verdict);
 }
 

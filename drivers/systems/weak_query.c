@@ -1,5 +1,6 @@
 /* weak_query.c: weak convergence from the words of a call to the measure and its picture.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "output.h"
 #include "weak.h"
 #include <math.h>
 #include <stdlib.h>
@@ -9,9 +10,10 @@ static const char *const name[] = {"P", "R", "C", "stage"}; /* enum steif_conven
 
 const char *convention_name(enum steif_convention convention) { return name[convention]; }
 
-struct weak weak_asked(const struct call *call)
+struct weak weak_asked(struct call *call)
 {
-  struct weak w = {.k = whole_of(call, "--index"),
+  struct weak w = {.call = call,
+                   .k = whole_of(call, "--index"),
                    .kind = word_of(call, "--case"),
                    .convention = word_of(call, "--convention"),
                    .query = {.method = call->word[0],
@@ -40,8 +42,10 @@ int weak_prepare(steif_context *ctx, struct weak *w)
 
 int weak_measure(steif_context *ctx, struct weak *w)
 {
-  const int code = weak_prepare(ctx, w);
-  return code ? code : steif_weak_measure(ctx, &w->query, w->row, &w->result);
+  int code = weak_prepare(ctx, w);
+  if (code || (code = steif_weak_measure(ctx, &w->query, w->row, &w->result))) return code;
+  speak(w->result.verdict, sizeof w->result.verdict);
+  return STEIF_OK;
 }
 
 void weak_row_begin(steif_report *r, const steif_weak_row *row)
@@ -58,8 +62,19 @@ void weak_row_end(steif_report *r, const steif_weak_row *row)
   steif_report_real(r, "rows.order", row->usable ? row->order : NAN);
 }
 
+/* Steps and errors of the rows, for files of arrays. */
+static void arrays(steif_report *r, const struct weak *w)
+{
+  double h[HALVINGS], error[HALVINGS];
+  const size_t rows = w->query.rows;
+  for (size_t i = 0; i < rows; i++) h[i] = w->row[i].h, error[i] = w->row[i].error;
+  steif_report_list(r, "h", rows, h);
+  steif_report_list(r, "error", rows, error);
+}
+
 void weak_verdict(steif_report *r, const struct weak *w)
 {
+  if (wants_arrays(w->call)) arrays(r, w);
   if (w->query.g) steif_report_text(r, "g", w->g.text);
   if (w->query.g) steif_report_real(r, "t1", w->query.g->t1);
   if (*w->result.mesh) steif_report_text(r, "mesh", w->result.mesh);
@@ -134,10 +149,35 @@ static int find_test(struct call *call, struct weak *w, bool norm)
   return code;
 }
 
-int weak_answer(struct call *call, struct weak *w, report_filler *fill, const void *result)
+/* The callback of the measure. */
+static int told(size_t i, void *user)
+{
+  const struct weak *w = user;
+  if (i == 0) w->form->head(w->report, w);
+  w->form->row(w->report, w, i);
+  rows_come(w->call, w->report);
+  return 0;
+}
+
+/* One test function. */
+static int single(struct call *call, struct weak *w)
+{
+  w->report = steif_report_new(call->ctx);
+  w->query.tell = told, w->query.told = w;
+  int code = w->report && !weak_measure(call->ctx, w) ? EXIT_OK : descriptor_fail(call);
+  if (!code) {
+    w->form->tail(w->report, w);
+    code = present(call, w->report);
+  }
+  steif_report_free(&w->report);
+  return code ? code : end(call, w);
+}
+
+int weak_answer(struct call *call, struct weak *w, const struct weak_form *form)
 {
   const char *words = word_of(call, "--g");
   struct norm norm;
+  w->form = form;
   if (words && strchr(words, ';')) return weak_family(call, w, words);
   int code = find_norm(call, &norm);
   if (code) return code;
@@ -148,9 +188,7 @@ int weak_answer(struct call *call, struct weak *w, report_filler *fill, const vo
     test_function_close(&w->g);
     return code;
   }
-  if (!code && weak_measure(call->ctx, w)) code = descriptor_fail(call);
-  if (!code) code = present_result(call, fill, result);
-  if (!code) code = end(call, w);
+  if (!code) code = single(call, w);
   test_function_close(&w->g);
   return code;
 }

@@ -1,5 +1,6 @@
 /* weak_system.c: weak convergence on a descriptor system, of one component or of all.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "output.h"
 #include "weak.h"
 #include <math.h>
 #include <stdlib.h>
@@ -22,42 +23,50 @@ static size_t distinct(double *t, size_t count)
   return kept;
 }
 
-struct answer {
-  const struct weak *weak;
-  size_t n;
-};
-
-static void fill(steif_report *r, const struct call *call, const void *result)
+static bool lists(const struct weak *w)
 {
-  const struct answer *a = result;
-  const struct weak *w = a->weak;
+  return w->query.component == STEIF_ALL && w->n <= SHOWN;
+}
+
+static void head(steif_report *r, const struct weak *w)
+{
   const steif_weak_query *q = &w->query;
-  const bool lists = q->component == STEIF_ALL && a->n <= SHOWN;
   steif_report_text(r, "method", q->method);
-  steif_report_text(r, "system", call->word[1]);
+  steif_report_text(r, "system", w->call->word[1]);
   steif_report_whole(r, "index", w->result.index);
   if (q->component >= 0) steif_report_whole(r, "component", q->component + 1);
   steif_report_text(r, "convention", convention_name(q->convention));
-  if (lists)
-    steif_report_list(r, "exact", a->n, q->exacts);
+  if (lists(w))
+    steif_report_list(r, "exact", w->n, q->exacts);
   else
     steif_report_real(r, "exact", w->result.exact);
-  for (size_t i = 0; i < q->rows; i++) {
-    weak_row_begin(r, w->row + i);
-    if (lists)
-      steif_report_list(r, "rows.value", a->n, q->values + i * a->n);
-    else
-      steif_report_real(r, "rows.value", w->row[i].value);
-    weak_row_end(r, w->row + i);
-  }
+}
+
+static void row(steif_report *r, const struct weak *w, size_t i)
+{
+  weak_row_begin(r, w->row + i);
+  if (lists(w))
+    steif_report_list(r, "rows.value", w->n, w->query.values + i * w->n);
+  else
+    steif_report_real(r, "rows.value", w->row[i].value);
+  weak_row_end(r, w->row + i);
+}
+
+static void tail(steif_report *r, const struct weak *w)
+{
+  const steif_weak_query *q = &w->query;
+  if (wants_arrays(w->call) && q->component == STEIF_ALL)
+    steif_report_matrix(r, "values", q->rows, w->n, q->values);
   weak_verdict(r, w);
   steif_report_text(r, "message", w->result.source);
 }
 
-static int answer(struct call *call, struct weak *w, size_t n)
+static const struct weak_form form = {head, row, tail};
+
+static int answer(struct call *call, struct weak *w)
 {
   progress(call, "%s on %s", call->word[0], call->word[1]);
-  return weak_answer(call, w, fill, &(struct answer){w, n});
+  return weak_answer(call, w, &form);
 }
 
 /* The first place where f turns between its breaks; NaN: none. */
@@ -96,6 +105,7 @@ static int ask(struct call *call, const struct descriptor *l)
 {
   const size_t n = (size_t)l->n;
   struct weak w = weak_asked(call);
+  w.n = n;
   if (l->t0 != 0) return bad_usage(call, "the test function begins at t = 0; leave --t0 out");
   if (!given(call, "--component")) w.query.component = STEIF_ALL;
   if (descriptor_as_published(call, l) && !given(call, "--breaks")) {
@@ -109,7 +119,7 @@ static int ask(struct call *call, const struct descriptor *l)
   w.query.exacts = malloc(n * (w.query.rows + 1) * sizeof *w.query.exacts);
   if (!w.query.exacts) return no_memory(call, "all components", "name one with --component");
   w.query.values = w.query.exacts + n;
-  const int code = answer(call, &w, n);
+  const int code = answer(call, &w);
   free(w.query.exacts);
   return code;
 }

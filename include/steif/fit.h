@@ -38,7 +38,7 @@ extern "C" {
 #endif
 
 /* Measurement j is value[j] of the unknown y_i, i = component[j] from 0, at t[j], in any order; the same
- * component and time may occur again. */
+ * component and time may occur again. i = n + k: output k of a model. */
 typedef struct steif_measurements {
   size_t count;
   sunrealtype *t, *value;
@@ -47,9 +47,9 @@ typedef struct steif_measurements {
   void *reserved[4];
 } steif_measurements;
 
-/* A CSV file: the first line is t and the names of unknowns (y1, y2, ... where the problem has no names), in
+/* A CSV file: the first line is t and the names of unknowns (y1, y2, ... where the problem has no names) or outputs, in
  * any order; sd_NAME beside NAME is the standard deviation of each of its values. An empty cell, or NA, is
- * skipped. Times ascend and lie between t0 and t1 (0: the problem's) of the problem; each occurs once unless
+ * skipped. Times ascend and lie between t0 and t1 (0: the problem's, if it has one); each occurs once unless
  * `repeated`. # begins a comment. sd: sd_count standard deviations, one for all columns, or one for each in
  * their order; NULL: those of the file, or none. STEIF_BAD_INPUT, STEIF_UNKNOWN_NAME, STEIF_NOT_FINITE, STEIF_IO with
  * file, line and column. Free it with the context it was read with. */
@@ -97,15 +97,17 @@ typedef struct steif_fit {
   int starts, best;              /* best: which descent, from 0 */
   sunrealtype *chi2_of;          /* of each; infinity: its first run failed */
   long runs, failed, iterations; /* of all descents; failed runs; of the best descent */
-  int exhausted;                 /* 1: the best descent was ended by options.evaluations */
-  char message[1400];            /* one sentence or more: what was found, and what to doubt */
-  char failure[500];             /* of the last run that failed; "" */
+  /* 1: the best descent was ended by options.evaluations; STEIF_STOPPED, STEIF_TIME_LIMIT: the search by options.run */
+  int exhausted;
+  char message[1400]; /* one sentence or more: what was found, and what to doubt */
+  char failure[500];  /* of the last run that failed; "" */
   void *reserved[8];
 } steif_fit;
 
 /* The parameters of the problem have the values they had when it returns. STEIF_BAD_INPUT: fewer measurements than
  * parameters, a start outside the bounds and the like; STEIF_NO_CONVERGENCE: options.evaluations were too few,
- * and fit holds the best so far; STEIF_UNSUPPORTED: steif was built without cminpack, or the method carries no
+ * and fit holds the best so far; STEIF_STOPPED, STEIF_TIME_LIMIT: the search was ended by options.run, and fit holds the
+ * best run it had made, if there was one (else p is NULL); STEIF_UNSUPPORTED: steif was built without cminpack, or the method carries no
  * sensitivities; codes of the run where the first of every descent failed. */
 STEIF_EXPORT int steif_fit_find(steif_context *ctx, steif_problem *problem, const char *method,
                                 const steif_measurements *data,

@@ -13,6 +13,9 @@
  * beyond the callbacks of steif_problem is asked for. The structure and the growth are computed for
  * any n; the array is dense and serves n <= STEIF_DIAGNOSE_LARGEST.
  *
+ * Small entries. Of differences those below 1e-9 of their row are taken as rounding, of callbacks below 1e-13 where E and
+ * F_y are constant, 1e-25 where they vary: the conductance of a diode that is closed, 1e-15 of its row, is that of index 1.
+ *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_INDEX_H
 #define STEIF_INDEX_H

@@ -95,6 +95,10 @@ STEIF_EXPORT const char *steif_model_start(const steif_problem *problem);
 STEIF_EXPORT const char *steif_model_output(const steif_problem *problem, size_t i);
 STEIF_EXPORT int steif_model_outputs(const steif_problem *problem, sunrealtype t, N_Vector y,
                                      sunrealtype *value);
+/* Their derivatives along y' = v, p' = q, exact; NULL: 0. q: of problem.parameters. STEIF_RETRY: not finite. */
+STEIF_EXPORT int steif_model_output_tangent(steif_context *ctx, const steif_problem *problem,
+                                            sunrealtype t, N_Vector y, N_Vector v,
+                                            const sunrealtype *q, sunrealtype *value);
 
 #ifdef __cplusplus
 }

@@ -130,7 +130,7 @@ struct steif_problem {
   const char *name, *about; /* NULL: a run calls it "unnamed"; one sentence and a citation */
   sunindextype n;
   const steif_names *names; /* of its components and equations; NULL: none */
-  sunrealtype t0, t1;       /* default interval of integration, t1 > t0 */
+  sunrealtype t0, t1;       /* interval of a run; t1 = t0: options.t1 ends it */
   const sunrealtype *y0;    /* n start values (host memory) ... */
   const sunrealtype *yp0;   /* ... and slopes; NULL: computed where the form allows, else 0 */
   steif_state start;        /* instead of y0, for vectors without a host array */
@@ -183,7 +183,7 @@ struct steif_problem {
   steif_restore_state restore;
   const sunrealtype *event_times; /* of the first events where they are known, ascending */
   int event_time_count;
-  const sunrealtype *breaks; /* declared discontinuities of f in (t0, t1], ascending */
+  const sunrealtype *breaks; /* declared discontinuities of f after t0, ascending */
   int break_count;
   /* A separable problem: the first `positions` components are q, the others p; q' depends on (t, p)
    * only and p' on (t, q) only, as for H = T(p) + V(q). 0: not separable. The halves of f alone, for

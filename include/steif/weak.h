@@ -125,6 +125,10 @@ typedef struct steif_weak_query {
    * comb before a break. 0: where h = 0 and no constant step fits all breaks; convolution quadrature always,
    * if breaks are on its mesh. */
   int restart;
+  /* Called when row[i] is as it will stay, i = 0, 1, ..., before the verdict: `exact`, `index`, `mesh` and `values` are
+   * known then, too. Not 0 ends the measure with STEIF_STOPPED. NULL: not wanted. */
+  int (*tell)(size_t i, void *told);
+  void *told;
 } steif_weak_query;
 STEIF_EXPORT int steif_weak_measure(steif_context *ctx, const steif_weak_query *query,
                                     steif_weak_row *row, steif_weak_result *result);

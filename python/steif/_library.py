@@ -72,6 +72,7 @@ for _row in (
     ("steif_record_steps", c.c_size_t, POINTER, POINTER),
     ("steif_record_values", POINTER, POINTER),
     ("steif_record_at", INT, POINTER, REAL, POINTER, POINTER),
+    ("steif_model_output", c.c_char_p, POINTER, c.c_size_t),
     ("steif_problem_vary", INT, POINTER, POINTER, INT, POINTER, POINTER, POINTER),
     ("steif_sensitivity", INT, POINTER, REAL, INT, POINTER),
     ("steif_measurements_read", INT, POINTER, POINTER, c.c_char_p, REAL, INT, INT, POINTER, POINTER),

@@ -89,9 +89,12 @@ class _Parametrised:
             found.append(self.names.index(one) if isinstance(one, str) else int(one))
         return np.array(found, dtype=c.c_int)
 
-    def unknown(self, key):
+    def measured(self, key):
+        """Of an unknown its number, of output k of a model n + k."""
         if isinstance(key, str):
-            names = self.run.names or ["y%d" % (i + 1) for i in range(self.run.n)]
+            names = list(self.run.names or ["y%d" % (i + 1) for i in range(self.run.n)])
+            while (output := lib.steif_model_output(self.run.problem.address, len(names) - self.run.n)):
+                names.append(output.decode())
             if key not in names:
                 raise ValueError("no unknown %r; there are %s" % (key, ", ".join(names[:12])))
             return names.index(key)
@@ -195,7 +198,7 @@ def _columns(problem, t, data, sd):
                                   t.shape) for i, k in enumerate(keys)]
     given = [np.isfinite(row) for row in rows]
     pick = lambda parts: np.concatenate([np.asarray(part)[g] for part, g in zip(parts, given)])
-    component = [np.full(t.shape, problem.unknown(k)) for k in keys]
+    component = [np.full(t.shape, problem.measured(k)) for k in keys]
     return (pick([t] * len(rows)), pick(rows), None if widths is None else pick(widths),
             pick(component).astype(WHOLE))
 
@@ -245,7 +248,7 @@ def fit(f, t, data, *, p=None, y0=None, t_span=None, by=None, sd=None, bounds=No
 
     f       f(t, y, *p), or the name of a problem ("lotka.steif")
     t       times of the measurements; of a CSV file None
-    data    n x times, NaN where there is none; or {unknown: values}; or a CSV file (t and names of unknowns)
+    data    n x times, NaN where there is none; or {unknown or output: values}; or a CSV file (t, their names)
     p       values to begin with; of a named problem a dict of those that are to be others
     t_span  None: of f from 0 to the last time, of a named problem its own
     by      names or numbers of the parameters to find; None: all

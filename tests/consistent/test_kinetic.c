@@ -1,6 +1,7 @@
 /* test_kinetic.c: jumps of velocities and charges at an inconsistent start: by impulses of the constraints, with the
  * mass matrix as it is; refused where these do not determine them; and what a look at a good start costs.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "consistent/masses.h"
 #include "repair.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
@@ -65,17 +66,11 @@ static int bilinear(sunrealtype t, N_Vector y, N_Vector r, void *user)
   return 0;
 }
 
-static int two(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
-{
-  (void)t, (void)y, (void)yp, (void)user;
-  SM_ELEMENT_D(E, 0, 0) = SM_ELEMENT_D(E, 1, 1) = 1;
-  return 0;
-}
-
 static void jumps_that_are_not_unique_are_refused_with_both(void)
 {
   static const double y0[] = {0.2, 0.3, 0}, near[] = {0.7 + 1e-5, 0.3, 0};
-  steif_problem p = {.name = "bilinear", .n = 3, .t1 = 1, .y0 = y0, .f = bilinear, .E = two};
+  steif_problem p = {
+    .name = "bilinear", .n = 3, .t1 = 1, .y0 = y0, .f = bilinear, .E = two_derivatives};
   steif_context *ctx = steif_context_new(NULL);
   steif_options o = steif_defaults();
   char left[32], right[32];

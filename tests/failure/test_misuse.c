@@ -4,6 +4,7 @@
 #include "models/models.h"
 #include "suite.h"
 #include "toy.h"
+#include <steif/impulse.h>
 #include <string.h>
 
 static toy run;
@@ -99,6 +100,28 @@ static void callbacks_that_stop_are_obeyed(void)
   }
 }
 
+/* A problem without a name is one like others. */
+static void no_name_is_needed(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p = model_problem(model_find("hess2"), 1);
+  steif_pattern *pattern;
+  steif_linear linear;
+  p.name = NULL;
+  steif_diagnosis d;
+  steif_start s;
+  steif_cause cause;
+  CHECK(steif_diagnose(ctx, &p, NULL, &d) == STEIF_OK && d.index == 2);
+  CHECK(steif_consistent(ctx, &p, NULL, NULL, &s) == STEIF_OK);
+  CHECK(steif_check_jacobian(ctx, &p, NULL, &cause) == STEIF_OK);
+  steif_diagnosis_clear(&d), steif_start_clear(&s);
+  CHECK(steif_pattern_find(ctx, &p, &pattern) == STEIF_OK);
+  steif_pattern_free(ctx, &pattern);
+  CHECK(steif_linear_of(ctx, &p, &linear) == STEIF_UNSUPPORTED);
+  CHECK(strstr(steif_message(ctx), "'unnamed'") != NULL && !p.name);
+  steif_context_free(&ctx);
+}
+
 /* Names of the user appear in the sentences. */
 static void names_are_used(void)
 {
@@ -118,5 +141,6 @@ CU_TestInfo tests_of_misuse[] = {
   {"the allocator may fail anywhere", the_allocator_may_fail_anywhere},
   {"bad arguments are refused", bad_arguments_are_refused},
   {"callbacks that stop are obeyed", callbacks_that_stop_are_obeyed},
+  {"no name is needed", no_name_is_needed},
   {"names are used", names_are_used},
   CU_TEST_INFO_NULL};

@@ -100,6 +100,46 @@ static void few_evaluations_leave_the_best(void)
   steif_context_free(&ctx);
 }
 
+static volatile int stop;
+static long steps_left;
+
+static int count_down(steif_solver *s, sunrealtype t, N_Vector y, void *user)
+{
+  (void)s, (void)t, (void)y, (void)user;
+  if (--steps_left <= 0) stop = 1;
+  return 0;
+}
+
+/* The later it is stopped, the better is what it keeps; before the end of the first run that is nothing. */
+static void a_stopped_search_keeps_its_best(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  made_data made;
+  prey P;
+  steif_fit fit;
+  steif_options run = steif_defaults();
+  prey_data(ctx, &made);
+  prey_open(&P, 1.6, 0.9, 2.8, 1.1);
+  run.rtol = 1e-8, run.stop = &stop, run.observe = count_down;
+  const steif_fit_options o = {.run = &run};
+  double chi2[4] = {INFINITY};
+  for (int k = 1; k < 4; k++) {
+    steps_left = 2L << (3 * k), stop = 0;
+    CHECK(steif_fit_find(ctx, &P.problem, "radau:s=3", &made.data, &o, &fit) == STEIF_STOPPED);
+    chi2[k] = fit.p ? fit.chi2 : INFINITY;
+    CHECK(chi2[k] <= chi2[k - 1]);
+    if (fit.p) {
+      sunrealtype sum = 0;
+      for (size_t j = 0; j < fit.residuals; j++) sum += fit.residual[j] * fit.residual[j];
+      CHECK(fabs(sum - fit.chi2) <= 1e-12 * sum && fit.exhausted == STEIF_STOPPED);
+      CHECK(strstr(steif_message(ctx), "the best of") != NULL);
+    }
+    steif_fit_free(ctx, &fit);
+  }
+  CHECK(isfinite(chi2[3]) && chi2[3] < chi2[1]);
+  steif_context_free(&ctx);
+}
+
 static int fit_product(steif_context *ctx)
 {
   made_data made;
@@ -138,5 +178,6 @@ CU_TestInfo tests_of_bad_fits[] = {
   {"failing runs are rejected steps", failing_runs_are_rejected_steps},
   {"bad input", bad_input},
   {"few evaluations leave the best", few_evaluations_leave_the_best},
+  {"a stopped search keeps its best", a_stopped_search_keeps_its_best},
   {"failing memory leaks nothing", failing_memory_leaks_nothing},
   CU_TEST_INFO_NULL};

@@ -238,11 +238,52 @@ static void far_starts_arrive(void)
   steif_context_free(&ctx);
 }
 
+/* Measured is an output, in which parameters stand, one of them by another that follows it. Reference: SciPy 1.10,
+ * least_squares on the closed form with tolerances of 1e-14. */
+static void an_output_is_measured(void)
+{
+  static const char text[] =
+    "param k = 1, gain = 2, off = 0.1, two = 2*gain\nstate x = 1\nx' = -k*x\n"
+    "output other = x, signal = gain*x + off + two*x^2\n";
+  static const double value[] = {5.42041, 3.27770, 2.11827, 1.41928, 1.01131, 0.76443, 0.59049,
+                                 0.50836, 0.43637, 0.43425, 0.37329, 0.34677, 0.33299},
+                      p[] = {1.31458289, 1.7033429, 0.30518757},
+                      sd[] = {0.00624257, 0.00329825, 0.00468731};
+  enum { COUNT = sizeof value / sizeof *value };
+  static const int fitted[] = {0, 1, 2};
+  double t[COUNT], width[COUNT];
+  sunindextype which[COUNT];
+  for (int j = 0; j < COUNT; j++) t[j] = 0.25 * j, width[j] = 0.01, which[j] = 2;
+  const steif_measurements data = {
+    .count = COUNT, .t = t, .value = (double *)value, .sd = width, .component = which};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem problem;
+  steif_options run = steif_defaults();
+  run.rtol = 1e-11;
+  const steif_fit_options o = {
+    .run = &run, .count = 3, .parameter = fitted, .scale = STEIF_FIT_LINEAR};
+  steif_fit fit;
+  CU_ASSERT_FATAL(!steif_model_parse(ctx, text, "m.steif", NULL, &problem));
+  CHECK(steif_fit_find(ctx, &problem, "radau:s=3", &data, &o, &fit) == STEIF_OK);
+  for (int i = 0; fit.p && i < 3; i++) {
+    CLOSE(fit.p[i], p[i], 1e-6);
+    CLOSE(fit.sd[i], sd[i], 1e-5);
+  }
+  if (fit.p) CLOSE(fit.chi2, 21.494110646, 1e-8);
+  steif_fit_free(ctx, &fit);
+  which[3] = 3; /* past the last output */
+  CHECK(steif_fit_find(ctx, &problem, "radau:s=3", &data, &o, &fit) == STEIF_BAD_INPUT);
+  steif_fit_free(ctx, &fit);
+  steif_problem_clear(ctx, &problem);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_fits[] = {{"prey and predators", prey_and_predators},
                                {"a local minimum is said", a_local_minimum_is_said},
                                {"Robertson's reaction", robertson},
                                {"a product alone is named", a_product_alone_is_named},
                                {"bounds hold", bounds_hold},
+                               {"an output is measured", an_output_is_measured},
                                {"linear regression", linear_regression},
                                {"far starts arrive", far_starts_arrive},
                                CU_TEST_INFO_NULL};

@@ -6,6 +6,7 @@
 #include "models/models.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
+#include <steif/solver.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
@@ -173,7 +174,69 @@ static void index_scaling_bounds_the_condition(void)
   }
 }
 
+/* Q' = -G U, 0 = Q - C U + C sin t: of index 1 for every C > 0, a charge in coulombs beside volts, of whose size the
+ * problem says nothing. With a source at the capacitor, j in Q' = -G U - j and 0 = U - sin t, of index 2. */
+static double capacity;
+
+static int charge(sunrealtype t, N_Vector y, N_Vector r, void *user)
+{
+  const sunrealtype *u = N_VGetArrayPointer(y);
+  const bool loop = user != NULL;
+  NV_Ith_S(r, 0) = -1e-9 * u[1] - (loop ? u[2] : 0);
+  NV_Ith_S(r, 1) = u[0] - capacity * (u[1] - (loop ? 0 : sin(t)));
+  if (loop) NV_Ith_S(r, 2) = u[1] - sin(t);
+  return 0;
+}
+
+static int slopes(sunrealtype t, N_Vector y, N_Vector r, SUNMatrix J, void *user, N_Vector a,
+                  N_Vector b, N_Vector c)
+{
+  (void)t, (void)y, (void)r, (void)a, (void)b, (void)c;
+  SM_ELEMENT_D(J, 0, 1) = -1e-9, SM_ELEMENT_D(J, 1, 0) = 1, SM_ELEMENT_D(J, 1, 1) = -capacity;
+  if (user) SM_ELEMENT_D(J, 0, 2) = -1, SM_ELEMENT_D(J, 2, 1) = 1;
+  return 0;
+}
+
+static int first_row(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  SM_ELEMENT_D(E, 0, 0) = 1;
+  return 0;
+}
+
+static void small_charges_are_no_rounding(void)
+{
+  static const double y0[] = {0, 0, 0};
+  steif_context *ctx = steif_context_new(NULL);
+  static int loop = 1;
+  for (int k = 0; k <= 20; k++) {
+    capacity = pow(10, -k);
+    for (int n = 2; n <= 3; n++) {
+      const steif_problem p = {.name = "charge",
+                               .n = n,
+                               .t1 = 1,
+                               .y0 = y0,
+                               .f = charge,
+                               .jac = slopes,
+                               .E = first_row,
+                               .user = n == 3 ? &loop : NULL};
+      steif_diagnosis d;
+      CHECK(steif_diagnose(ctx, &p, NULL, &d) == STEIF_OK);
+      CHECK(d.index == n - 1 && d.freedom == 3 - n);
+      if (d.index != n - 1) printf("\n  C = %g: %s", capacity, d.message);
+      for (int j = 0; j < n; j++) CHECK(d.number[j] == (j == 2 ? 2 : 1));
+      steif_diagnosis_clear(&d);
+      steif_options o = steif_defaults();
+      steif_solver *s = steif_solver_new(ctx, &p, "radau:s=3", &o);
+      CHECK(s && steif_solve_to(s, 1) == STEIF_OK);
+      steif_solver_free(&s);
+    }
+  }
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_scales[] = {
   {"units do not matter", units_do_not_matter},
+  {"small charges are no rounding", small_charges_are_no_rounding},
   {"index scaling bounds the condition", index_scaling_bounds_the_condition},
   CU_TEST_INFO_NULL};

@@ -60,6 +60,31 @@ static void cut_files_are_refused(void)
   steif_context_free(&ctx);
 }
 
+/* The sizes 2 x 2 replaced by 40000 x 40000: refused by what is in the file, not for want of memory. */
+static void claims_are_looked_at(void)
+{
+  static char bytes[65536];
+  const unsigned long long was[] = {2, 2}, claim[] = {40000, 40000};
+  steif_context *ctx = steif_context_new(NULL);
+  const char *path = written(ctx);
+  FILE *file = path ? fopen(path, "rb") : NULL;
+  const size_t length = file ? fread(bytes, 1, sizeof bytes, file) : 0;
+  int changed = 0;
+  if (file) fclose(file);
+  for (size_t k = 0; k + sizeof was <= length; k++)
+    if (!memcmp(bytes + k, was, sizeof was)) {
+      memcpy(bytes + k, claim, sizeof claim);
+      changed++;
+    }
+  CHECK(!length || changed >= 2);
+  steif_forget(ctx);
+  if (length) {
+    CHECK(!steif_matrix_read_mat(ctx, put_bytes("claim.h5", bytes, length), "E", NULL));
+    CHECK(steif_status(ctx) == STEIF_BAD_INPUT);
+  }
+  steif_context_free(&ctx);
+}
+
 static void every_allocation_may_fail(void)
 {
   failing c = {0};
@@ -122,6 +147,7 @@ static void files_of_version_7_3_are_read(void) {} /* nothing writes one here */
 CU_TestInfo tests_of_hdf5[] = {
   {"data sets are matrices by rows", data_sets_are_matrices_by_rows},
   {"files that are cut off are refused", cut_files_are_refused},
+  {"claims are looked at", claims_are_looked_at},
   {"every allocation may fail", every_allocation_may_fail},
   {"files of MATLAB 7.3", files_of_version_7_3_are_read},
   CU_TEST_INFO_NULL};

@@ -74,7 +74,7 @@ static void as_good_as_direct(void)
   begin("bruss2d:n=16");
   for (int m = 0; m < 2; m++) {
     steif_options o = steif_defaults();
-    o.rtol = 1e-4;
+    o.rtol = 1e-5;
     steif_solver *direct = smooth_open(ctx, &square, methods[m], &o);
     o.storage = STEIF_KRYLOV, o.force_storage = 1;
     steif_solver *krylov = smooth_open(ctx, &square, methods[m], &o);

@@ -1,9 +1,10 @@
-/* test_derivatives.c: the entries of E and A of many models against central differences of f and F at
- * random points, and no entry outside the pattern.
+/* test_derivatives.c: the entries of E and A of many models against differences of F at random points: all
+ * derivatives that differ from 0 are in the pattern, and nothing else is.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
 #include <stdlib.h>
-#include <sunmatrix/sunmatrix_dense.h>
+#include <math.h>
+#include <steif/model.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
 /* Right-hand sides that use every function, three unknowns x, y, z > 0. */
@@ -23,50 +24,128 @@ static const char *const sides[] = {
   "q + f(x, y)*g(z) + sum(k in 1:4: k*x^k)*y + t*x",
 };
 
-static double difference(steif_problem *p, N_Vector y, N_Vector f, N_Vector w, int i, int j,
-                         double t)
+enum { MOST = 100 }; /* unknowns */
+static int models;   /* that were compared */
+
+/* F(t, y, y') = E y' - f(t, y) of any form: the first of its Taylor coefficients. */
+static void residual(fixture *s, double t, const double *point, double *F)
 {
-  const double before = NV_Ith_S(y, j), h = 1e-5 * (1 + fabs(before));
-  double value[2];
-  for (int k = 0; k < 2; k++) {
-    NV_Ith_S(y, j) = k ? before - h : before + h;
-    if (p->F)
-      CHECK(p->F(t, y, w, f, p->user) == 0);
-    else
-      CHECK(p->f(t, y, f, p->user) == 0);
-    value[k] = NV_Ith_S(f, i);
-  }
-  NV_Ith_S(y, j) = before;
-  return (value[0] - value[1]) / (2 * h);
+  CHECK(!steif_model_taylor(s->ctx, &s->p, t, 0, point, F));
 }
 
-static void check_at_random(fixture *s)
+/* dF/d(component j of y, y'), of fourth order; point: y, then y'. */
+static void difference(fixture *s, double t, double *point, int j, double size, double *column)
 {
   const int n = (int)s->p.n;
-  SUNMatrix J = SUNDenseMatrix(n, n, steif_sundials(s->ctx));
-  N_Vector y = N_VNew_Serial(n, steif_sundials(s->ctx)), f = N_VClone(y), w = N_VClone(y);
+  const double before = point[j], step[] = {2e-4 * size, 1e-4 * size};
+  double F[2][MOST];
+  for (int k = 0; k < n; k++) column[k] = 0;
+  for (int turn = 0; turn < 2; turn++) {
+    for (int side = 0; side < 2; side++) {
+      point[j] = side ? before - step[turn] : before + step[turn];
+      residual(s, t, point, F[side]);
+    }
+    point[j] = before;
+    for (int k = 0; k < n; k++)
+      column[k] += (turn ? 4. : -1.) / 3 * (F[0][k] - F[1][k]) / (2 * step[turn]);
+  }
+}
+
+/* Places of the pattern, and those of them at which an entry has differed from 0. */
+typedef struct places {
+  bool stored[MOST * MOST], met[MOST * MOST];
+} places;
+
+/* Entries of A = -dF/dy or E = dF/dy' at a point, dense by columns. */
+static void entries(fixture *s, double t, N_Vector y, N_Vector yp, bool of_E, double *dense,
+                    places *at)
+{
+  const steif_problem *p = &s->p;
+  const int n = (int)p->n;
+  SUNMatrix M =
+    SUNSparseMatrix(n, n, of_E ? p->nnz_E : p->nnz, CSC_MAT, steif_sundials(s->ctx));
+  N_Vector f = N_VClone(y);
+  CHECK(!(of_E     ? p->E(t, y, yp, M, p->user)
+          : p->jac ? p->jac(t, y, f, M, p->user, NULL, NULL, NULL)
+                   : p->A(t, y, yp, M, p->user)));
+  for (int j = 0; j < n; j++)
+    for (sunindextype k = SUNSparseMatrix_IndexPointers(M)[j];
+         k < SUNSparseMatrix_IndexPointers(M)[j + 1]; k++) {
+      const int place = (int)SUNSparseMatrix_IndexValues(M)[k] + j * n;
+      dense[place] += SUNSparseMatrix_Data(M)[k];
+      at->stored[place] = true;
+      at->met[place] = at->met[place] || SUNSparseMatrix_Data(M)[k] != 0;
+    }
+  N_VDestroy(f);
+  SUNMatDestroy(M);
+}
+
+/* All n x n derivatives at one point, so that none outside the pattern differs from 0. */
+static void compare(fixture *s, double t, N_Vector y, N_Vector yp, bool of_E, places *at)
+{
+  static double dense[MOST * MOST];
+  double point[2 * MOST], column[MOST], largest = 1;
+  const int n = (int)s->p.n;
+  if (of_E && !s->p.E) return;
+  memset(dense, 0, sizeof dense);
+  memcpy(point, N_VGetArrayPointer(y), (size_t)n * sizeof *point);
+  memcpy(point + n, N_VGetArrayPointer(yp), (size_t)n * sizeof *point);
+  entries(s, t, y, yp, of_E, dense, at);
+  residual(s, t, point, column);
+  for (int i = 0; i < n; i++) largest = fmax(largest, fabs(column[i]));
+  for (int j = 0; j < n; j++) {
+    const int moved = of_E ? n + j : j;
+    const double size = fmax(1e-3, fabs(point[moved]));
+    difference(s, t, point, moved, size, column);
+    for (int i = 0; i < n; i++)
+      CLOSE_FLOOR(dense[i + j * n], of_E ? column[i] : -column[i], 1e-6,
+                  fmax(1, 1e-5 * largest / size));
+  }
+}
+
+/* f or F of the tapes is that of the series. */
+static void same_residual(fixture *s, double t, N_Vector y, N_Vector yp)
+{
+  double point[2 * MOST] = {0}, F[MOST];
+  const int n = (int)s->p.n;
+  N_Vector f = N_VClone(y);
+  memcpy(point, N_VGetArrayPointer(y), (size_t)n * sizeof *point);
+  if (s->p.F) memcpy(point + n, N_VGetArrayPointer(yp), (size_t)n * sizeof *point);
+  residual(s, t, point, F);
+  if (s->p.F) CHECK(!s->p.F(t, y, yp, f, s->p.user));
+  if (s->p.f) CHECK(!s->p.f(t, y, f, s->p.user));
+  for (int i = 0; i < n && (s->p.f || s->p.F); i++)
+    CLOSE_FLOOR(NV_Ith_S(f, i), s->p.F ? F[i] : -F[i], 1e-12, 1);
+  N_VDestroy(f);
+}
+
+/* Random points in 0.5 .. 2.5, or (near) about the start; exact: each place of the patterns is met at one of them. */
+static void check_points(fixture *s, bool near, bool exact)
+{
+  static places at[2];
+  const int n = (int)s->p.n;
+  const double t = s->p.t0 + (near ? 3e-3 : 0.3) * (s->p.t1 - s->p.t0);
+  N_Vector y = N_VNew_Serial(n, steif_sundials(s->ctx)), yp = N_VClone(y);
   unsigned long long seed = 12345;
+  CU_ASSERT_FATAL(n <= MOST);
+  memset(at, 0, sizeof at);
   for (int turn = 0; turn < 5; turn++) {
     for (int i = 0; i < n; i++) {
       seed = seed * 6364136223846793005u + 1442695040888963407u;
-      NV_Ith_S(y, i) = 0.5 + 2 * (double)(seed >> 40) / (1 << 24);
-      NV_Ith_S(w, i) = NV_Ith_S(y, i) - 1.5;
+      const double part = (double)(seed >> 40) / (1 << 24), y0 = s->p.y0[i];
+      NV_Ith_S(y, i) = near ? y0 + 1e-2 * (part + 0.01) * (y0 != 0 ? y0 : 1) : 0.5 + 2 * part;
+      NV_Ith_S(yp, i) = part - 0.3;
     }
-    SUNMatZero(J);
-    if (s->p.jac)
-      s->p.jac(0.3, y, f, J, s->p.user, NULL, NULL, NULL);
-    else
-      s->p.A(0.3, y, w, J, s->p.user);
-    const double sign = s->p.F ? -1 : 1;
-    for (int i = 0; i < n; i++)
-      for (int j = 0; j < n; j++) {
-        const double wanted = sign * difference(&s->p, y, f, w, i, j, 0.3);
-        CLOSE_FLOOR(SM_ELEMENT_D(J, i, j), wanted, 2e-7, 1);
-      }
+    same_residual(s, t, y, yp);
+    for (int of_E = 0; of_E < 2; of_E++) compare(s, t, y, yp, of_E, at + of_E);
   }
-  N_VDestroy(y), N_VDestroy(f), N_VDestroy(w);
-  SUNMatDestroy(J);
+  for (int of_E = 0; exact && of_E < 2; of_E++)
+    for (int k = 0; k < n * n; k++) CHECK(at[of_E].met[k] == at[of_E].stored[k]);
+  models++;
+  N_VDestroy(y), N_VDestroy(yp);
 }
+
+static void check_at_random(fixture *s) { check_points(s, false, true); }
 
 static void of_all_functions(void)
 {
@@ -97,7 +176,7 @@ static void of_a_branch_alone(void)
                  "state x = 1, y = 1\nx' = if noevent(y) > 9 then sqrt(y - 9) else y^2\n"
                  "y' = 2*x*(if y > 9 then log(y - 9) else 3*x)\ntime 0 to 1\n",
                  "") == STEIF_OK);
-  check_at_random(&s);
+  check_points(&s, false, false);
   fixture_close(&s);
 }
 
@@ -122,7 +201,72 @@ static void of_loops(void)
   fixture_close(&s);
 }
 
+/* Constructs of the language, each in a model. */
+static const char *const constructs[] = {
+  "state x = 2, x' = 0\nx'' = -x^3 - 0.1*x'\n",
+  "state x = 2, x' = 1, x'' = 1, y = 1\nx''' = -x*x'*x'' + y\ny' = x''^2\n",
+  "state x = 1, y, z\nx' = y*z\n0 = x - y^3\n0 = z + exp(z) - x\n",
+  "param a = 3\nstate x = 1, y = 2, i ~ 0\n2*x' + a*y' = i\nx' - y' = x*y\n0 = i - x*y^2\n",
+  "state x = 1, y = 1\nx*x' + y' = sin(y)\nx'^2 + y' = 4*x\n",
+  "state x = 1, v ~ 0, l\nform descriptor\nx' = v + l\nv' = -3*x + cos(t)\n0 = x - 2*l + t^2\n",
+  "table f = (0, 1), (1, 3), (3, 2), (9, 5) cubic\nstate x = 1, y = 1\nx' = f(y)\n"
+  "y' = f(x + t/9)*y\n",
+  "table f = (0, 1), (9, 3) linear\ntable g = (0, 1), (9, 3) steps outside hold\n"
+  "state x = 1, y = 1\nx' = f(x*y)\ny' = g(x)*y\n",
+  "param n = 6 whole\nstate u[i in 1:n] = 1, s\nboundary u[0] = u[n], u[n+1] = u[1]\n"
+  "for i in 1:n\nu[i]' = u[i-1]*u[i+1] - u[i]^2 + s\nend\n0 = s - sum(i in 1:n: i*u[i]^2)\n",
+  "param n = 5 whole\nstate u[i in 1:n, j in 1:n] = 1\nboundary u[0, j in 1:n] = t, u[n+1, j "
+  "in "
+  "1:n] = u[n-1, j], u[i in 1:n, 0] = u[i, n], u[i in 1:n, n+1] = u[i, 1]\nfor i in 1:n\nfor j "
+  "in 1:n\nu[i,j]' = u[i-1,j] + u[i+1,j]^2 + u[i,j-1] + u[i,j+1] - 4*u[i,j] + u[i,j]*u[i,j-1]\n"
+  "end\nend\n",
+  "param n = 3 whole\nstate w[i in 1:n, j in 1:n, k in 1:n] = 1\nboundary w[0, j in 1:n, k in "
+  "1:n] = 2\nfor i in 1:n\nfor j in 1:n\nfor k in 1:n\nw[i,j,k]' = w[i-1,j,k]*w[i,j,k] - "
+  "k*w[i,mod(j, n) + 1,k]^2\nend\nend\nend\n",
+  "param n = 8 whole\nstate u[i in 1:n] = 1, v[1:n] ~ 1\nfor i in 1:n\nv[i] = u[i]^2 + "
+  "v[i]^3/9\nend\nfor i in 1:div(n, 2)\nu[i]' = v[2*i] - u[n+1-i]\nu[i+4]' = "
+  "-u[i+4]*v[i]\nend\n",
+  "discrete on = 2\nstate x = 1, y = 1\nx' = on*x*y\ny' = if x > 9 then 1 else x^on - y\n"
+  "when x > 9: on = 3\nat 8: y = 1\nevery 9: x = 1\n",
+  "function h(a, b) = k(a)*b + a^2\nfunction k(a) = sqrt(a) + tanh(a)\nlet p = h(x, y), q = "
+  "h(p, x)\nstate x = 1, y = 1\nx' = p*q\ny' = smooth(max(x, y + 9)) + noevent(abs(x))*q\n",
+};
+
+static void of_constructs(void)
+{
+  char text[1000];
+  for (size_t i = 0; i < sizeof constructs / sizeof *constructs; i++) {
+    fixture s;
+    snprintf(text, sizeof text, "%stime 0 to 1\n", constructs[i]);
+    const int code = fixture_text(&s, text, "");
+    if (code) printf("\n  %s: %s", constructs[i], steif_message(s.ctx));
+    CHECK(code == STEIF_OK);
+    if (!code) check_at_random(&s);
+    fixture_close(&s);
+  }
+}
+
+/* The examples about their starts, where not every term has an effect yet. */
+static void of_examples(void)
+{
+  static const char *const names[] = {
+    "akzo.steif",    "bounce.steif",     "brusselator.steif:n=12",
+    "caraxis.steif", "converter.steif",  "hunters.steif",
+    "lotka.steif",   "orego.steif",      "pendulum.steif",
+    "reactor.steif", "rober.steif",      "transamp.steif",
+    "vdpol.steif",   "vdpol.steif:eps=0"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    fixture s;
+    CU_ASSERT_FATAL(fixture_example(&s, names[i]) == STEIF_OK);
+    check_points(&s, true, false);
+    fixture_close(&s);
+  }
+  CHECK(models >= 40);
+}
+
 CU_TestInfo tests_of_derivatives[] = {{"all functions, three forms", of_all_functions},
                                       {"branches", of_a_branch_alone},
                                       {"loops", of_loops},
+                                      {"constructs", of_constructs},
+                                      {"examples, and how many in all", of_examples},
                                       CU_TEST_INFO_NULL};

@@ -11,6 +11,25 @@ static int parse(fixture *s, const char *text)
   return code;
 }
 
+/* No `time`: a run says its end, and meets the break of the source there; without, it is told what is missing. */
+static void no_interval(void)
+{
+  fixture s;
+  steif_options o = steif_defaults();
+  CU_ASSERT_FATAL(!parse(&s, "state x = 0\nx' = if t < 1.5 then 1 else 0\n"));
+  CHECK(s.p.t0 == 0 && s.p.t1 == 0 && s.p.break_count == 1);
+  CHECK(!steif_solver_new(s.ctx, &s.p, "radau:s=3", &o));
+  CHECK(!!strstr(steif_message(s.ctx), "m.steif: no time interval; set options.t1, or in a "
+                                       "model add 'time 0 to 10'"));
+  o.t1 = 3;
+  steif_solver *solver = steif_solver_new(s.ctx, &s.p, "radau:s=3", &o);
+  CU_ASSERT_FATAL(solver != NULL);
+  CHECK(steif_solve_to(solver, 3) == STEIF_OK);
+  CLOSE(NV_Ith_S(steif_solution(solver), 0), 1.5, 1e-12);
+  steif_solver_free(&solver);
+  fixture_close(&s);
+}
+
 /* x' = -k x, solved for two values of k; a parameter that does not exist leaves the problem as it is. */
 static void parameters_between_runs(void)
 {
@@ -241,6 +260,7 @@ CU_TestInfo tests_of_interface[] = {
   {"references belong to parameters", references_belong_to_parameters},
   {"moved guesses are told", moved_guesses_are_told},
   {"guesses between two solutions are refused", guesses_between_solutions_are_refused},
+  {"no interval", no_interval},
   {"parameters between runs", parameters_between_runs},
   {"facts", facts},
   {"impulses of a linear model", a_linear_model_has_impulses},

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
 #include <ctype.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 typedef struct wrong {
   const char *text, *rest, *sentence; /* after the path of the folder */
@@ -14,7 +16,6 @@ static const wrong models[] = {
   {"param k1 = 1\nstate y1 = 1\ny1' = -k1*y1\nr = k1*y1\n", "",
    "m.steif:4:1: 'r' is not declared; write 'let r = ...' for an abbreviation, 'state r' for "
    "an unknown"},
-  {"state x = 1\nx' = 1\n", "", "m.steif: no time interval; add 'time 0 to 10'"},
   {"param k = 1\n\n\n\n\n\nparam k = 2\n", "",
    "m.steif:7:7: 'k' is already a parameter (line 1); a later line never replaces an earlier "
    "one"},
@@ -27,6 +28,8 @@ static const wrong models[] = {
    "the loop is solved "
    "as an equation"},
   {"state x = 1\nx' = 2x\n", "", "m.steif:2:6: '2x': write 2*x"},
+  {"param a = 0x10\n", "", "m.steif:1:11: a hexadecimal number; write it as a decimal one"},
+  {"param a = 1_000\n", "", "m.steif:1:11: a number with '_'; write it without"},
   {"param a = 1,5\n", "", "m.steif:1:11: '1,5': decimal point, 1.5"},
   {"state u[1..2]\n", "", "m.steif:1:9: '..' between numbers: a range is written 1:2"},
   {"state x = 1\nx' = if x == 0 then 1 else 2\n", "",
@@ -52,13 +55,15 @@ static const wrong models[] = {
    "m.steif: no matching: the equations of lines 3, 4 contain 'z' only, nothing determines 'w' "
    "(line 1)"},
   {"state y = 1\ny' = 1\nstate x\n\n\nx' = 2\ntime 0 to 1\n", "",
-   "m.steif:3:7: 'x' needs a start value since its derivative occurs; write 'state x = ...', "
+   "m.steif:3:7: 'x' needs a start value since its derivative occurs (line 6); write 'state x "
+   "= ...', "
    "or '~' for a guess. "
    "Only states without derivative may leave it out"},
   {"state x = 1\nfunction f(x) = f(x-1)\nx' = f(x)\ntime 0 to 1\n", "",
    "m.steif:2:10: function 'f' calls itself; recursion is not part of the language"},
   {"param x0 = 2\nstate x = 2\n\n\nx' = 1/(x - x0)\ntime 0 to 1\n", "",
-   "m.steif:5:7: division by zero at the start (t = 0, x = 2); change the start or rewrite"},
+   "m.steif:5:7: division by zero at the start (t = 0, x = 2): 'x - x0' is 0; change the start "
+   "or rewrite"},
   {"state z = -1\nz'=0\nstate y = 1\n\ny' = log(z)\ntime 0 to 1\n", "",
    "m.steif:5:6: log of -1 at the start (t = 0, z = -1)"},
   {"\n\n\nstate u[i in 1:100] = 1\n\n\nfor i in 2:99\nu[i]' = 1\nend\ntime 0 to 1\n", "",
@@ -135,7 +140,77 @@ static void have_their_sentence(void)
   }
 }
 
-/* 250 parentheses; a zero byte; a file that is a directory; a directory of a path that leaves. */
+/* What is said of the text in a folder with `file` beside it, a text, or (NULL) a link to `target`. */
+static void beside(const char *text, const char *file, const char *content, const char *target,
+                   const char *sentence)
+{
+  fixture s = {.ctx = steif_context_new(NULL)};
+  char path[sizeof s.folder + 40];
+  CU_ASSERT_FATAL(folder_make(s.folder, sizeof s.folder) != NULL);
+  snprintf(path, sizeof path, "%s/%s", s.folder, file);
+  FILE *to = content ? fopen(path, "w") : NULL;
+  if (to) fputs(content, to), fclose(to);
+  CU_ASSERT_FATAL(content ? to != NULL : symlink(target, path) == 0);
+  snprintf(s.path, sizeof s.path, "%s/m.steif", s.folder);
+  steif_problem p = {0};
+  const int code = steif_model_parse(s.ctx, text, s.path, NULL, &p);
+  const char *said = steif_message(s.ctx), *base = strstr(said, "m.steif");
+  const bool told = sentence && base && !strncmp(base, sentence, strlen(sentence));
+  if (sentence && !told) printf("\n  got %s", said);
+  CHECK(sentence ? code == STEIF_BAD_INPUT && told : code == STEIF_OK);
+  steif_problem_clear(s.ctx, &p);
+  unlink(path);
+  rmdir(s.folder);
+  steif_context_free(&s.ctx);
+}
+
+/* Units of a table's times, where both are told; links that leave the folder. */
+static void of_files_beside(void)
+{
+  static const char table[] = "state x = 1\ntable f = \"f.csv\" column \"T\" linear\n"
+                              "x' = f(t)\ntime 0 to 1 {min}\n",
+                    include[] = "include \"part.steif\"\n";
+  beside(table, "f.csv", "t {s},T {K}\n0,1\n1,2\n", NULL,
+         "m.steif:2:7: time is in {min} (line 4), the column 't {s}' of f.csv in {s}; convert "
+         "one");
+  beside(table, "f.csv", "t {min},T\n0,1\n1,2\n", NULL, NULL);
+  beside(table, "f.csv", "t,T {K}\n0,1\n1,2\n", NULL, NULL);
+  beside(
+    include, "part.steif", NULL, "/etc/passwd",
+    "m.steif:1:9: 'part.steif' leaves the directory of the model; copy the file beside it");
+  beside(table, "f.csv", NULL, "/etc/passwd",
+         "m.steif:2:11: 'f.csv' leaves the directory of the model; copy the file beside it");
+}
+
+/* A zero byte; too long; a directory and a device. */
+static void are_no_texts(void)
+{
+  fixture s = {.ctx = steif_context_new(NULL)};
+  CU_ASSERT_FATAL(folder_make(s.folder, sizeof s.folder) != NULL);
+  snprintf(s.path, sizeof s.path, "%s/m.steif", s.folder);
+  FILE *file = fopen(s.path, "w");
+  CU_ASSERT_FATAL(file != NULL);
+  fwrite("state x = 1\nx\0' = 1\n", 1, 21, file);
+  fclose(file);
+  CHECK(steif_problem_find(s.ctx, s.path, &s.p) == STEIF_BAD_INPUT);
+  CHECK(!!strstr(steif_message(s.ctx), "m.steif:2:2: byte 0 in the text; a model is a UTF-8 "
+                                       "text file"));
+  CHECK(truncate(s.path, 1L << 30) == 0);
+  CHECK(steif_problem_find(s.ctx, s.path, &s.p) == STEIF_BAD_INPUT);
+  CHECK(!!strstr(steif_message(s.ctx), "1073741824 bytes; 67108864 are the most. Use loops"));
+  unlink(s.path);
+  CHECK(symlink("/dev/zero", s.path) == 0);
+  CHECK(steif_problem_find(s.ctx, s.path, &s.p) == STEIF_IO);
+  CHECK(!!strstr(steif_message(s.ctx), "it is a device or a pipe"));
+  unlink(s.path);
+  CHECK(mkdir(s.path, 0700) == 0);
+  CHECK(steif_problem_find(s.ctx, s.path, &s.p) == STEIF_IO);
+  CHECK(!!strstr(steif_message(s.ctx), "it is a directory"));
+  rmdir(s.path);
+  fixture_close(&s);
+}
+
+/* 250 parentheses; no such folder; UTF-16. */
 static void are_survived(void)
 {
   char text[600] = "state x = 1\nx' = ";
@@ -207,6 +282,8 @@ static void of_one_token(void)
 }
 
 CU_TestInfo tests_of_wrong_models[] = {{"hostile texts", are_survived},
+                                       {"no texts", are_no_texts},
+                                       {"files beside", of_files_beside},
                                        {"one token more or less", of_one_token},
                                        {"large ones are counted", large_ones_are_counted},
                                        {"each has its sentence", have_their_sentence},

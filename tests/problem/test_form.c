@@ -91,10 +91,10 @@ static void refused(const steif_problem *p, int code, const char *words)
 
 static void missing_members_are_named(void)
 {
-  refused(NULL, STEIF_BAD_INPUT, "a problem with a name");
+  refused(NULL, STEIF_BAD_INPUT, "a problem is needed");
   steif_problem p = bare();
-  p.f = f, p.name = NULL;
-  refused(&p, STEIF_BAD_INPUT, "a problem with a name");
+  p.name = NULL;
+  refused(&p, STEIF_BAD_INPUT, "'unnamed' has no form");
   p = bare();
   refused(&p, STEIF_BAD_INPUT, "has no form: set .f");
   p.E = fill;

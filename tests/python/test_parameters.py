@@ -1,6 +1,7 @@
 """Derivatives by parameters, fits and sweeps from Python, against closed forms."""
 import math
 import os
+import tempfile
 import unittest
 
 import numpy as np
@@ -69,6 +70,15 @@ class Fit(unittest.TestCase):
         self.assertGreater(r.high[0], k)
         slope = np.sum((np.exp(-found * t) - data) * t * np.exp(-found * t))
         self.assertLess(abs(slope), 1e-8)
+
+    def test_an_output_is_measured(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "gain.steif")
+            with open(path, "w") as file:
+                file.write("param k = 1, gain = 2\nstate x = 1\nx' = -k*x\noutput signal = gain*x^2\n")
+            t = np.linspace(0, 2, 9)
+            r = steif.fit(path, t, {"signal": 1.7 * np.exp(-2.6 * t)}, sd=0.01)
+        np.testing.assert_allclose(r.p, [1.3, 1.7], rtol=1e-6)
 
     def test_a_model_and_a_file(self):
         r = steif.fit(os.path.join(MODELS, "lotka.steif"), None, os.path.join(MODELS, "lotka.csv"), sd=0.05)

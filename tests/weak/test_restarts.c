@@ -190,12 +190,13 @@ static void refusals_say_why(void)
   broken_open(&s, 2, "0;step(t-" FIRST ")+step(t-" SECOND ")");
   steif_weak_query q = query_of(&s, "bdf:p=2", STEIF_R, NULL, 3);
   CHECK(!steif_weak_measure(s.ctx, &q, row, &r) && r.converges == -1 && !*r.mesh);
-  CHECK(strstr(r.verdict, "inside a step") != NULL && strstr(r.verdict, "--start cq") != NULL);
+  CHECK(strstr(r.verdict, "inside a step") != NULL &&
+        strstr(r.verdict, ".start = \"cq\"") != NULL);
   q.restart = 1;
   CHECK(steif_weak_measure(s.ctx, &q, row, &r) == STEIF_UNSUPPORTED);
   q.method = "be", q.restart = 0, q.h = 1.0 / 64;
   CHECK(!steif_weak_measure(s.ctx, &q, row, &r) && r.converges == -1 && isnan(row[2].order));
-  CHECK(strstr(r.verdict, "let steps end there (--restart)") != NULL);
+  CHECK(strstr(r.verdict, "let steps end there (.restart)") != NULL);
   const sunrealtype near[] = {0.3, 0.3 + 1e-9};
   q.breaks = near, q.restart = 1;
   CHECK(steif_weak_measure(s.ctx, &q, row, &r) == STEIF_BAD_INPUT);

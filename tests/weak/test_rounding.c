@@ -2,6 +2,7 @@
  * turn.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak/data.h"
+#include "weak/judged.h"
 #include <sunmatrix/sunmatrix_dense.h>
 
 /* <x_h, g> of backward Euler, convention R, x(0-) = (1, .., k), f = 0: the symbol (s_h/s) (I + s_h N)^-1 N
@@ -237,16 +238,7 @@ static void small_is_not_zero(void)
                                 .error = times * 1e-14,
                                 .rounding = 1e-14,
                                 .order = NAN};
-    const stf_judged j = {.row = row,
-                          .rows = 3,
-                          .size = 1,
-                          .longest = 1,
-                          .fastest = "f",
-                          .blind = -1,
-                          .inside = NAN,
-                          .fitting = NAN};
-    steif_weak_result r = {.converges = -7};
-    stf_weak_judge(&j, &r);
+    const steif_weak_result r = judged(row, 3);
     CHECK(r.converges == (times < 4 ? 1 : -1));
     CHECK(strstr(r.verdict, times < 4 ? "exact to rounding" : "undecided: rounding") ==
           r.verdict);

@@ -1,8 +1,7 @@
 /* test_verdict.c: what rows with known errors entitle to say.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "parts.h"
 #include "suite.h"
-#include "weak_inside.h"
+#include "weak/judged.h"
 #include <string.h>
 
 enum { ROWS = 6 };
@@ -17,21 +16,6 @@ static void rows_of(steif_weak_row *row, size_t count, const double *error, doub
                               .order = i ? log2(fabs(error[i - 1] / error[i])) : NAN,
                               .rounding = rounding,
                               .usable = rounding <= 0.1 * fabs(error[i])};
-}
-
-static steif_weak_result judged(const steif_weak_row *row, size_t count)
-{
-  const stf_judged j = {.row = row,
-                        .rows = count,
-                        .size = 1,
-                        .longest = 1,
-                        .fastest = "f",
-                        .blind = -1,
-                        .inside = NAN,
-                        .fitting = NAN};
-  steif_weak_result r = {.converges = -7};
-  stf_weak_judge(&j, &r);
-  return r;
 }
 
 static bool begins(const steif_weak_result *r, const char *words)

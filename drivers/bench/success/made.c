@@ -161,11 +161,33 @@ static void waves(made *m, stf_random *r)
   }
 }
 
+/* A = (S + B D^{-1} C, B; C, D) of order n, S in the leading rows as it is, D lower triangular: what is left without
+ * the algebraic unknowns is S. */
+static void add_algebraic(made *m, stf_random *r)
+{
+  const int from = m->differential, n = m->n;
+  for (int i = from; i < n; i++) {
+    for (int j = 0; j < i; j++) m->A[i][j] = stf_random_in(r, -0.5, 0.5);
+    for (int j = 0; j < from; j++) m->A[j][i] = stf_random_in(r, -0.5, 0.5);
+    m->A[i][i] = -stf_random_in(r, 1.5, 3);
+  }
+  for (int k = 0; k < from; k++) {
+    sunrealtype x[MADE_MOST]; /* D^{-1} times column k of C */
+    for (int i = from; i < n; i++) {
+      x[i] = m->A[i][k];
+      for (int j = from; j < i; j++) x[i] -= m->A[i][j] * x[j];
+      x[i] /= m->A[i][i];
+      for (int row = 0; row < from; row++) m->A[row][k] += m->A[row][i] * x[i];
+    }
+  }
+}
+
 static void relaxation(made *m, stf_random *r)
 {
   const int free = m->kind == MADE_CONSTRAINED ? m->n - 1 : m->n;
-  made_matrix(m, r, free, stf_random_in(r, 0, 6));
   m->differential = m->kind == MADE_ALGEBRAIC ? m->n - 1 - m->n / 5 : free;
+  made_matrix(m, r, m->differential, stf_random_in(r, 0, 6));
+  if (m->kind == MADE_ALGEBRAIC) add_algebraic(m, r);
   for (int i = 0; i < free; i++) {
     m->c[i] = m->kind == MADE_LINEAR ? 0 : stf_random_in(r, -0.3, 0.3);
     m->H[i] = stf_random_in(r, -0.5, 0.5) + (i == 0);

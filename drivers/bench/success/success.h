@@ -11,6 +11,7 @@ typedef struct success_run {
   sunrealtype rtol, cpu_s;
   sunrealtype
     error; /* at the end, in tolerances: max |y_i - known_i| / (rtol (scale + |known_i|)) */
+  sunrealtype whole;    /* the largest over all steps; NAN: no solution in closed form */
   sunrealtype levels;   /* that of the components of index 2 and 3, which `error` leaves out */
   sunrealtype promised; /* what the run says of them; NAN: nothing */
   int code;

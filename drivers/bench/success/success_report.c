@@ -13,12 +13,16 @@ static int by_size(const void *a, const void *b)
 /* Of runs that say ok and are known to be looked at. */
 static bool counts(const success_run *run) { return run->code == STEIF_OK && !run->told; }
 
-static sunrealtype median(const success_runs *all)
+static sunrealtype at_end(const success_run *run) { return run->error; }
+static sunrealtype on_the_way(const success_run *run) { return run->whole; }
+
+/* Of what is known. */
+static sunrealtype median(const success_runs *all, sunrealtype (*of)(const success_run *))
 {
   static sunrealtype error[SUCCESS_RUNS];
   size_t count = 0;
   for (size_t i = 0; i < all->count; i++)
-    if (counts(&all->run[i])) error[count++] = all->run[i].error;
+    if (counts(&all->run[i]) && !isnan(of(&all->run[i]))) error[count++] = of(&all->run[i]);
   qsort(error, count, sizeof *error, by_size);
   return count ? error[count / 2] : NAN;
 }
@@ -32,6 +36,7 @@ static void one_run(steif_report *r, const char *method, const success_run *run)
   steif_report_text(r, "runs.status", run->late ? "time is up" : steif_code_name(run->code));
   steif_report_whole(r, "runs.steps", run->steps);
   steif_report_real(r, "runs.error", run->error);
+  steif_report_real(r, "runs.whole", run->whole);
   steif_report_real(r, "runs.levels", run->levels);
   steif_report_real(r, "runs.promised", run->promised);
   steif_report_real(r, "runs.cpu_s", run->cpu_s);
@@ -62,7 +67,8 @@ void success_report(success_runs *all, bool every, steif_report *r)
   steif_report_whole(r, "rows.told", told);
   steif_report_whole(r, "rows.failed", (long)all->count - ok - told - late);
   steif_report_whole(r, "rows.late", late);
-  steif_report_real(r, "rows.median", median(all));
+  steif_report_real(r, "rows.median", median(all, at_end));
+  steif_report_real(r, "rows.median_whole", median(all, on_the_way));
   steif_report_whole(r, "rows.steps", steps);
   steif_report_real(r, "rows.cpu_s", cpu_s);
 }

@@ -203,7 +203,8 @@ static int finite_along(stf_search *c, sunrealtype h, int first, int count)
       if (!isfinite(r[i])) cause->equation = (sunindextype)i;
     if (cause->equation >= 0)
       stf_point_say(cause->message, "Equation %s is %g",
-                    stf_point_equation(s, (size_t)cause->equation, e), r[cause->equation]);
+                    stf_point_equation(s, (size_t)cause->equation, e),
+                    isnan(r[cause->equation]) ? fabs(r[cause->equation]) : r[cause->equation]);
     else
       stf_point_say(cause->message, "The equations cannot be evaluated");
     stf_point_say(cause->message,
@@ -355,6 +356,7 @@ static int examine(steif_context *ctx, const steif_problem *problem, const steif
 int steif_explain(steif_context *ctx, const steif_problem *problem, const steif_point *inquiry,
                   const steif_history *scene, steif_cause *cause)
 {
+  STF_NAMED(problem);
   STEIF_CHECK(scene && (scene->count == 0 || (scene->t && scene->y && scene->yp)), ctx,
               STEIF_BAD_INPUT,
               "a history with its accepted points is needed to explain a failure");
@@ -367,6 +369,7 @@ int steif_explain(steif_context *ctx, const steif_problem *problem, const steif_
 int steif_check_jacobian(steif_context *ctx, const steif_problem *problem,
                          const steif_point *inquiry, steif_cause *cause)
 {
+  STF_NAMED(problem);
   STEIF_TRY(examine(ctx, problem, inquiry, NULL, cause));
   if (cause->kind == STEIF_CAUSE_UNKNOWN)
     stf_point_say(cause->message, "E and A agree with differences of F");

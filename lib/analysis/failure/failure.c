@@ -201,6 +201,7 @@ static int repeat(steif_solver *s, record *r, steif_failure *f)
 int steif_failure_find(steif_context *ctx, const steif_problem *problem, const char *method,
                        const steif_options *options, steif_failure *failure)
 {
+  STF_NAMED(problem);
   if (!ctx) return STEIF_BAD_INPUT;
   STEIF_CHECK(problem && failure, ctx, STEIF_BAD_INPUT,
               "a problem and a place for the failure are needed, got NULL");

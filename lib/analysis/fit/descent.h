@@ -27,8 +27,14 @@ typedef struct stf_descent {
   const sunrealtype *unit, *low, *high; /* of p; bounds may be infinite */
   sunrealtype *p0, *p;
   N_Vector S;
-  sunrealtype *at;    /* x of the last good run ... */
-  sunrealtype *r, *J; /* ... its residuals, and dr/dx by columns */
+  size_t outputs;                       /* of a model, if some are measured; 0 */
+  sunrealtype *output, *slope, *toward; /* their values and derivatives; a direction of p */
+  sunrealtype *at;                      /* x of the last good run ... */
+  sunrealtype *r, *J;                   /* ... its residuals, and dr/dx by columns */
+  sunrealtype *
+    best; /* p, r, J of the run of least chi2 in all descents, for a search that is stopped ... */
+  sunrealtype least; /* ... its chi2, and in which descent */
+  int descent, best_descent;
   bool known;
   sunrealtype chi2;
   sunrealtype hold;    /* weight of the residuals that keep x where the data do not */
@@ -39,6 +45,12 @@ typedef struct stf_descent {
   char failure[500];
 } stf_descent;
 
+/* --- measurements.c --- */
+/* Where measurements end at the latest: t1, or (0) the end of the problem, which may have none. */
+sunrealtype stf_fit_end(const steif_problem *p, sunrealtype t1);
+/* How many outputs the problem has, a model. */
+size_t stf_fit_outputs(const steif_problem *p);
+
 /* --- fit_run.c --- */
 /* r and J at x, projected to the bounds: STEIF_OK, or STEIF_RETRY where the run failed: the sentence is kept, and
  * `stopped` set where other parameters would not cure it. */
@@ -46,6 +58,8 @@ int stf_fit_run(stf_descent *d, const sunrealtype *x);
 /* Parameter i at x; *bound: at -1 low, 1 high, 0 between. */
 sunrealtype stf_fit_value(const stf_descent *d, const sunrealtype *x, int i, int *bound);
 int stf_fit_restore(stf_descent *d);
+/* p, r, J and chi2 of the best run. */
+void stf_fit_recall(stf_descent *d);
 
 /* --- fit_descent.c --- */
 /* From p0: p, r, J, chi2 at the end; *exhausted: evaluations were used up. STEIF_RETRY: the first run failed. */

@@ -13,16 +13,17 @@ static int check_datum(const stf_descent *d, size_t j)
 {
   const steif_measurements *data = d->data;
   const steif_problem *p = d->problem;
-  const sunrealtype t1 = d->run.t1 != 0 ? d->run.t1 : p->t1, t = data->t[j];
+  const sunrealtype t1 = stf_fit_end(p, d->run.t1), t = data->t[j];
   STEIF_CHECK(isfinite(t) && isfinite(data->value[j]), d->ctx, STEIF_NOT_FINITE,
               "measurement %zu is %g at t = %g and must be finite", j + 1, data->value[j], t);
   STEIF_CHECK(t >= p->t0 && t <= t1, d->ctx, STEIF_BAD_INPUT,
               "measurement %zu at t = %.9g lies outside the interval [%.9g, %.9g] of problem "
               "'%s': raise options.run->t1",
               j + 1, t, p->t0, t1, p->name);
-  STEIF_CHECK(data->component[j] >= 0 && data->component[j] < p->n, d->ctx, STEIF_BAD_INPUT,
+  const long long most = (long long)p->n + (long long)stf_fit_outputs(p);
+  STEIF_CHECK(data->component[j] >= 0 && data->component[j] < most, d->ctx, STEIF_BAD_INPUT,
               "measurement %zu is of component %lld, and problem '%s' has 0 .. %lld", j + 1,
-              (long long)data->component[j], p->name, (long long)p->n - 1);
+              (long long)data->component[j], p->name, most - 1);
   STEIF_CHECK(!data->sd || (data->sd[j] > 0 && isfinite(data->sd[j])), d->ctx, STEIF_BAD_INPUT,
               "the standard deviation %g of measurement %zu must be positive", data->sd[j],
               j + 1);
@@ -123,16 +124,31 @@ static int name_parameters(stf_descent *d, const steif_fit_options *o)
   return STEIF_OK;
 }
 
+/* Room for outputs, where some are measured. */
+static int open_outputs(stf_descent *d)
+{
+  for (size_t j = 0; j < d->data->count && !d->outputs; j++)
+    if (d->data->component[j] >= d->problem->n) d->outputs = stf_fit_outputs(d->problem);
+  if (!d->outputs) return STEIF_OK;
+  const size_t parameters = (size_t)d->problem->parameters->count;
+  d->output = stf_pool_array(d->pool, d->outputs, sizeof *d->output);
+  d->slope = stf_pool_array(d->pool, d->outputs, sizeof *d->slope);
+  d->toward = stf_pool_array(d->pool, parameters, sizeof *d->toward);
+  return d->output && d->slope && d->toward ? STEIF_OK : STEIF_NO_MEMORY;
+}
+
 static int sort(stf_descent *d)
 {
   const size_t m = d->data->count;
   d->sorted = stf_pool_array(d->pool, m, sizeof *d->sorted);
   d->r = stf_pool_array(d->pool, m, sizeof *d->r);
   d->J = stf_pool_array(d->pool, m * (size_t)d->P, sizeof *d->J);
+  d->best = stf_pool_array(d->pool, (size_t)d->P + m * ((size_t)d->P + 1), sizeof *d->best);
+  d->least = INFINITY;
   N_Vector like = N_VNewEmpty_Serial(d->problem->n, steif_sundials(d->ctx));
   d->S = like ? stf_pool_vector(d->pool, like) : NULL;
   if (like) N_VDestroy(like);
-  if (!d->sorted || !d->r || !d->J || !d->S) return STEIF_NO_MEMORY;
+  if (!d->sorted || !d->r || !d->J || !d->best || !d->S) return STEIF_NO_MEMORY;
   for (size_t j = 0; j < m; j++) d->sorted[j] = (stf_datum){d->data->t[j], j};
   qsort(d->sorted, m, sizeof *d->sorted, by_time);
   return STEIF_OK;
@@ -149,6 +165,7 @@ static int open(stf_descent *d, const steif_fit_options *o)
   if (d->run.rtol == 0) d->run.rtol = 1e-6;
   STEIF_TRY(check(d, o));
   STEIF_TRY(sort(d));
+  STEIF_TRY(open_outputs(d));
   d->run.sensitivities = 1, d->run.active = d->parameter, d->run.active_count = d->P;
   if (d->sorted[d->data->count - 1].t > d->problem->t0)
     d->run.t1 = d->sorted[d->data->count - 1].t;
@@ -183,6 +200,19 @@ static void begin_at(stf_descent *d, const sunrealtype *start, int descent)
   }
 }
 
+/* A search that was stopped, from outside or by max_seconds, ends with the best run it made. */
+static int cut_short(stf_descent *d, steif_fit *f, int code)
+{
+  if (!isfinite(d->least) || (code != STEIF_STOPPED && code != STEIF_TIME_LIMIT)) return code;
+  stf_fit_recall(d);
+  d->failed--; /* the run that was stopped */
+  f->best = d->best_descent, f->chi2 = d->least, f->exhausted = code;
+  for (int k = d->descent; k < f->starts; k++) f->chi2_of[k] = INFINITY;
+  f->chi2_of[f->best] = d->least;
+  if (f->best == d->descent) f->iterations = d->iterations;
+  return STEIF_OK;
+}
+
 static int descend_all(stf_descent *d, steif_fit *f)
 {
   sunrealtype *start = copy(d, d->p0, 0), *best = copy(d, d->p0, 0);
@@ -191,8 +221,9 @@ static int descend_all(stf_descent *d, steif_fit *f)
   for (int k = 0; k < f->starts; k++) {
     int exhausted;
     begin_at(d, start, k);
+    d->descent = k;
     const int code = stf_fit_descend(d, &exhausted);
-    if (code < 0) return code;
+    if (code < 0) return cut_short(d, f, code);
     f->chi2_of[k] = code ? INFINITY : d->chi2;
     if (code || !(d->chi2 < f->chi2)) continue;
     f->best = k, f->chi2 = d->chi2, f->exhausted = exhausted, f->iterations = d->iterations;
@@ -201,7 +232,7 @@ static int descend_all(stf_descent *d, steif_fit *f)
   if (f->best < 0) return steif_status(d->ctx); /* the sentence of the last run */
   memcpy(d->p0, best, (size_t)d->P * sizeof *best);
   memset(best, 0, (size_t)d->P * sizeof *best);
-  return stf_fit_run(d, best) ? steif_status(d->ctx) : STEIF_OK;
+  return stf_fit_run(d, best) ? cut_short(d, f, steif_status(d->ctx)) : STEIF_OK;
 }
 
 /* ---- the result ------------------------------------------------------------------------------ */
@@ -254,14 +285,18 @@ int steif_fit_find(steif_context *ctx, steif_problem *problem, const char *metho
               "a problem, a method and measurements are needed, got NULL");
   stf_descent d = {.ctx = ctx, .problem = problem, .method = method, .data = data};
   if (!(d.pool = stf_pool_new(ctx))) return STEIF_NO_MEMORY;
+  const char *name = problem->name;
+  if (!name) problem->name = "unnamed"; /* in messages */
   int code = find(&d, options ? options : &none, fit);
   if (d.values) {
     const int restored = stf_fit_restore(&d);
     if (!code) code = restored;
   }
+  problem->name = name;
   stf_pool_free(&d.pool);
   if (code) steif_fit_free(ctx, fit);
   STEIF_TRY(code);
+  STEIF_CHECK(fit->exhausted >= 0, ctx, fit->exhausted, "%s", fit->message);
   STEIF_CHECK(!fit->exhausted, ctx, STEIF_NO_CONVERGENCE, "%s", fit->message);
   steif_forget(ctx);
   return STEIF_OK;

@@ -34,22 +34,43 @@ int stf_fit_restore(stf_descent *d)
 
 /* ---- a run ----------------------------------------------------------------------------------- */
 
+/* Of what is measured, y[i] or an output: its value, or its derivative. */
+static sunrealtype part(const stf_descent *d, sunindextype i, const sunrealtype *y,
+                        const sunrealtype *output)
+{
+  return i < d->problem->n ? y[i] : output[i - d->problem->n];
+}
+
+/* The derivatives of the outputs by parameter k, dy/dp_k in d->S. */
+static int output_slopes(stf_descent *d, sunrealtype t, N_Vector y, int k)
+{
+  if (!d->outputs) return STEIF_OK;
+  d->toward[k] = 1;
+  const int code =
+    steif_model_output_tangent(d->ctx, d->problem, t, y, d->S, d->toward, d->slope);
+  d->toward[k] = 0;
+  return code;
+}
+
 /* Residuals of the measurements sorted[from .. to-1], all at t, which the solver shows, and their rows of J. */
 static int take(stf_descent *d, steif_solver *s, sunrealtype t, size_t from, size_t to)
 {
   const steif_measurements *data = d->data;
   const sunrealtype *y = N_VGetArrayPointer(steif_solution(s)), *S = N_VGetArrayPointer(d->S);
+  if (d->outputs) steif_model_outputs(d->problem, t, steif_solution(s), d->output);
   for (size_t i = from; i < to; i++) {
     const size_t j = d->sorted[i].place;
-    d->r[j] = (y[data->component[j]] - data->value[j]) / (data->sd ? data->sd[j] : 1);
+    d->r[j] = (part(d, data->component[j], y, d->output) - data->value[j]) /
+              (data->sd ? data->sd[j] : 1);
   }
   for (int k = 0; k < d->P; k++) {
     const sunrealtype slope = d->log ? d->p[k] : d->unit[k];
     STEIF_TRY(steif_sensitivity(s, t, d->parameter[k], d->S));
+    STEIF_TRY(output_slopes(d, t, steif_solution(s), d->parameter[k]));
     for (size_t i = from; i < to; i++) {
       const size_t j = d->sorted[i].place;
       d->J[(size_t)k * data->count + j] =
-        slope * S[data->component[j]] / (data->sd ? data->sd[j] : 1);
+        slope * part(d, data->component[j], S, d->slope) / (data->sd ? data->sd[j] : 1);
     }
   }
   return STEIF_OK;
@@ -115,6 +136,29 @@ static void project(stf_descent *d, const sunrealtype *x)
   }
 }
 
+/* The best run from its store, or into it. */
+static void exchange(stf_descent *d, bool store)
+{
+  const size_t m = d->data->count, P = (size_t)d->P;
+  sunrealtype *const part[] = {d->p, d->r, d->J}, *best = d->best;
+  const size_t count[] = {P, m, m * P};
+  for (int i = 0; i < 3; best += count[i++])
+    memcpy(store ? best : part[i], store ? part[i] : best, count[i] * sizeof *best);
+}
+
+static void remember(stf_descent *d)
+{
+  if (!(d->chi2 < d->least)) return;
+  d->least = d->chi2, d->best_descent = d->descent;
+  exchange(d, true);
+}
+
+void stf_fit_recall(stf_descent *d)
+{
+  d->chi2 = d->least;
+  exchange(d, false);
+}
+
 int stf_fit_run(stf_descent *d, const sunrealtype *x)
 {
   int bound;
@@ -134,5 +178,6 @@ int stf_fit_run(stf_descent *d, const sunrealtype *x)
   for (size_t j = 0; j < d->data->count; j++) d->chi2 += d->r[j] * d->r[j];
   memcpy(d->at, x, (size_t)d->P * sizeof *x);
   d->known = true;
+  remember(d);
   return STEIF_OK;
 }

@@ -31,6 +31,11 @@ const char *stf_fit_name(const stf_descent *d, int i, char *room)
 static void judge(const stf_descent *d, steif_fit *f)
 {
   add(f, "chi2 = %.6g with %ld degrees of freedom", f->chi2, f->dof);
+  if (f->exhausted < 0) {
+    add(f, ", the best of %ld runs when the search was stopped%s; go on from here", f->runs,
+        f->exhausted == STEIF_TIME_LIMIT ? " by max_seconds" : "");
+    return;
+  }
   if (f->exhausted) {
     add(f,
         ", and still falling: %d runs of a descent were not enough; go on from here, or raise "

@@ -1,6 +1,8 @@
 /* measurements.c: measurements from a file of comma-separated values: t and names of unknowns, a row for each time.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "descent.h"
 #include "text.h"
+#include "problem.h"
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -75,33 +77,27 @@ static int number(const table *T, int column, cell c, sunrealtype *value)
 
 /* ---- the first line -------------------------------------------------------------------------- */
 
-static const char *unknown_name(const steif_problem *p, sunindextype i, char *room)
+/* Of unknown i, or of output i - n; NULL past the last. */
+static const char *measured_name(const steif_problem *p, sunindextype i, char *room)
 {
+  if (i >= p->n) return steif_model_output(p, (size_t)(i - p->n));
   if (p->names && p->names->unknown) return p->names->unknown[i];
   snprintf(room, STEIF_SPEC_WORD, "y%lld", (long long)i + 1);
   return room;
 }
 
-/* The unknown of a name, or the sentence with the nearest one. */
-static int find_unknown(const table *T, int column, const char *name, sunindextype *i)
+/* The unknown or output of a name, or the sentence with the nearest one. */
+static int find_measured(const table *T, int column, const char *name, sunindextype *i)
 {
   char room[STEIF_SPEC_WORD], near[STEIF_SPEC_WORD] = "";
+  const char *known;
   int best = 1 << 20;
-  for (*i = 0; *i < T->problem->n; ++*i) {
-    const char *known = unknown_name(T->problem, *i, room);
+  for (*i = 0; (known = measured_name(T->problem, *i, room)); ++*i) {
     const int distance = stf_distance(name, known);
     if (!strcmp(name, known)) return STEIF_OK;
     if (distance < best) snprintf(near, sizeof near, "%s", known);
     if (distance < best) best = distance;
   }
-  const char *output;
-  for (size_t k = 0; (output = steif_model_output(T->problem, k)); k++)
-    if (!strcmp(name, output))
-      return REFUSE(
-        T, column, STEIF_BAD_INPUT,
-        "'%s' is an output of '%s', and unknowns are fitted: declare 'state %s' and the "
-        "equation %s = ... in its place",
-        name, T->problem->name, name, name);
   return REFUSE(T, column, STEIF_UNKNOWN_NAME,
                 "problem '%s' has no unknown '%s'; the nearest is '%s'", T->problem->name, name,
                 near);
@@ -123,7 +119,7 @@ static int one_name(table *T, int column, cell c)
       "the first line is 't' and names of unknowns, not '%s'; rename the column of the times",
       name);
   if (column == 0) return STEIF_OK;
-  STEIF_TRY(find_unknown(T, column, sd ? name + 3 : name, &T->component[column]));
+  STEIF_TRY(find_measured(T, column, sd ? name + 3 : name, &T->component[column]));
   for (int k = 1; k < column; k++)
     if (T->component[k] == T->component[column] && (T->sd_of[k] >= 0) == sd)
       return REFUSE(T, column, STEIF_BAD_INPUT, "'%s' stands in column %d too", name, k + 1);
@@ -290,10 +286,23 @@ static int read(table *T, const char *text, int count, const sunrealtype *sd)
   return STEIF_OK;
 }
 
+size_t stf_fit_outputs(const steif_problem *p)
+{
+  size_t count = 0;
+  while (steif_model_output(p, count)) count++;
+  return count;
+}
+
+sunrealtype stf_fit_end(const steif_problem *p, sunrealtype t1)
+{
+  return t1 != 0 ? t1 : p->t1 > p->t0 ? p->t1 : INFINITY;
+}
+
 int steif_measurements_read(steif_context *ctx, const steif_problem *problem, const char *path,
                             sunrealtype t1, int repeated, int sd_count, const sunrealtype *sd,
                             steif_measurements *data)
 {
+  STF_NAMED(problem);
   stf_plain plain;
   STEIF_CHECK(data, ctx, STEIF_BAD_INPUT, "no place for the measurements: it is NULL");
   *data = (steif_measurements){0};
@@ -306,7 +315,7 @@ int steif_measurements_read(steif_context *ctx, const steif_problem *problem, co
   int code = T ? stf_plain_begin(ctx, &plain) : STEIF_NO_MEMORY;
   if (!code) {
     *T = (table){.ctx = ctx, .problem = problem, .path = path, .data = data};
-    T->t0 = problem->t0, T->t1 = t1 != 0 ? t1 : problem->t1, T->repeated = repeated;
+    T->t0 = problem->t0, T->t1 = stf_fit_end(problem, t1), T->repeated = repeated;
     data->reserved[0] = T->pool = stf_pool_new(ctx);
     code = T->pool ? read(T, text, sd ? sd_count : 0, sd) : STEIF_NO_MEMORY;
     stf_plain_end(&plain);

@@ -188,6 +188,7 @@ static int whole_steps(record *w)
 int steif_energy_measure(steif_context *ctx, const steif_problem *problem, const char *method,
                          const steif_options *options, steif_energy *energy)
 {
+  STF_NAMED(problem);
   STEIF_CHECK(problem && method && energy && energy->drift, ctx, STEIF_BAD_INPUT,
               "a problem, a method and room for the drifts are needed");
   const steif_options usual = steif_defaults();

@@ -2,6 +2,7 @@
  * whether it comes back when the momenta are turned.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "hamiltonian_thresholds.h"
+#include "problem.h"
 #include "base.h"
 #include "lapack.h"
 #include <math.h>
@@ -181,6 +182,7 @@ int steif_step_map_find(steif_context *ctx, const steif_problem *problem, const 
                         sunrealtype h, const sunrealtype *Omega, sunrealtype *J,
                         steif_step_map *out)
 {
+  STF_NAMED(problem);
   STEIF_CHECK(problem && method && out, ctx, STEIF_BAD_INPUT,
               "a problem, a method and room for the answer are needed");
   STEIF_CHECK(h > 0 && isfinite(h), ctx, STEIF_BAD_INPUT,

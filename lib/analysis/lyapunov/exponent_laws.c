@@ -121,6 +121,7 @@ int steif_lyapunov_verify(steif_context *ctx, const steif_problem *problem, cons
                           const steif_lyapunov_facts *facts, steif_lyapunov_check *check,
                           int *count)
 {
+  STF_NAMED(problem);
   STEIF_CHECK(problem && method && options && exponent && facts && check && count, ctx,
               STEIF_BAD_INPUT, "a problem, a method, options, exponents and facts are needed");
   STEIF_CHECK(options->error, ctx, STEIF_BAD_INPUT,

@@ -280,6 +280,7 @@ int steif_lyapunov(steif_context *ctx, const steif_problem *problem, const char 
                    const steif_lyapunov_options *options, sunrealtype *exponent,
                    sunrealtype *interval, steif_lyapunov_facts *facts)
 {
+  STF_NAMED(problem);
   spectrum s = {0};
   if (facts) *facts = (steif_lyapunov_facts){0};
   STEIF_CHECK(problem && method && options && exponent, ctx, STEIF_BAD_INPUT,

@@ -277,6 +277,7 @@ static int open(stf_pool *pool, steif_context *ctx, const steif_problem *p, cons
 int steif_growth_measure(steif_context *ctx, const steif_problem *problem, const char *method,
                          const steif_lyapunov_options *options, steif_growth_facts *facts)
 {
+  STF_NAMED(problem);
   column c = {.lte_old = 0};
   steif_method_info info;
   STEIF_CHECK(problem && method && options && facts, ctx, STEIF_BAD_INPUT,

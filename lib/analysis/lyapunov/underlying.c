@@ -120,6 +120,7 @@ int stf_period_map(stf_pool *pool, steif_context *ctx, const steif_problem *p,
 int steif_underlying_find(steif_context *ctx, const steif_problem *problem, const char *method,
                           sunrealtype h, const sunrealtype *start, steif_underlying *out)
 {
+  STF_NAMED(problem);
   underlying u = {.d = 0};
   STEIF_CHECK(out && out->Phi_w && out->Phi_f && out->exact && out->burn_in >= 0, ctx,
               STEIF_BAD_INPUT,

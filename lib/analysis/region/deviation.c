@@ -29,6 +29,7 @@ int steif_deviation(steif_context *ctx, const steif_problem *problem, const char
                     const steif_options *options, size_t count, const sunrealtype *t,
                     const sunrealtype *known, sunrealtype *deviation)
 {
+  STF_NAMED(problem);
   STEIF_CHECK(problem && method && t && known && deviation, ctx, STEIF_BAD_INPUT,
               "a problem, a method, times, known values and room for a number are needed");
   *deviation = 0;

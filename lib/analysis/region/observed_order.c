@@ -87,6 +87,7 @@ int steif_order_measure(steif_context *ctx, const steif_problem *problem, const 
                         const steif_options *options, sunrealtype h, size_t rows,
                         steif_order_row *row)
 {
+  STF_NAMED(problem);
   steif_options o = options ? *options : steif_defaults();
   STEIF_CHECK(problem && method, ctx, STEIF_BAD_INPUT, "a problem and a method are needed");
   if (o.t1 == 0) o.t1 = problem->t1;
@@ -161,6 +162,7 @@ static int rounding_of(steif_context *ctx, const steif_problem *problem, const c
 int steif_order_rounding(steif_context *ctx, const steif_problem *problem, const char *method,
                          const steif_options *options, size_t rows, steif_order_row *row)
 {
+  STF_NAMED(problem);
   steif_options o = options ? *options : steif_defaults();
   STEIF_CHECK(problem && method && row, ctx, STEIF_BAD_INPUT,
               "a problem, a method and its rows are needed");

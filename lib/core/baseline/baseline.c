@@ -118,7 +118,7 @@ int stf_baseline_adaptive(const stf_baseline *base)
 {
   const steif_options *o = base->run->options;
   STEIF_CHECK(!(o->h > 0), base->run->ctx, STEIF_UNSUPPORTED,
-              "%s chooses its own steps, h = %g cannot be given; give rtol (--rtol) instead",
+              "%s chooses its own steps, h = %g cannot be given; give rtol instead",
               base->package, o->h);
   return STEIF_OK;
 }

@@ -22,6 +22,9 @@ struct stf_repair;
 int stf_keep_momenta(struct stf_repair *repair, stf_evidence *evidence,
                      const steif_diagnosis *diagnosis, const steif_request *request,
                      steif_start *start);
+/* used_index.c: the numbers of the components go to the problem and the report of *repair. */
+int stf_use_index(struct stf_repair *repair, const stf_evidence *evidence,
+                  const steif_diagnosis *diagnosis);
 
 /* Weights of least movement in the norm of E: with masses on its diagonal M (v(t+) - v(t-)) = -G^T Lambda, as
  * after an impact. */

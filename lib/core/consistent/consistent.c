@@ -217,6 +217,7 @@ int steif_consistent(steif_context *ctx, const steif_problem *problem,
                      const steif_point *inquiry, const steif_request *request,
                      steif_start *start)
 {
+  STF_NAMED(problem);
   stf_point point;
   STEIF_CHECK(start, ctx, STEIF_BAD_INPUT, "a place for the start is needed, got NULL");
   *start = (steif_start){0};

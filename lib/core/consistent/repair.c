@@ -180,7 +180,7 @@ static int use(stf_repair *r, const sunrealtype *y, const sunrealtype *yp, const
   STEIF_CHECK(
     r->policy == STEIF_REPAIR, r->ctx, STEIF_BAD_INPUT,
     "the start of '%s' is not consistent; a repair would have %s: give this start, or "
-    "ask for the repair (options.initial, --initial repair)",
+    "ask for the repair (options.initial = STEIF_REPAIR)",
     r->given->name, r->report.message + strlen("start: "));
   sunrealtype *kept = stf_pool_array(r->pool, 2 * r->point.n, sizeof *kept);
   if (!kept) return STEIF_NO_MEMORY;
@@ -193,22 +193,6 @@ static int use(stf_repair *r, const sunrealtype *y, const sunrealtype *yp, const
 }
 
 /* -- index above 1 ----------------------------------------------------------------------- */
-
-static int use_index(stf_repair *r, const steif_diagnosis *d)
-{
-  const size_t n = r->point.n;
-  if (d->index < 0 || d->confidence == STEIF_UNDECIDED || d->index > 3) return STEIF_OK;
-  r->report.index = r->problem.dae_index = d->index;
-  int *number = stf_pool_array(r->pool, n, sizeof *number), high = 0;
-  if (!number) return STEIF_NO_MEMORY;
-  for (size_t j = 0; j < n; j++) {
-    number[j] = d->number[j] < 1 ? 1 : d->number[j] > 3 ? 3 : d->number[j];
-    high = number[j] > high ? number[j] : high;
-  }
-  r->report.number = number;
-  if (high > 1) r->problem.index = number;
-  return STEIF_OK;
-}
 
 /* Positions of a system of index 3, its components of index 1 with a derivative, are no guesses as
  * velocities are: they move within errors of data only. */
@@ -271,7 +255,7 @@ static int diagnosed(stf_repair *r, bool wanted)
   r->point.quick = false, r->point.brief = true;
   r->point.views++;
   int code = stf_diagnose(&r->point, &evidence, &d);
-  if (!code && wanted) code = use_index(r, &d);
+  if (!code && wanted) code = stf_use_index(r, &evidence, &d);
   if (!code) code = stf_first_jump(r, &jump);
   const bool ordered =
     r->point.n <= STEIF_DIAGNOSE_LARGEST || stf_evidence_certified(&evidence);

@@ -58,6 +58,7 @@ int stf_diagnose(stf_point *point, stf_evidence *e, steif_diagnosis *d)
 int steif_diagnose(steif_context *ctx, const steif_problem *problem, const steif_point *where,
                    steif_diagnosis *d)
 {
+  STF_NAMED(problem);
   stf_point point;
   stf_evidence evidence;
   STEIF_CHECK(d, ctx, STEIF_BAD_INPUT, "a place for the diagnosis is needed, got NULL");

@@ -74,6 +74,11 @@ void stf_index_message(const stf_summary *s, steif_diagnosis *d)
       "of differentiations up to %d determines y': solutions through one start "
       "differ, a computed one means nothing",
       s->high[0], STF_DEEPEST);
+    if (d->confidence != STEIF_SURE && d->rcond > 0)
+      stf_point_say(d->message,
+                    ", unless small entries are meant as they stand: the system Jacobian "
+                    "is regular with rcond %.1e",
+                    d->rcond);
     break;
   default:
     stf_point_say(

@@ -71,6 +71,17 @@ static void fill_lists(const stf_summary *s, steif_diagnosis *d)
   }
 }
 
+/* A certified structure bounds the numbers: growth up to rates that a small entry ends is none. */
+static void bound_lists(const stf_summary *s, steif_diagnosis *d)
+{
+  const stf_offsets *S = &s->e->offsets;
+  if (!stf_evidence_certified(s->e)) return;
+  for (size_t j = 0; j < s->e->point->n; j++) {
+    if (d->number[j] > S->component_index[j]) d->number[j] = S->component_index[j];
+    if (d->derivatives[j] > S->c[j]) d->derivatives[j] = S->c[j];
+  }
+}
+
 static void fill_freedom(const stf_summary *s, steif_diagnosis *d)
 {
   const stf_evidence *e = s->e;
@@ -119,6 +130,21 @@ static void decide_certified(const stf_summary *s, steif_diagnosis *d)
     set(d, STEIF_REGULAR, STEIF_PROBABLE, S);
 }
 
+static sunrealtype worst_rcond(const stf_evidence *e)
+{
+  sunrealtype rcond = e->points ? INFINITY : 0;
+  for (int k = 0; k < e->points; k++) rcond = fmin(rcond, e->at[k].rcond);
+  return rcond;
+}
+
+/* Is a system Jacobian of callbacks regular beyond rounding, if only just? Then what the array takes for a null vector may be
+ * none. */
+static bool hardly_regular(const stf_evidence *e)
+{
+  const sunrealtype rounding = 1e-14;
+  return e->offsets.matched && e->point->analytic && worst_rcond(e) >= rounding;
+}
+
 static void decide_by_array(const stf_summary *s, steif_diagnosis *d)
 {
   const bool same = s->low[1] == s->high[1];
@@ -131,7 +157,7 @@ static void decide_by_array(const stf_summary *s, steif_diagnosis *d)
     set(d, STEIF_REGULAR, sure ? STEIF_SURE : STEIF_PROBABLE, s->low[1]);
   } else if (s->stalls)
     set(d, s->singular ? STEIF_NO_SOLUTION : STEIF_NOT_UNIQUE,
-        s->gap >= STF_CERTAIN_GAP ? STEIF_SURE : STEIF_PROBABLE, -1);
+        s->gap >= STF_CERTAIN_GAP && !hardly_regular(s->e) ? STEIF_SURE : STEIF_PROBABLE, -1);
   else
     set(d, STEIF_RANGE, STEIF_UNDECIDED, -1);
 }
@@ -153,13 +179,6 @@ static void decide(const stf_summary *s, steif_diagnosis *d)
     set(d, STEIF_RANGE, STEIF_UNDECIDED, -1);
 }
 
-static sunrealtype worst_rcond(const stf_evidence *e)
-{
-  sunrealtype rcond = e->points ? INFINITY : 0;
-  for (int k = 0; k < e->points; k++) rcond = fmin(rcond, e->at[k].rcond);
-  return rcond;
-}
-
 void stf_verdict(const stf_summary *s, steif_diagnosis *d)
 {
   d->structural = s->e->offsets.index;
@@ -169,5 +188,6 @@ void stf_verdict(const stf_summary *s, steif_diagnosis *d)
   d->rcond = worst_rcond(s->e);
   decide(s, d);
   fill_lists(s, d);
+  bound_lists(s, d);
   fill_freedom(s, d);
 }

@@ -18,6 +18,7 @@ typedef struct stf_point {
   size_t n;
   bool analytic; /* E and A come from callbacks */
   bool quick; /* views of any n as the time loop sees E and A, not by differences of order 4 */
+  bool every; /* views hold all entries that are not 0 */
   bool brief; /* the index is wanted, no report: tests that agree are enough */
   int views; /* quick ones taken; after the first, system->E and A are those of another point */
   N_Vector y, yp, r;

@@ -1,4 +1,4 @@
-/* linearisation_sparse.c: E and F_y of a problem by columns, on the union of the patterns met so far.
+/* sparse_view.c: E and F_y of a problem by columns, on the union of the patterns met so far.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sparse_view.h"
 #include <math.h>
@@ -7,8 +7,16 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-/* Entries below this part of the largest in their row of E or F_y are rounding. */
-static const sunrealtype exact_noise = 1e-13, difference_noise = 1e-9;
+/* Entries below this part of the largest in their row of E or F_y are rounding; less where E and F_y vary: there small
+ * ones of callbacks may become large, as the conductance of a diode. */
+static const sunrealtype exact_noise = 1e-13, varying_noise = 1e-25, difference_noise = 1e-9;
+
+static sunrealtype noise(const stf_point *s)
+{
+  if (s->every) return 0;
+  if (!s->analytic) return s->quick || s->n > STEIF_DIAGNOSE_LARGEST ? 1e-6 : difference_noise;
+  return s->system.linear ? exact_noise : varying_noise;
+}
 
 void stf_view_free(stf_point *s, stf_view *v)
 {
@@ -31,6 +39,18 @@ static int claim(stf_point *s, stf_view *v, size_t room)
   if (v->column && v->row && v->e && v->b && v->has) return STEIF_OK;
   stf_view_free(s, v);
   return STEIF_NO_MEMORY;
+}
+
+int stf_view_copy(stf_point *s, const stf_view *from, stf_view *to)
+{
+  const size_t n = from->n, used = (size_t)from->column[n];
+  STEIF_TRY(claim(s, to, used));
+  memcpy(to->column, from->column, (n + 1) * sizeof *to->column);
+  memcpy(to->row, from->row, used * sizeof *to->row);
+  memcpy(to->e, from->e, used * sizeof *to->e);
+  memcpy(to->b, from->b, used * sizeof *to->b);
+  memcpy(to->has, from->has, used);
+  return STEIF_OK;
 }
 
 /* -- one column at a time, from matrices or from the old view ---------------------------- */
@@ -199,10 +219,9 @@ static int evaluate(stf_point *s, sunrealtype t, const sunrealtype *y, const sun
                     source *from)
 {
   const size_t n = s->n;
-  from->noise = s->analytic ? exact_noise : difference_noise;
+  from->noise = noise(s);
   if (!(from->top = stf_allocate(s->ctx, 2 * n, sizeof *from->top))) return STEIF_NO_MEMORY;
   if (s->quick || n > STEIF_DIAGNOSE_LARGEST) {
-    if (!s->analytic) from->noise = 1e-6;
     if (s->quick && s->views++ == 0) return STEIF_OK; /* as opened */
     memcpy(stf_array(s->y), y, n * sizeof *y);
     memcpy(stf_array(s->yp), yp, n * sizeof *yp);

@@ -18,6 +18,7 @@ typedef struct stf_view {
 
 int stf_view_take(stf_point *point, sunrealtype t, const sunrealtype *y, const sunrealtype *yp,
                   stf_view *view);
+int stf_view_copy(stf_point *point, const stf_view *view, stf_view *copy);
 void stf_view_free(stf_point *point, stf_view *view);
 /* Rates |B|/|E| of the rows that have both, columns weighted by size: the smallest and the
  * largest; 1 without any. */

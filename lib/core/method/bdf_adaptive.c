@@ -323,12 +323,13 @@ static int open_shares(stf_step *s)
   const bool low = e->p <= 2, given = s->options->rtol > 2e-3 || s->options->ewt;
   const sunrealtype least = e->p == 1 ? 1e-9 : rounding, rounded = least / s->options->rtol;
   const bool rough = low || 2 * alone(s, e->p, 0) < rounded;
-  const bool counted = low ? !given : rough || s->problem->dae_index < 2;
+  const bool counted = low ? !given : rough || s->problem->dae_index < 3;
   const bool followed = low ? !given : s->problem->dae_index < 2;
   for (int k = 1; k <= HIGHEST; k++)
     e->wanted[k] = !low ? alone(s, k, followed ? 0 : rounding) : given ? first : 0;
   if (!counted) return STEIF_OK;
   e->carried.always = low;
+  e->carried.goal = low || rough ? 0 : 1;
   return stf_carried_open(s, least, together(s, low), rough, &e->carried);
 }
 

@@ -12,12 +12,17 @@
  * be a part of the tolerance over the number of steps remembered. Motions without friction never
  * forget, and some magnify errors later by much: for them the share stays what stf_share makes it.
  *
+ * Where e has been seen to shrink and never to grow, its size leads: the errors to come may add up to what
+ * is left of the tolerance. Whether it grows is seen by R over the first steps, whose times H are carried on in
+ * whole, and by the weights, which grow where solutions decay; one growth by 2 ends this for the run.
+ *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "method.h"
 #include "pencil.h"
 #include <math.h>
 
-enum { FIRST = 20, MOST_PARTS = 4 }; /* of a time before a step that became far shorter */
+/* Steps before anything is known, and before it is sure; parts of a time before a step that became far shorter. */
+enum { FIRST = 20, SURE = 100, MOST_PARTS = 4 };
 static const sunrealtype LONGEST = 3.41421356237309505, MOST = 0.1; /* LONGEST: of tau */
 
 int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool exact,
@@ -28,6 +33,7 @@ int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool ex
   c->exact = exact;
   c->loose = c->always ? MOST : 0;
   c->growth = 1;
+  c->summed = s->problem->dae_index > (c->goal > 0 ? 2 : 1);
   c->least = fmin(MOST, rounding / s->options->rtol);
   c->whole = 1 / s->options->rtol;
   c->e = stf_pool_vector(s->pool, s->y);
@@ -52,12 +58,13 @@ static sunrealtype largest(stf_step *s, const stf_carried *c, N_Vector x)
   return most;
 }
 
-/* e <- R e for tau <= LONGEST. Iterative solvers know what is small by Newton's tolerance: solutions have many
+/* e <- R e for tau <= LONGEST, and its norm. Iterative solvers know what is small by Newton's tolerance: solutions have many
  * times its length. */
-static int apply(stf_step *s, stf_carried *c, sunrealtype sigma, sunrealtype tau)
+static int apply(stf_step *s, stf_carried *c, sunrealtype sigma, sunrealtype tau,
+                 sunrealtype *norm)
 {
   const stf_space *space = &s->system.space;
-  const sunrealtype before = stf_norm(space, c->e, s->weights), bend = tau - 2, many = 20;
+  const sunrealtype before = *norm, bend = tau - 2, many = 20;
   const sunrealtype slow = 0.05; /* what is slow must not seem to be forgotten */
   if (!(before > 0)) return STEIF_OK;
   const sunrealtype unit = before / (many * s->newton.tolerance);
@@ -69,16 +76,42 @@ static int apply(stf_step *s, stf_carried *c, sunrealtype sigma, sunrealtype tau
   STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', c->e, c->other));
   STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &c->other, NULL));
   stf_sum(space, -unit * bend, c->work, unit * (1 + bend), c->other, c->e);
-  c->growth *= stf_norm(space, c->e, s->weights) / before;
+  *norm = stf_norm(space, c->e, s->weights);
+  c->growth *= *norm / before;
   return isfinite(c->growth) ? STEIF_OK : STEIF_NOT_FINITE;
 }
 
+/* Is it still open whether e shrinks, so that no time may be passed over? */
+static bool watched(const stf_carried *c)
+{
+  return c->goal > 0 && !c->rises && c->steps < SURE;
+}
+
+/* The norm has grown from `before` to `now` over a part of the time, the `stretch`th, and by its weights since it
+ * was looked at last. */
+static void watch(stf_carried *c, sunrealtype before, sunrealtype now, sunrealtype stretch)
+{
+  const sunrealtype much = 2, old = before - c->added;
+  const sunrealtype heavier = c->seen > 0 && old > c->seen ? log(old / c->seen) : 0;
+  c->rise = fmax(0, c->rise + stretch * log(now / before) + heavier);
+  c->rises = c->rises || c->rise > log(much);
+  c->seen = now;
+  c->added = 0;
+}
+
+/* In parts of the time of second order while e is watched; what is left of it waits. */
 static int carry(stf_step *s, stf_carried *c, sunrealtype sigma)
 {
-  const sunrealtype tau = c->time * sigma,
-                    parts = c->exact ? fmin(ceil(tau / LONGEST), MOST_PARTS) : 1;
-  c->time = 0;
-  for (int k = 0; k < parts; k++) STEIF_TRY(apply(s, c, sigma, fmin(tau / parts, LONGEST)));
+  const sunrealtype tau = c->time * sigma;
+  const sunrealtype before = stf_norm(&s->system.space, c->e, s->weights);
+  sunrealtype norm = before;
+  const bool rest = watched(c) && floor(tau / LONGEST) <= MOST_PARTS;
+  const sunrealtype all = rest ? floor(tau / LONGEST) : ceil(tau / LONGEST),
+                    parts = c->exact || watched(c) ? fmin(all, MOST_PARTS) : 1,
+                    part = rest ? LONGEST : fmin(tau / parts, LONGEST);
+  c->time = rest ? fmax(0, tau - parts * part) / sigma : 0;
+  for (int k = 0; k < parts; k++) STEIF_TRY(apply(s, c, sigma, part, &norm));
+  if (before > 0) watch(c, before, norm, rest ? 1 : tau / (parts * part));
   if (c->growth < 1) {
     c->remembered *= c->growth;
     c->sum *= c->growth;
@@ -89,25 +122,42 @@ static int carry(stf_step *s, stf_carried *c, sunrealtype sigma)
   return STEIF_OK;
 }
 
+/* What is left of the tolerance, for each error that will be remembered at the end. Steps grow by factors above
+ * 1.5 alone, and make less than they may: hence twice. */
+static sunrealtype share_of_rest(const stf_step *s, const stf_carried *c)
+{
+  const sunrealtype shrunk = 0.7, most = 0.3, times = 2;
+  const sunrealtype left = (s->options->t1 - s->t) / s->h_try - 1;
+  const bool known =
+    c->goal > 0 && !c->rises && !c->jumped && c->remembered < shrunk * (sunrealtype)c->steps;
+  if (!known || s->carry || !(left > 0)) return 0;
+  const sunrealtype count = c->forgets ? fmin(left, c->remembered) : left;
+  return fmin(most, times * fmax(0, c->goal - c->size) / fmax(1, count));
+}
+
 /* What one of the errors remembered may be; 0 as long as the problem was never seen to forget. */
-static sunrealtype share(stf_carried *c)
+static sunrealtype share(const stf_step *s, stf_carried *c)
 {
   const sunrealtype times = 4;
   if (c->always) return fmin(MOST, c->all / c->remembered);
   if (c->steps < FIRST) return 0;
   if ((sunrealtype)c->steps > times * c->remembered) c->forgets = true;
-  return c->forgets ? fmin(MOST, c->all / c->remembered) : 0;
+  const sunrealtype of_all = c->forgets ? fmin(MOST, c->all / c->remembered) : 0;
+  return fmax(of_all, share_of_rest(s, c));
 }
 
-/* Of e, in parts that are carried on exactly: the longer, the less there is to know. */
-static sunrealtype pause(const stf_carried *c)
+/* Of e, in parts that are carried on: the longer, the less there is to know. */
+static bool due(const stf_step *s, const stf_carried *c, sunrealtype sigma)
 {
-  const sunrealtype most = 0.5;
-  if (c->exact) return 1;
-  return c->steps > FIRST && c->remembered > most * (sunrealtype)c->steps ? 8 : 2;
+  const sunrealtype most = 0.5, parts = 2;
+  if (watched(c)) return c->time * sigma >= parts * LONGEST;
+  const bool rare = c->steps > FIRST && c->remembered > most * (sunrealtype)c->steps;
+  const sunrealtype pause = c->exact ? 1 : rare ? 8 : 2;
+  return (c->time + s->h_try) * sigma > pause * LONGEST;
 }
 
-/* Steps on problems of index above 1, whose hidden constraints R does not carry on, are all remembered. */
+/* Steps on problems of index 3, and of index 2 where no goal is set, are all remembered: R does not carry on
+ * the errors of their hidden constraints. */
 void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector estimate)
 {
   const stf_space *space = &s->system.space;
@@ -116,14 +166,15 @@ void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector es
   c->steps++;
   c->jumped = c->jumped || s->crossed;
   c->remembered++;
-  c->sum += largest(s, c, estimate);
-  if (s->problem->dae_index > 1) {
+  c->sum += c->goal > 0 ? s->error_norm : largest(s, c, estimate);
+  if (c->summed) {
     c->size = c->sum;
-    c->loose = c->always ? share(c) : 0;
+    c->loose = c->always ? share(s, c) : 0;
     return;
   }
   stf_axpy(space, 1, estimate, c->e);
-  if ((c->time + s->h_try) * sigma > pause(c) * LONGEST) {
+  c->added += s->error_norm;
+  if (due(s, c, sigma)) {
     const int code = carry(s, c, sigma);
     if (code == STEIF_CALLBACK) c->failure = code;
     if (code) {
@@ -132,7 +183,7 @@ void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector es
       return;
     }
   }
-  c->loose = share(c);
+  c->loose = share(s, c);
 }
 
 int stf_carried_retry(const stf_step *s, stf_carried *c)

@@ -188,7 +188,8 @@ static int finish(stf_step *s, sunrealtype h)
   if (any) stf_axpy(space, 1, s->error, s->next);
   if (!stf_finite(space, s->next))
     return STEIF_RECOVER(s->ctx, STEIF_NOT_FINITE,
-                         "the step of problem '%s' from t = %.12g with h = %.6g is not finite",
+                         "the step of problem '%s' from t = %.12g with h = %.6g is not finite: "
+                         "f gave NaN or infinity, or the step is too large",
                          s->problem->name, s->t, h);
   return STEIF_OK;
 }

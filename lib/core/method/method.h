@@ -213,7 +213,12 @@ typedef struct stf_carried {
   sunrealtype whole;      /* the solution itself, in tolerances */
   sunrealtype all, least; /* estimates below `least` tolerances are rounding */
   sunrealtype loose; /* what an estimate may be, for all that is remembered; 0: not known */
+  sunrealtype goal;  /* what e may come to where it shrinks; 0: no share of that */
+  sunrealtype seen, added,
+    rise; /* norms of e carried on, of estimates since; log of its growth */
   int failure;
+  bool summed;  /* e is not carried on */
+  bool rises;   /* e has grown by much at some time */
   bool forgets; /* the errors of few steps were remembered at some time */
   bool jumped;  /* at an event, e as well, by the derivative of what is done there: not known */
 } stf_carried;

@@ -63,6 +63,10 @@ void stf_carried_keep(stf_carried *c, stf_image *m)
   STF_KEEP(m, c->peak);
   STF_KEEP(m, c->least);
   STF_KEEP(m, c->loose);
+  STF_KEEP(m, c->seen);
+  STF_KEEP(m, c->added);
+  STF_KEEP(m, c->rise);
+  STF_KEEP(m, c->rises);
   STF_KEEP(m, c->failure);
   STF_KEEP(m, c->forgets);
   STF_KEEP(m, c->jumped);

@@ -37,7 +37,8 @@ static int check(steif_pencil *p, const char *name, SUNMatrix M)
     sunindextype i = 0;
     while (stf_all_finite(c + i, 1)) i++;
     return STEIF_FAIL(p->ctx, STEIF_NOT_FINITE,
-                      "entry (%lld, %lld) of %s is %g: look at the function that fills it",
+                      "entry (%lld, %lld) of %s is %g: look at the function that fills it, "
+                      "or whose differences do",
                       (long long)i + 1, (long long)j + 1, name, c[i]);
   }
   return STEIF_OK;

@@ -200,7 +200,8 @@ static int finite(steif_pencil *p, const char *name, SUNMatrix M)
   while (stf_all_finite(x + k, 1)) k++;
   while (ptr[j + 1] <= k) j++;
   return STEIF_FAIL(p->ctx, STEIF_NOT_FINITE,
-                    "entry (%lld, %lld) of %s is %g: look at the function that fills it",
+                    "entry (%lld, %lld) of %s is %g: look at the function that fills it, "
+                    "or whose differences do",
                     (long long)SM_INDEXVALS_S(M)[k] + 1, (long long)j + 1, name, x[k]);
 }
 

@@ -157,6 +157,7 @@ static int open(search *s, stf_pool *pool)
 int steif_pattern_find(steif_context *ctx, const steif_problem *problem,
                        steif_pattern **pattern)
 {
+  STF_NAMED(problem);
   if (!ctx) return STEIF_BAD_INPUT;
   STEIF_CHECK(pattern, ctx, STEIF_BAD_INPUT, "a place for the pattern is needed, got NULL");
   *pattern = NULL;

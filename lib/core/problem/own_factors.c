@@ -27,15 +27,19 @@ static int reject(const stf_system *s, int column, sunrealtype t, sunrealtype h)
 {
   const sunrealtype *A = SM_DATA_D(s->A);
   const size_t n = (size_t)s->space.n;
+  const bool given = s->problem->jac || s->problem->idajac || s->problem->A;
   char row[STEIF_SPEC_WORD], col[STEIF_SPEC_WORD];
   for (size_t k = 0; k < n * n; k++)
     if (!isfinite(A[k]))
       return STEIF_RECOVER(
         s->ctx, STEIF_NOT_FINITE,
         "the derivative of %s with respect to %s in the Jacobian of problem '%s' is %g in the "
-        "step from t = %.12g: look at the function that fills it",
+        "step from t = %.12g: %s",
         stf_equation(s->problem, (sunindextype)(k % n), row),
-        stf_unknown(s->problem, (sunindextype)(k / n), col), s->problem->name, A[k], t);
+        stf_unknown(s->problem, (sunindextype)(k / n), col), s->problem->name,
+        isnan(A[k]) ? fabs(A[k]) : A[k], t,
+        given ? "look at the function that fills it"
+              : "its differences leave the domain of the equations");
   return STEIF_RECOVER(
     s->ctx, STEIF_SINGULAR,
     "the stage matrix of problem '%s' is singular in the column of %s at "

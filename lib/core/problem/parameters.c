@@ -129,6 +129,7 @@ static int check(steif_context *ctx, const steif_problem *p, int k)
 
 int steif_parameter_find(steif_context *ctx, const steif_problem *p, const char *name)
 {
+  STF_NAMED(p);
   if (check(ctx, p, 0) || !name) return -1;
   const steif_parameters *q = p->parameters;
   for (int k = 0; q->name && k < q->count; k++)
@@ -148,6 +149,7 @@ int steif_parameter_find(steif_context *ctx, const steif_problem *p, const char 
 
 int steif_parameter_set(steif_context *ctx, const steif_problem *p, int k, sunrealtype value)
 {
+  STF_NAMED(p);
   STEIF_TRY(check(ctx, p, k));
   STEIF_CHECK(isfinite(value), ctx, STEIF_NOT_FINITE, "parameter %d of problem '%s' is %g",
               k + 1, p->name, value);
@@ -201,6 +203,7 @@ static int by_differences(point *at, int k, int (*what)(const point *at, N_Vecto
 int steif_parameter_slope(steif_context *ctx, const steif_problem *p, int k, sunrealtype t,
                           N_Vector y, N_Vector yp, N_Vector out)
 {
+  STF_NAMED(p);
   STEIF_TRY(check(ctx, p, k));
   STEIF_CHECK(y && yp && out, ctx, STEIF_BAD_INPUT, "y, yp and out are needed, got NULL");
   const long before = stf_failures(ctx);
@@ -253,6 +256,7 @@ sunrealtype stf_slopes_noise(const stf_slopes *at, int k)
 
 int steif_parameter_start(steif_context *ctx, const steif_problem *p, int k, N_Vector out)
 {
+  STF_NAMED(p);
   STEIF_TRY(check(ctx, p, k));
   STEIF_CHECK(out, ctx, STEIF_BAD_INPUT, "a vector for dy0/dp is needed, got NULL");
   N_VConst(0, out);
@@ -266,6 +270,7 @@ int steif_parameter_start(steif_context *ctx, const steif_problem *p, int k, N_V
 int steif_parameter_pull(steif_context *ctx, const steif_problem *p, sunrealtype t, N_Vector y,
                          N_Vector yp, N_Vector w, sunrealtype *out)
 {
+  STF_NAMED(p);
   STEIF_TRY(check(ctx, p, 0));
   STEIF_CHECK(y && yp && w && out, ctx, STEIF_BAD_INPUT,
               "y, yp, w and out are needed, got NULL");

@@ -64,6 +64,9 @@ int stf_storage_check(steif_context *ctx, const steif_problem *p, enum steif_sto
                 "bandwidths lower = %lld, upper = %lld of problem '%s' must lie "
                 "in 0 .. %lld",
                 (long long)p->lower, (long long)p->upper, p->name, (long long)p->n - 1);
+  if (storage == STEIF_BAND && p->storage != STEIF_BAND)
+    STEIF_CHECK(p->n == 1 || p->lower || p->upper, ctx, STEIF_BAD_INPUT,
+                "problem '%s' has no bandwidths: set .lower and .upper for a band", p->name);
   if (storage == STEIF_SPARSE)
     STEIF_CHECK(p->pattern || p->nnz > 0, ctx, STEIF_BAD_INPUT,
                 "problem '%s' is stored sparse: set .nnz for its Jacobian or a .pattern (which "
@@ -73,6 +76,14 @@ int stf_storage_check(steif_context *ctx, const steif_problem *p, enum steif_sto
   return STEIF_OK;
 }
 
+const steif_problem *stf_with_name(const steif_problem *p, steif_problem *room)
+{
+  if (!p || p->name) return p;
+  *room = *p;
+  room->name = "unnamed";
+  return room;
+}
+
 int steif_problem_form(steif_context *ctx, const steif_problem *p)
 {
   return stf_problem_form(ctx, p, p ? p->n : 0);
@@ -80,8 +91,9 @@ int steif_problem_form(steif_context *ctx, const steif_problem *p)
 
 int stf_problem_form(steif_context *ctx, const steif_problem *p, sunindextype rows)
 {
-  if (!p || !p->name) {
-    STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a problem with a name is needed");
+  STF_NAMED(p);
+  if (!p) {
+    STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a problem is needed, got NULL");
     return 0;
   }
   const int form = form_of(p);

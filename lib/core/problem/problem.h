@@ -109,6 +109,13 @@ const char *stf_equation(const steif_problem *problem, sunindextype i, char *roo
 /* steif_problem_form where this rank has so many rows of start values and index. */
 int stf_problem_form(steif_context *ctx, const steif_problem *problem, sunindextype rows);
 
+/* The problem, or where it has no name a copy in `room` with one for messages. STF_NAMED(p): p from here on, for a
+ * call that keeps no pointer to it. */
+const steif_problem *stf_with_name(const steif_problem *problem, steif_problem *room);
+#define STF_NAMED(p)                                                                           \
+  steif_problem p##_room;                                                                      \
+  p = stf_with_name(p, &p##_room)
+
 /* The 0-based component that is not finite, or -1. Needs a host array (else -1). */
 sunindextype stf_not_finite(N_Vector v);
 

@@ -9,6 +9,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"
+#include "problem.h"
 #include <math.h>
 #include <string.h>
 
@@ -97,6 +98,7 @@ int steif_problem_digits(steif_context *ctx, const steif_problem *problem, sunre
                          N_Vector y, sunrealtype atol_over_rtol, sunrealtype *scd,
                          sunrealtype *mescd)
 {
+  STF_NAMED(problem);
   STEIF_TRY(arguments(ctx, scd && mescd ? problem : NULL, y, atol_over_rtol));
   *scd = *mescd = NAN;
   N_Vector exact = problem->exact ? N_VClone(y) : NULL;

@@ -5,6 +5,7 @@
 #include "reactions.h"
 #include "text.h"
 #include <steif/model.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -40,8 +41,10 @@ int stf_number_of(stf_model *m, const stf_expression *e, double *value)
  * -------------------------------------------------------------------------------
  */
 
+/* Without `time` the model begins at 0 and has no end: runs say theirs. */
 static int interval(stf_model *m)
 {
+  m->t1 = INFINITY;
   for (size_t i = 0; i < m->syntax.statements.count; i++) {
     const stf_statement *s = stf_statement_at(m, (int32_t)i);
     if (s->kind != STF_SAY_TIME) continue;
@@ -53,10 +56,10 @@ static int interval(stf_model *m)
                  m->t1);
     return stf_complaints(&m->syntax.sources);
   }
-  stf_complain(&m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,
-               "no time interval; add 'time 0 to 10'");
-  return stf_complaints(&m->syntax.sources);
+  return STEIF_OK;
 }
+
+double stf_span(const stf_model *m) { return isfinite(m->t1) ? m->t1 - m->t0 : 1; }
 
 static int open_events(stf_model *m)
 {
@@ -120,6 +123,7 @@ void stf_model_free(stf_model *m)
   stf_quantity_free(m, &m->events);
   stf_quantity_free(m, &m->invariants);
   stf_quantity_free(m, &m->outputs);
+  stf_quantity_free(m, &m->output_slopes);
   stf_quantity_free(m, &m->f);
   stf_quantity_free(m, &m->A.quantity);
   stf_quantity_free(m, &m->E.quantity);

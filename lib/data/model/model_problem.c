@@ -15,7 +15,7 @@ enum { DENSE_UP_TO = 64, DERIVATIVES = 64 };
 static stf_feed feed_at(const stf_model *m, sunrealtype t, N_Vector y, N_Vector yp)
 {
   return (stf_feed){.t = t,
-                    .y = y ? stf_array(y) : NULL,
+                    .y = stf_array(y),
                     .yp = yp ? stf_array(yp) : NULL,
                     .p = m->feed.p,
                     .memory = m->feed.memory,
@@ -54,27 +54,28 @@ static int blame(stf_model *m, const stf_feed *feed, const double *f)
 }
 
 /* f is not finite: where branches are frozen, as they are at this point; else why. */
-static int amiss(stf_model *m, stf_feed *feed, double *to)
+static __attribute__((noinline)) int amiss(stf_model *m, stf_feed *feed, double *to)
 {
   return retried(m, feed, to) ? 0 : blame(m, feed, to);
 }
 
-static int run(sunrealtype t, N_Vector y, N_Vector yp, N_Vector out, stf_model *m)
+static int run(stf_model *m, stf_feed *feed, N_Vector out)
 {
-  stf_feed feed = feed_at(m, t, y, yp);
   double *to = stf_array(out);
-  stf_quantity_run(m, &m->f, &feed, to);
-  return stf_all_finite(to, (size_t)m->n) ? 0 : amiss(m, &feed, to);
+  stf_quantity_run(m, &m->f, feed, to);
+  return stf_all_finite(to, (size_t)m->n) ? 0 : amiss(m, feed, to);
 }
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 {
-  return run(t, y, NULL, ydot, user);
+  stf_feed feed = feed_at(user, t, y, NULL);
+  return run(user, &feed, ydot);
 }
 
 static int F(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user)
 {
-  return run(t, y, yp, r, user);
+  stf_feed feed = feed_at(user, t, y, yp);
+  return run(user, &feed, r);
 }
 
 /* The entries; where a frozen branch has none, those of the branch at this point. */
@@ -154,9 +155,10 @@ static int differentiate(stf_model *m, const stf_block *block, const stf_equatio
 static int g(sunrealtype t, int derivative, N_Vector out, void *user)
 {
   stf_model *m = user;
-  if (!derivative) return run(t, NULL, NULL, out, user);
+  stf_feed feed = {
+    .t = t, .p = m->feed.p, .memory = m->feed.memory, .lookups = m->feed.lookups};
+  if (!derivative) return run(m, &feed, out);
   if (derivative > DERIVATIVES) return 1;
-  const stf_feed feed = feed_at(m, t, NULL, NULL);
   bool known = false;
   for (size_t i = 0; i < m->blocks.count; i++) {
     const stf_block *block = *STF_AT(m->blocks, stf_block *, i);
@@ -270,7 +272,7 @@ int stf_model_fill(stf_model *m, steif_problem *p)
   p->autonomous = m->autonomous;
   callbacks(m, p);
   p->t0 = m->t0;
-  p->t1 = m->t1;
+  p->t1 = isfinite(m->t1) ? m->t1 : m->t0;
   events(m, p);
   STEIF_TRY(sizes(m, p));
   STEIF_TRY(stf_finish(m, p));

@@ -173,7 +173,7 @@ int stf_plot_gnuplot(steif_context *ctx, size_t count, const steif_plot *panel, 
               strerror(errno));
   terminal(script);
   if (count > 1)
-    fprintf(script, "set multiplot layout %zu,1\nset lmargin 12\nset rmargin 18\n", count);
+    fprintf(script, "set multiplot layout %zu,1\nset lmargin 15\nset rmargin 18\n", count);
   for (size_t i = 0; i < count; i++) script_of(panel + i, script);
   if (count > 1) fputs("unset multiplot\n", script);
   pid_t child = 0;

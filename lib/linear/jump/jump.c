@@ -298,6 +298,7 @@ int steif_jump_find(steif_context *ctx, const steif_problem *problem,
                     const steif_point *inquiry, const steif_jump_request *request,
                     steif_jump *jump)
 {
+  STF_NAMED(problem);
   static const steif_jump_request none = {0};
   const steif_jump_request *r = request ? request : &none;
   STEIF_CHECK(jump, ctx, STEIF_BAD_INPUT, "a place for the jump is needed, got NULL");

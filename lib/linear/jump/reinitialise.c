@@ -1,6 +1,7 @@
 /* reinitialise.c: the state behind an event.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "base.h"
+#include "problem.h"
 #include <steif/jump.h>
 #include <string.h>
 
@@ -29,11 +30,13 @@ static int settle(steif_context *ctx, const steif_problem *problem, sunrealtype 
 int steif_reinitialise(steif_context *ctx, const steif_problem *problem, sunrealtype t,
                        sunrealtype rtol, N_Vector y, N_Vector yp)
 {
+  STF_NAMED(problem);
   return settle(ctx, problem, t, rtol, false, y, yp);
 }
 
 int steif_reinitialise_stages(steif_context *ctx, const steif_problem *problem, sunrealtype t,
                               sunrealtype rtol, N_Vector y, N_Vector yp)
 {
+  STF_NAMED(problem);
   return settle(ctx, problem, t, rtol, true, y, yp);
 }

@@ -1,6 +1,7 @@
 /* linear_problem.c: E x' + F x = f as a problem for every solver, and the matrices of such a problem.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "linear_system.h"
+#include "problem.h"
 #include <nvector/nvector_serial.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
@@ -107,6 +108,7 @@ static int fill_both(steif_context *ctx, const steif_problem *p, steif_linear *l
 
 int steif_linear_of(steif_context *ctx, const steif_problem *p, steif_linear *l)
 {
+  STF_NAMED(p);
   const int form = steif_problem_form(ctx, p);
   if (!form) return steif_status(ctx);
   STEIF_CHECK(form == STEIF_DESCRIPTOR && p->E && p->A, ctx, STEIF_UNSUPPORTED,

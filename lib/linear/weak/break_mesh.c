@@ -85,7 +85,7 @@ static int begins_anew(stf_measure *w, size_t inside, int order)
   if (!inside) return STEIF_OK;
   STEIF_CHECK(can || !q->restart, w->ctx, STEIF_UNSUPPORTED,
               "runs restart at breaks of f with one-step methods and with convolution "
-              "quadrature (--start cq), not with '%s'",
+              "quadrature (.start = \"cq\"), not with '%s'",
               q->method);
   w->mesh.anew = can && (q->restart || (w->cq ? q->h == 0 || meshed : q->h == 0 && !meshed));
   return STEIF_OK;

@@ -95,7 +95,7 @@ static int narrow(const look *l, int j, sunrealtype a, sunrealtype b, sunrealtyp
   }
   return STEIF_FAIL(l->measure->ctx, STEIF_BAD_INPUT,
                     "f is not smooth near t = %.11g, where derivative %d of it jumps: name its "
-                    "breaks (--breaks)",
+                    "breaks (.breaks)",
                     a, j);
 }
 

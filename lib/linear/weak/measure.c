@@ -124,7 +124,7 @@ int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_meas
       w->smooth.defect <= ROUGH, ctx, STEIF_BAD_INPUT,
       "the test function is not smooth enough up to t = %g: what its first %d "
       "derivatives say differs from it by %.1Le of its size; take one like (1-t/%g)^%d, "
-      "or end it before (--t1)",
+      "or end it before (.g->t1)",
       query->g->t1, stf_smooth(s->index), w->smooth.defect, query->g->t1,
       stf_smooth(s->index) + 1);
   }
@@ -132,6 +132,14 @@ int stf_measure_open(steif_context *ctx, const steif_weak_query *query, stf_meas
   STEIF_CHECK(w->room, ctx, STEIF_NO_MEMORY, "no memory for a vector");
   STEIF_TRY(stf_mesh_open(w));
   return stf_forcing_rate(w);
+}
+
+int stf_measure_tell(const stf_measure *w, size_t i)
+{
+  const steif_weak_query *q = w->query;
+  STEIF_CHECK(!q->tell || !q->tell(i, q->told), w->ctx, STEIF_STOPPED,
+              "the callback .tell stopped the measure after %zu of %zu rows", i + 1, q->rows);
+  return STEIF_OK;
 }
 
 void stf_measure_close(stf_measure *w)

@@ -49,6 +49,8 @@ int stf_measure_longest(const stf_measure *measure, sunrealtype *longest, const 
 int stf_forcing_rate(stf_measure *measure);
 /* The run of row `row`: value and level. */
 int stf_measure_run(stf_measure *measure, size_t row);
+/* Row i is made: tells who asked to know. */
+int stf_measure_tell(const stf_measure *measure, size_t i);
 /* Segments of the mesh, and in the row that is made: one of them, its longest step, and its steps on the
  * interval of the test function if all were as long. */
 int stf_mesh_open(stf_measure *measure);

@@ -117,12 +117,12 @@ static int too_few(const stf_judged *j, size_t from, size_t usable, steif_weak_r
   const size_t room = sizeof r->verdict;
   undecided(r);
   if (j->rows == 1 && from == 0 && !zero(j, 0))
-    return snprintf(text, room, "none: one row shows no order; three decide (--halvings)");
+    return snprintf(text, room, "none: one row shows no order; three decide (.rows)");
   if (from == j->rows)
     return snprintf(
       text, room,
-      "undecided: steps of %.3g do not resolve %s; take them below %.2g (--h), or a "
-      "shorter interval (--t1)",
+      "undecided: steps of %.3g do not resolve %s; take them below %.2g (.h), or a "
+      "shorter interval (.g->t1)",
       j->row[j->rows - 1].h, j->fastest, j->longest);
   if (zeros(j, from + usable)) {
     r->converges = 1;
@@ -132,12 +132,12 @@ static int too_few(const stf_judged *j, size_t from, size_t usable, steif_weak_r
              : snprintf(text, room, "%s", exact);
   }
   if (j->rows - from < LEAST)
-    return snprintf(text, room, "undecided: three rows decide; ask for more (--halvings)");
+    return snprintf(text, room, "undecided: three rows decide; ask for more (.rows)");
   return snprintf(
     text, room,
-    "undecided: rounding from h = %.3g on; larger steps (--h %.3g --halvings 4)%s decide",
+    "undecided: rounding from h = %.3g on; larger steps (.h = %.3g, .rows = 5)%s decide",
     j->row[from + usable].h, fmin(4 * j->row[from].h, j->longest),
-    j->decidable ? " or --exact" : "");
+    j->decidable ? " or .exact" : "");
 }
 
 void stf_say_inside(const stf_judged *j, const char *what, char *text, size_t room)
@@ -148,11 +148,11 @@ void stf_say_inside(const stf_judged *j, const char *what, char *text, size_t ro
                             j->inside, what);
   char *more = text + used;
   if (isfinite(j->fitting))
-    snprintf(more, room - (size_t)used, "; --h %.17g puts it on the mesh", j->fitting);
+    snprintf(more, room - (size_t)used, "; .h = %.17g puts it on the mesh", j->fitting);
   else
-    snprintf(more, room - (size_t)used, "; %s (--restart)",
+    snprintf(more, room - (size_t)used, "; %s (.restart)",
              j->able ? "let steps end there"
-                     : "one-step methods and --start cq can restart there");
+                     : "one-step methods and .start = \"cq\" can restart there");
 }
 
 void stf_weak_judge(const stf_judged *j, steif_weak_result *r)
@@ -171,7 +171,7 @@ void stf_weak_judge(const stf_judged *j, steif_weak_result *r)
     undecided(r);
     snprintf(text, room,
              "undecided: the exact value is not known, f changes too fast for its integrals; "
-             "take a shorter interval (--t1)");
+             "take a shorter interval (.g->t1)");
     return;
   }
   if (usable < LEAST)
@@ -183,6 +183,6 @@ void stf_weak_judge(const stf_judged *j, steif_weak_result *r)
   snprintf(
     text, room,
     "undecided: the test function does not see impulses of order %d, its derivative there "
-    "is 0; take another one, such as --g power:n=%d",
+    "is 0; take another one, such as (1 - t)^%d",
     j->blind, r->index + 3);
 }

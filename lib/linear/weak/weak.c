@@ -16,8 +16,8 @@
 /* ---- rows --------------------------------------------------------------------------------- */
 
 /* Over several components 2-norms. */
-static int fill_row(stf_measure *w, size_t i, const steif_weak_result *result,
-                    steif_weak_row *row)
+static int fill_row(stf_measure *w, size_t i, const stf_judged *j,
+                    const steif_weak_result *result, steif_weak_row *row)
 {
   const steif_weak_query *q = w->query;
   const sunrealtype h = ldexp(w->h, -(int)i);
@@ -33,9 +33,10 @@ static int fill_row(stf_measure *w, size_t i, const steif_weak_result *result,
     error = all ? hypot(error, v - w->exact[m]) : v - w->exact[m];
   }
   row[i] = (steif_weak_row){h, value, error, NAN, level, 0};
-  row[i].usable = level <= USABLE * fabs(error) && error != 0 && isfinite(error);
-  if (i > 0) row[i].order = log2(fabs(row[i - 1].error / row[i].error));
-  return STEIF_OK;
+  row[i].usable =
+    level <= USABLE * fabs(error) && error != 0 && isfinite(error) && !(h > j->longest);
+  if (i > 0 && !isfinite(j->inside)) row[i].order = log2(fabs(row[i - 1].error / row[i].error));
+  return stf_measure_tell(w, i);
 }
 
 /* ---- what the rows may be judged by ------------------------------------------------------- */
@@ -84,32 +85,35 @@ static int look_at_end(const stf_measure *w, char *note, size_t room)
   return STEIF_OK;
 }
 
-static int conclude(const stf_measure *w, steif_weak_row *row, steif_weak_result *result)
+/* What is known before the rows are made. */
+static int look_before(const stf_measure *w, steif_weak_row *row,
+                       const steif_weak_result *result, stf_judged *j)
 {
-  const stf_subject *s = &w->subject;
-  stf_judged j = {.row = row,
-                  .rows = w->query->rows,
-                  .size = fabs(result->exact),
-                  .accuracy = result->accuracy,
-                  .blind = -1,
-                  .inside = NAN,
-                  .decidable = w->longer && !w->query->exact};
   const steif_weak_query *q = w->query;
-  const sunrealtype t1 = (sunrealtype)s->weight.t1;
+  const sunrealtype t1 = (sunrealtype)w->subject.weight.t1;
+  *j = (stf_judged){.row = row,
+                    .rows = q->rows,
+                    .size = fabs(result->exact),
+                    .accuracy = result->accuracy,
+                    .blind = -1,
+                    .inside = NAN,
+                    .decidable = w->longer && !q->exact};
   const size_t inside = stf_break_inside(q->break_count, q->breaks, t1, w->h);
   if (inside < q->break_count && !w->mesh.anew) {
-    j.inside = q->breaks[inside], j.able = w->mesh.able;
-    j.fitting = stf_break_step(q->break_count, q->breaks, t1, w->h);
-    for (size_t i = 0; i < j.rows; i++) row[i].order = NAN;
+    j->inside = q->breaks[inside], j->able = w->mesh.able;
+    j->fitting = stf_break_step(q->break_count, q->breaks, t1, w->h);
   }
-  STEIF_TRY(stf_measure_longest(w, &j.longest, &j.fastest));
+  return stf_measure_longest(w, &j->longest, &j->fastest);
+}
+
+static int conclude(const stf_measure *w, stf_judged *j, steif_weak_result *result)
+{
+  const stf_subject *s = &w->subject;
   STEIF_TRY(look_at_end(w, result->note, sizeof result->note));
-  STEIF_TRY(find_blind(w, 0, s->block.k ? s->block.c : s->impulse.c, &j.blind));
+  STEIF_TRY(find_blind(w, 0, s->block.k ? s->block.c : s->impulse.c, &j->blind));
   for (size_t b = 0; b < s->jumps; b++)
-    STEIF_TRY(find_blind(w, s->jump[b].t, s->jump[b].at.c, &j.blind));
-  for (size_t i = 0; i < j.rows; i++)
-    if (row[i].h > j.longest) row[i].usable = 0;
-  stf_weak_judge(&j, result);
+    STEIF_TRY(find_blind(w, s->jump[b].t, s->jump[b].at.c, &j->blind));
+  stf_weak_judge(j, result);
   return STEIF_OK;
 }
 
@@ -153,8 +157,10 @@ static int measure_rows(stf_measure *w, steif_weak_row *row, steif_weak_result *
   STEIF_TRY(stf_measure_components(w));
   STEIF_TRY(find_exact(w, result));
   STEIF_TRY(first_order(w, &result->first));
-  for (size_t i = 0; i < q->rows; i++) STEIF_TRY(fill_row(w, i, result, row));
-  return conclude(w, row, result);
+  stf_judged j;
+  STEIF_TRY(look_before(w, row, result, &j));
+  for (size_t i = 0; i < q->rows; i++) STEIF_TRY(fill_row(w, i, &j, result, row));
+  return conclude(w, &j, result);
 }
 
 /* Rounding that is only estimated decides nothing. */

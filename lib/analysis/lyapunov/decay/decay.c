@@ -65,6 +65,7 @@ int steif_decay_find(steif_context *ctx, const steif_problem *problem, const cha
                      const steif_lyapunov_options *options, sunrealtype period, int search,
                      steif_decay *decay)
 {
+  STF_NAMED(problem);
   stf_question q;
   STEIF_CHECK(decay, ctx, STEIF_BAD_INPUT, "room for the verdict is needed");
   *decay = (steif_decay){.h_good = NAN, .h_bad = NAN};

@@ -272,6 +272,7 @@ int steif_supervise(steif_context *ctx, const steif_problem *problem, const char
                     const steif_options *options, const steif_supervision *how, sunrealtype *y,
                     steif_supervised *facts)
 {
+  STF_NAMED(problem);
   steif_supervised unused;
   STEIF_CHECK(problem && method && options && how, ctx, STEIF_BAD_INPUT,
               "a problem, a method, options and a supervision are needed");

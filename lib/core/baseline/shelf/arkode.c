@@ -113,7 +113,7 @@ static int take_table(arkode *s, const steif_table *t)
   STEIF_CHECK(t->kind == STEIF_DIRK, ctx, STEIF_UNSUPPORTED,
               "table '%s' is not diagonally implicit: ARKODE cannot run it", t->name);
   STEIF_CHECK(given || t->bhat, ctx, STEIF_UNSUPPORTED,
-              "table '%s' has no embedded weights: give h (--h) for constant steps", t->name);
+              "table '%s' has no embedded weights: give h for constant steps", t->name);
   sunrealtype c[STEIF_STAGES], A[STEIF_STAGES * STEIF_STAGES], b[STEIF_STAGES], d[STEIF_STAGES];
   for (int i = 0; i < t->s; i++) {
     b[i] = t->b[i], d[i] = t->bhat ? t->bhat[i] : 0, c[i] = 0;

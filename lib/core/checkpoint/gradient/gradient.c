@@ -327,6 +327,7 @@ int steif_gradient_find(steif_context *ctx, const steif_problem *problem, const 
                         const steif_options *options, const steif_functional *functional,
                         steif_gradient *g)
 {
+  STF_NAMED(problem);
   if (!ctx) return STEIF_BAD_INPUT;
   steif_forget(ctx);
   stf_journey J = {.method = method, .back = {.ctx = ctx}};

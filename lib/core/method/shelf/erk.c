@@ -59,8 +59,8 @@ static int attempt(stf_step *s, sunrealtype h)
   if (!stf_finite(&s->system.space, s->next))
     return STEIF_RECOVER(
       s->ctx, STEIF_NOT_FINITE,
-      "the step of problem '%s' from t = %.12g with h = %.6g overflowed: the step "
-      "is too large for an explicit method",
+      "the step of problem '%s' from t = %.12g with h = %.6g is not finite: it "
+      "overflowed, as too large a step of an explicit method does, or f has left its domain",
       s->problem->name, s->t, h);
   if (!s->adaptive) return STEIF_OK;
   stf_combine(&s->system.space, e->table->s, e->differ, e->K, s->error);

@@ -151,7 +151,8 @@ static int attempt(stf_step *s, sunrealtype h)
   stf_copy(space, e->u[last], s->error);
   if (!stf_finite(space, s->next))
     return STEIF_RECOVER(s->ctx, STEIF_NOT_FINITE,
-                         "the step of problem '%s' from t = %.12g with h = %.6g is not finite",
+                         "the step of problem '%s' from t = %.12g with h = %.6g is not finite: "
+                         "f gave NaN or infinity, or the step is too large",
                          s->problem->name, s->t, h);
   return STEIF_OK;
 }

@@ -104,15 +104,18 @@ static bool measure(const hdf5 *h, stf_h5 data, uint64_t size[2])
   return good;
 }
 
-/* Has the file all that the sizes claim? Of data in one piece; chunks are looked at as they are read. */
+/* Has the file all that the sizes claim? Chunks may be compressed, by deflate to 1/1032 at most; a claim beyond that
+ * of more than some megabytes is refused before there is room for it, small ones are looked at as they are read. */
 static bool whole(const hdf5 *h, stf_h5 data, const uint64_t size[2])
 {
-  enum { CHUNKED = 2 };
+  enum { CHUNKED = 2, PRESSED = 1100, SMALL = 1 << 20 };
   const stf_h5 type = h->type(data), how = h->how(data);
   const int layout = how >= 0 ? h->layout(how) : -1;
   const size_t bytes = type >= 0 ? h->bytes(type) : 0;
-  const bool good =
-    layout == CHUNKED || (layout >= 0 && bytes && h->stored(data) / bytes / size[0] >= size[1]);
+  const uint64_t most =
+    (bytes ? h->stored(data) / bytes : 0) * (layout == CHUNKED ? PRESSED : 1);
+  const bool good = (layout == CHUNKED && size[0] <= SMALL / size[1]) ||
+                    (layout >= 0 && bytes && most / size[0] >= size[1]);
   if (type >= 0) h->type_close(type);
   if (how >= 0) h->how_close(how);
   return good;
@@ -127,11 +130,11 @@ static int read_numbers(steif_context *ctx, const hdf5 *h, stf_h5 file, const ch
   const bool empty = good && !(v->size[0] && v->size[1]);
   const bool fits = good && !empty && v->size[0] < most && v->size[1] < most &&
                     v->size[0] <= ((uint64_t)1 << 40) / v->size[1];
-  int code = fits ? STEIF_OK : STEIF_BAD_INPUT;
-  if (fits && !(v->x = stf_allocate(ctx, (size_t)(v->size[0] * v->size[1]), sizeof *v->x)))
+  const bool held = fits && whole(h, data, v->size);
+  int code = held ? STEIF_OK : STEIF_BAD_INPUT;
+  if (held && !(v->x = stf_allocate(ctx, (size_t)(v->size[0] * v->size[1]), sizeof *v->x)))
     code = STEIF_NO_MEMORY;
-  const bool complete =
-    !code && whole(h, data, v->size) && h->read(data, *h->real, 0, 0, 0, v->x) >= 0;
+  const bool complete = !code && h->read(data, *h->real, 0, 0, 0, v->x) >= 0;
   if (data >= 0) h->data_close(data);
   if (code == STEIF_NO_MEMORY) return code;
   STEIF_CHECK(good && !empty && fits, ctx, STEIF_BAD_INPUT,
@@ -139,6 +142,11 @@ static int read_numbers(steif_context *ctx, const hdf5 *h, stf_h5 file, const ch
               empty  ? "empty"
               : good ? "too large"
                      : "no matrix of real numbers");
+  STEIF_CHECK(
+    held, ctx, STEIF_BAD_INPUT,
+    "the variable %s claims %llu x %llu numbers, and the file does not hold them: it is "
+    "cut off or damaged; save it again",
+    name, (unsigned long long)v->size[0], (unsigned long long)v->size[1]);
   STEIF_CHECK(complete, ctx, STEIF_BAD_INPUT,
               "the variable %s is cut off or damaged; save it again", name);
   return STEIF_OK;

@@ -78,7 +78,7 @@ static void start_timer(const stf_model *m, stf_reaction *r, double t)
 /* Relations marked in `open`, whose g is 0 or as small as rounding: a short step along y' = f tells. */
 static void look_ahead(stf_model *m, double t, const double *at)
 {
-  const double h = 1e-8 * (m->t1 - m->t0);
+  const double h = 1e-8 * stf_span(m);
   stf_feed feed = feed_at(m, t, at);
   double *y = m->memory_literal + m->memories, *g = m->event_values[1];
   stf_quantity_run(m, &m->f, &feed, y);

@@ -77,7 +77,7 @@ static int32_t of_one(stf_formulas *g, const stf_node *n, int32_t self, int32_t 
   case STF_OP_ERF: return MUL(w, MUL(N(2 / sqrt(acos(-1))), FUN(EXP, NEG(MUL(a, a)))));
   case STF_OP_ABS: return MUL(w, FUN(SIGN, a));
   case STF_OP_RAMP: return MUL(w, FUN(STEP, a));
-  case STF_OP_LOOKUP: return MUL(w, stf_apply(g, STF_OP_TILT, a, n->b, 0));
+  case STF_OP_LOOKUP: return n->c ? N(0) : MUL(w, stf_apply(g, STF_OP_TILT, a, n->b, 0));
   default: return N(0); /* sign, step, floor, not, the slope of a table */
   }
 }
@@ -217,7 +217,8 @@ int32_t stf_without(stf_formulas *g, int32_t root, int kind, stf_sweep *s)
     else if (n.kind == kind)
       result = N(0);
     else
-      result = stf_apply(g, n.kind, child[0], count > 1 ? child[1] : n.b, child[2]);
+      result =
+        stf_apply(g, n.kind, child[0], count > 1 ? child[1] : n.b, count > 2 ? child[2] : n.c);
     *adjoint(s, node) = result + 1;
   }
   g->exact = before;

@@ -193,7 +193,7 @@ int32_t stf_apply(stf_formulas *g, int kind, int32_t a, int32_t b, int32_t c)
   int32_t child[3] = {a, b, c};
   const int count = stf_operands(kind);
   n.number = 0;
-  if (kind == STF_OP_SELECT) n.c = c;
+  if (kind == STF_OP_SELECT || kind == STF_OP_LOOKUP) n.c = c;
   for (int i = 0; i < count; i++) {
     if (child[i] < 0) return -1;
     n.on |= stf_node_at(g, child[i])->on;

@@ -256,7 +256,7 @@ static int table(stf_builder *b, const stf_symbol *s)
     if (!to) return STEIF_NO_MEMORY;
     *to = l->x[i];
   }
-  return stf_push_node(b, stf_apply(b->g, STF_OP_LOOKUP, x, s->which, 0));
+  return stf_push_node(b, stf_apply(b->g, STF_OP_LOOKUP, x, s->which, l->kind == 2));
 }
 
 static int call(stf_builder *b, const stf_code *c)

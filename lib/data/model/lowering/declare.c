@@ -289,6 +289,7 @@ static void orders(stf_model *m)
     if (c->kind != STF_OP_NAME && c->kind != STF_OP_ELEMENT) continue;
     stf_symbol *s = stf_symbol_of(m, c->kind == STF_OP_NAME ? c->a : c->b);
     if (!s || s->kind != STF_IS_STATE || !c->primes) continue;
+    if (!s->differentiated) s->slope_at = c->at;
     s->differentiated = 1;
     if (c->primes > s->order) s->order = c->primes;
   }

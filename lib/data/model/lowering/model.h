@@ -32,6 +32,7 @@ typedef struct stf_symbol {
   /* states */
   int32_t order, first[8]; /* derivatives that occur, at least 1; unknowns 0 .. order-1 */
   uint8_t differentiated;
+  uint32_t slope_at; /* where its derivative occurs first */
   int32_t dims, low[STF_DIMENSIONS], count[STF_DIMENSIONS], size;
 } stf_symbol;
 
@@ -86,7 +87,7 @@ typedef void (*stf_code_of_tape)(double t, const double *y, const double *yp, co
 typedef struct stf_quantity {
   stf_vector tapes, spaces; /* stf_tape, double * */
   int64_t size;             /* outputs; 0: the caller has filled them, and tapes add */
-  bool assigns;             /* each output is written once */
+  bool assigns, alone;      /* each output is written once; by one tape */
   stf_code_of_tape *code;   /* of each tape; NULL: the machine runs it */
   const int32_t *const **slots;
 } stf_quantity;
@@ -115,10 +116,11 @@ typedef struct stf_model {
   stf_matrix A, E;
   stf_quantity f; /* f, F or g */
   stf_quantity events, invariants, outputs;
+  stf_quantity output_slopes; /* along a direction; made at the first use */
   stf_feed feed;
   /* memory: discrete values, switches, timers */
   double *memory, *memory_start, *memory_literal;
-  double t0, t1;
+  double t0, t1;          /* t1: infinite without `time` */
   uint8_t *constraint_of; /* statements: it is a constraint of the problem */
   bool constrained;
   int32_t memories, switches, timers, invariant_count, output_count;
@@ -249,11 +251,15 @@ int stf_build_start(stf_model *m);
 int stf_bind_element(stf_builder *b, const stf_statement *said, const stf_symbol *s, int32_t k);
 /* problem.c of this room */
 int stf_name_unknowns(stf_model *m);
+/* t1 - t0, or 1 where the text has no `time`. */
+double stf_span(const stf_model *m);
 /* A number of parameters and constants only; the failure is told. */
 int stf_number_of(stf_model *m, const stf_expression *e, double *value);
 /* extras.c: breaks, reference, invariants, constraints. */
 int stf_build_constraints(stf_model *m);
 int stf_finish(stf_model *m, steif_problem *problem);
+/* m->output_slopes is there. */
+int stf_output_slopes(stf_model *m);
 /* The unknown that a statement names, "u[3]" or "x'". */
 int stf_component(stf_model *m, stf_builder *b, const stf_statement *s, int32_t *component);
 /* fulfilled_start.c: start values that fulfil the equations, and the index. */

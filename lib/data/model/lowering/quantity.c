@@ -61,6 +61,7 @@ int stf_quantity_close(stf_model *m, stf_quantity *q, int64_t size)
   if (!seen) return STEIF_NO_MEMORY;
   q->size = size;
   q->assigns = once(q, size, seen);
+  q->alone = q->assigns && q->tapes.count == 1;
   for (size_t i = 0; i < q->tapes.count; i++)
     STF_AT(q->tapes, stf_tape, i)->assigns = q->assigns;
   stf_release(m->ctx, seen);
@@ -76,6 +77,11 @@ void stf_quantity_prepare(const stf_model *m, const stf_quantity *q)
 void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed *feed,
                       double *out)
 {
+  (void)m;
+  if (q->alone && !q->code) {
+    stf_tape_run(q->tapes.data, feed, *(double **)q->spaces.data, out);
+    return;
+  }
   if (q->size && !q->assigns) memset(out, 0, (size_t)q->size * sizeof *out);
   for (size_t i = 0; i < q->tapes.count; i++) {
     const stf_tape *t = STF_AT(q->tapes, stf_tape, i);
@@ -85,7 +91,6 @@ void stf_quantity_run(const stf_model *m, const stf_quantity *q, const stf_feed 
     else
       stf_tape_run(t, feed, space, out);
   }
-  (void)m;
 }
 
 void stf_quantity_free(const stf_model *m, stf_quantity *q)

@@ -67,16 +67,35 @@ static int32_t first_without(stf_model *m, const stf_formulas *g, const stf_feed
   return found;
 }
 
+/* ": 'x - x0' is 0" of the operand after the '/' at `at`, as it is written; "" where it is not short. */
+static const char *operand(const stf_model *m, uint32_t at, size_t room, char *text)
+{
+  const char *from = stf_source_at(&m->syntax.sources, at);
+  size_t length = 0;
+  int depth = 0;
+  if (*from++ != '/') return "";
+  from += strspn(from, " \t");
+  for (; from[length] && from[length] != '\n'; length++) {
+    if (!depth && strchr("+-*/^,)]=<> \t#{:", from[length])) break;
+    depth += strchr("([", from[length]) ? 1 : strchr(")]", from[length]) ? -1 : 0;
+  }
+  const bool bracket = *from == '(' && length > 2 && from[length - 1] == ')';
+  if (!length || depth || length > 42) return "";
+  snprintf(text, room, ": '%.*s' is 0", (int)length - 2 * bracket, from + bracket);
+  return text;
+}
+
 static void describe(stf_model *m, const stf_block *block, const stf_feed *f,
                      const int32_t *counter, int32_t node, const double x[3], stf_blame *blame)
 {
-  char where[300];
+  char where[300], zero[60];
   const stf_node *n = stf_node_at(&block->graph, node);
   const char *word = stf_operation_word(n->kind);
   depends(m, &block->graph, f, counter, node, sizeof where, where);
   blame->at = n->at;
   if (n->kind == STF_OP_DIVIDE && x[1] == 0)
-    snprintf(blame->what, sizeof blame->what, "division by zero (%s)", where);
+    snprintf(blame->what, sizeof blame->what, "division by zero (%s)%s", where,
+             operand(m, n->at, sizeof zero, zero));
   else if (stf_operands(n->kind) == 2)
     snprintf(blame->what, sizeof blame->what, "%.6g %s %.6g is not finite (%s)", x[0], word,
              x[1], where);

@@ -1,6 +1,6 @@
 /* extras.c: breaks, constraints, invariants and reference values of a model.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "model.h"
+#include "products.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,8 +27,8 @@ static int breaks(stf_model *m, steif_problem *p)
   size_t count = 0;
   if (m->breaks.count) qsort(all, m->breaks.count, sizeof *all, ascending);
   for (size_t i = 0; i < m->breaks.count; i++) {
-    const bool inside = all[i] > m->t0 && all[i] < m->t1;
-    if (inside && (!count || all[i] > all[count - 1])) all[count++] = all[i];
+    const bool ahead = all[i] > m->t0 && all[i] < INFINITY;
+    if (ahead && (!count || all[i] > all[count - 1])) all[count++] = all[i];
   }
   p->breaks = count ? all : NULL;
   p->break_count = m->break_count = (int)count;
@@ -123,8 +123,8 @@ static int check_name(stf_model *m, int32_t statement)
     stf_named(m, s->name), line);
 }
 
-/* The values of all statements of a kind, as one quantity. */
-static int collect(stf_model *m, int kind, stf_quantity *q, int32_t *count)
+/* The values of all statements of a kind, or their derivatives along a direction, as one quantity. */
+static int collect(stf_model *m, int kind, bool along, stf_quantity *q, int32_t *count)
 {
   stf_block block = {.graph = {.ctx = m->ctx}};
   stf_builder b;
@@ -144,7 +144,9 @@ static int collect(stf_model *m, int kind, stf_quantity *q, int32_t *count)
     if (to) *to = (stf_store){.from = node, .a = (*count)++};
   }
   stf_builder_close(&b);
-  if (!code && stores.count) code = stf_compile_quantity(m, &block, &stores, q);
+  if (!code && stores.count)
+    code = along ? stf_tangents_of(m, &block, &stores, q)
+                 : stf_compile_quantity(m, &block, &stores, q);
   stf_vector_free(m->ctx, &stores);
   stf_formulas_free(&block.graph);
   return m->syntax.sources.errors ? stf_complaints(&m->syntax.sources) : code;
@@ -152,10 +154,17 @@ static int collect(stf_model *m, int kind, stf_quantity *q, int32_t *count)
 
 static int invariants(stf_model *m, steif_problem *p)
 {
-  STEIF_TRY(collect(m, STF_SAY_INVARIANT, &m->invariants, &m->invariant_count));
+  STEIF_TRY(collect(m, STF_SAY_INVARIANT, false, &m->invariants, &m->invariant_count));
   p->invariants = m->invariant_count;
   p->invariant = m->invariant_count ? invariant_values : NULL;
-  return collect(m, STF_SAY_OUTPUT, &m->outputs, &m->output_count);
+  return collect(m, STF_SAY_OUTPUT, false, &m->outputs, &m->output_count);
+}
+
+int stf_output_slopes(stf_model *m)
+{
+  int32_t count = 0;
+  if (m->output_slopes.tapes.count) return STEIF_OK;
+  return collect(m, STF_SAY_OUTPUT, true, &m->output_slopes, &count);
 }
 
 /* ---- reference

@@ -86,12 +86,11 @@ static void missing(stf_model *m)
     for (int level = 0; level < s->order; level++)
       if (!m->start[s->first[level]]) {
         const char *name = m->unknown[s->first[level]];
-        stf_complain(&m->syntax.sources, stf_statement_at(m, s->statement)->at, STEIF_BAD_INPUT,
-                     "'%s' needs a start value since its derivative occurs; "
-                     "write 'state %s = "
-                     "...', or '~' for a "
-                     "guess. Only states without derivative may leave it out",
-                     name, name);
+        stf_complain(
+          &m->syntax.sources, stf_statement_at(m, s->statement)->at, STEIF_BAD_INPUT,
+          "'%s' needs a start value since its derivative occurs (line %d); write 'state %s "
+          "= ...', or '~' for a guess. Only states without derivative may leave it out",
+          name, stf_line_of(&m->syntax.sources, s->slope_at), name);
         break;
       }
   }

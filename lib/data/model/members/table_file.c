@@ -51,11 +51,51 @@ static const char *cell(const char *line, long k, size_t *length)
   return line;
 }
 
+/* The name of column k, without a unit in braces behind it, which may be empty. */
+static const char *column_name(const char *line, long k, size_t *length, const char **unit,
+                               size_t *unit_length)
+{
+  const char *at = cell(line, k, length), *brace = at ? memchr(at, '{', *length) : NULL;
+  *unit_length = 0;
+  if (!brace || at[*length - 1] != '}') return at;
+  *unit = brace + 1;
+  *unit_length = *length - (size_t)(brace - at) - 2;
+  *length = (size_t)(brace - at);
+  while (*length && strchr(" \t", at[*length - 1])) --*length;
+  return at;
+}
+
 static bool is(const char *line, long k, const char *name, size_t length)
 {
-  size_t found;
-  const char *at = cell(line, k, &found);
+  size_t found, whole, unit_length;
+  const char *unit, *at = cell(line, k, &whole);
+  if (at && whole == length && !strncmp(at, name, length)) return true;
+  at = column_name(line, k, &found, &unit, &unit_length);
   return at && found == length && !strncmp(at, name, length);
+}
+
+/* The column of times in another unit than `time`, where both have one. */
+static int check_unit(stf_model *m, const stf_statement *table, const char *line, long x,
+                      const char *file)
+{
+  size_t length, unit_length;
+  const char *unit;
+  char shown[STF_SHOWN], text[STF_SHOWN];
+  const char *at = column_name(line, x, &length, &unit, &unit_length);
+  if (!at || length != 1 || *at != 't' || !unit_length) return STEIF_OK;
+  for (size_t i = 0; i < m->syntax.statements.count; i++) {
+    const stf_statement *s = stf_statement_at(m, (int32_t)i);
+    if (s->kind != STF_SAY_TIME || !s->strlength) continue;
+    const char *own = stf_source_at(&m->syntax.sources, s->string);
+    if (s->strlength == unit_length && !strncmp(own, unit, unit_length)) return STEIF_OK;
+    snprintf(text, sizeof text, "%.*s", (int)unit_length, unit);
+    stf_input_shown(text, shown);
+    return stf_complain(&m->syntax.sources, table->at, STEIF_BAD_INPUT,
+                        "time is in {%.*s} (line %d), the column 't {%s}' of %.60s in {%s}; "
+                        "convert one",
+                        (int)s->strlength, own, (int)s->line, shown, file, shown);
+  }
+  return STEIF_OK;
 }
 
 /* The columns of x and y by the header. */
@@ -76,7 +116,7 @@ static int header(stf_model *m, const stf_statement *table, const stf_statement 
   }
   return *y < 0
            ? complain(m, table, "has no such column; its first line gives the names", file, 0)
-           : STEIF_OK;
+           : check_unit(m, table, line, *x, file);
 }
 
 static bool number(const char *line, long k, double *value)

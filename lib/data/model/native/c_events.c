@@ -234,7 +234,7 @@ static void sizes(stf_writer *w, const stf_model *m)
             m->reactions->list.count, m->reactions->targets.count,
             (int)m->reactions->equation_switches, m->form == STEIF_ODE);
   stf_write(w, "static const double SPAN = ");
-  stf_write_number(w, m->t1 - m->t0);
+  stf_write_number(w, stf_span(m));
   stf_write_text(w, ";\n");
 }
 

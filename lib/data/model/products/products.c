@@ -157,3 +157,28 @@ int steif_model_adjoint(steif_context *ctx, const steif_problem *p, sunrealtype 
   for (int k = 0; by_p && k < m->given.count; k++) by_p[k] = gradient[2 * n + (size_t)k];
   return STEIF_OK;
 }
+
+int steif_model_output_tangent(steif_context *ctx, const steif_problem *p, sunrealtype t,
+                               N_Vector y, N_Vector v, const sunrealtype *q, sunrealtype *value)
+{
+  STEIF_CHECK(p && p->destroy == stf_model_close && y && value, ctx, STEIF_BAD_INPUT,
+              "a problem made from a text, y and a place for the derivatives are needed");
+  stf_model *m = p->user;
+  STEIF_TRY(stf_products_ready(m));
+  STEIF_TRY(stf_output_slopes(m));
+  double *direction = m->products->direction;
+  memset(direction, 0, (size_t)m->parameters * sizeof *direction);
+  if (q) memcpy(direction, q, (size_t)m->given.count * sizeof *direction);
+  stf_feed feed = m->feed;
+  feed.t = t;
+  feed.y = array(y);
+  feed.along[0] = v ? array(v) : m->products->none;
+  feed.along[1] = m->products->none;
+  feed.along[2] = direction;
+  memset(value, 0, (size_t)m->output_count * sizeof *value);
+  stf_quantity_run(m, &m->output_slopes, &feed, value);
+  return stf_all_finite(value, (size_t)m->output_count)
+           ? STEIF_OK
+           : STEIF_RECOVER(ctx, STEIF_NOT_FINITE,
+                           "a derivative of the outputs is not finite at t = %.12g", t);
+}

@@ -34,6 +34,8 @@ int stf_tangent(stf_model *m, double t, const double *y, const double *yp, const
 int stf_adjoint(stf_model *m, double t, const double *y, const double *yp, const double *w);
 /* tangents.c and adjoints.c: the tape of one block. */
 int stf_tangent_tape(stf_model *m, stf_block *block, stf_quantity *q);
+/* The derivatives of what the stores take, along a direction; the stores take these then. */
+int stf_tangents_of(stf_model *m, stf_block *block, stf_vector *stores, stf_quantity *q);
 int stf_adjoint_tape(stf_model *m, stf_block *block, int64_t *rows, stf_quantity *q);
 /* The residual of an equation: y_row' - value, or what stands in the text. */
 int32_t stf_residual_node(const stf_model *m, stf_block *block, const stf_equation *e);

@@ -77,26 +77,32 @@ static int replace(const tangents *s, stf_vector *stores)
   return STEIF_OK;
 }
 
-int stf_tangent_tape(stf_model *m, stf_block *block, stf_quantity *q)
+int stf_tangents_of(stf_model *m, stf_block *block, stf_vector *stores, stf_quantity *q)
 {
   tangents s = {.g = &block->graph};
-  stf_vector stores = {0};
   const bool before = s.g->exact;
-  int code = roots(m, block, &stores);
   const int32_t count = (int32_t)s.g->nodes.count;
-  if (!code) code = stf_vector_resize(m->ctx, &s.live, (size_t)count, 1);
+  int code = stf_vector_resize(m->ctx, &s.live, (size_t)count, 1);
   if (!code) code = stf_vector_resize(m->ctx, &s.along, (size_t)count, sizeof(int32_t));
-  for (size_t k = 0; !code && k < stores.count; k++)
-    *STF_AT(s.live, uint8_t, STF_AT(stores, stf_store, k)->from) = 1;
+  for (size_t k = 0; !code && k < stores->count; k++)
+    *STF_AT(s.live, uint8_t, STF_AT(*stores, stf_store, k)->from) = 1;
   if (!code) mark(&s, count);
   s.g->exact = true;
   for (int32_t i = 0; !code && i < count; i++)
     if (*STF_AT(s.live, uint8_t, i)) code = of_node(&s, i);
-  if (!code) code = replace(&s, &stores);
+  if (!code) code = replace(&s, stores);
   s.g->exact = before;
-  if (!code) code = stf_compile_quantity(m, block, &stores, q);
+  if (!code) code = stf_compile_quantity(m, block, stores, q);
   stf_vector_free(m->ctx, &s.live);
   stf_vector_free(m->ctx, &s.along);
+  return code;
+}
+
+int stf_tangent_tape(stf_model *m, stf_block *block, stf_quantity *q)
+{
+  stf_vector stores = {0};
+  int code = roots(m, block, &stores);
+  if (!code) code = stf_tangents_of(m, block, &stores, q);
   stf_vector_free(m->ctx, &stores);
   return code;
 }

@@ -10,10 +10,10 @@ static int operands(int kind)
   return kind == STF_OP_LOOKUP || kind == STF_OP_TILT ? 2 : stf_operands(kind);
 }
 
-/* Sums of two to four products have a kind each, others their number in front of their factors. */
+/* Sums of two to six products have a kind each, others their number in front of their factors. */
 static int kind_of(const stf_step_code *s)
 {
-  return s->kind == STF_OP_PAIRS && s->c <= 4 ? STF_OP_PAIRS_2 + s->c - 2 : s->kind;
+  return s->kind == STF_OP_PAIRS && s->c <= 6 ? STF_OP_PAIRS_2 + s->c - 2 : s->kind;
 }
 
 static size_t words_of(const stf_step_code *s)

@@ -100,6 +100,10 @@ static int number(stf_lexer *l)
   }
   uint32_t bytes, end = l->at;
   while (end < l->length && letter(character(l, end, &bytes))) end += bytes;
+  if (end > l->at && byte(l, l->at) == '_')
+    return wrong(l, from, "a number with '_'; write it without");
+  if (end > l->at && l->at - from == 1 && byte(l, from) == '0' && strchr("xX", l->text[l->at]))
+    return wrong(l, from, "a hexadecimal number; write it as a decimal one");
   if (end > l->at) {
     snprintf(shown, sizeof shown, "'%.*s': write %.*s*%.*s",
              (int)(end - from < 40 ? end - from : 40), l->text + from,
@@ -158,8 +162,8 @@ static int mark(stf_lexer *l, int word, uint32_t bytes)
 
 static bool goes_on(const stf_lexer *l)
 {
+  if (l->broken || !l->tokens->count) return false;
   if (l->open) return true;
-  if (!l->tokens->count) return false;
   const stf_token *t = STF_AT(*l->tokens, stf_token, l->tokens->count - 1);
   return t->kind == STF_TOKEN_MARK && t->at >= l->base && strchr("+-*/^=,", t->word);
 }
@@ -178,6 +182,7 @@ static void leave(stf_lexer *l)
 {
   while (l->at < l->length && l->text[l->at] != '\n') l->at++;
   l->open = 0;
+  l->broken = true;
 }
 
 static int beyond_ascii(stf_lexer *l)
@@ -284,6 +289,7 @@ static int finish(stf_lexer *l)
 int stf_lex_line(stf_lexer *l)
 {
   const size_t before = l->tokens->count;
+  l->broken = false;
   while (l->at < l->length && l->sources->errors < STF_ERRORS) {
     const bool new_line = l->text[l->at] == '\n';
     const int code = token(l);

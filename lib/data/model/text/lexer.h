@@ -30,8 +30,9 @@ typedef struct stf_lexer {
   stf_vector *tokens;
   const char *text;
   uint32_t base, length, at, line;
-  int open;   /* brackets */
-  bool ended; /* the last token has been told */
+  int open;    /* brackets */
+  bool ended;  /* the last token has been told */
+  bool broken; /* something in this line has no meaning: the rest of it is left out */
 } stf_lexer;
 
 /* Text number `which`, whose tokens will be appended to `tokens`. */

@@ -70,7 +70,7 @@ enum stf_kind {
 #define STF_ONE(name, word, value) STF_OP_##name,
   STF_UNARY(STF_ONE) STF_BINARY(STF_ONE)
 #undef STF_ONE
-    STF_OP_LOOKUP, /* table b at a */
+    STF_OP_LOOKUP, /* table b at a; c: of steps, whose slope is 0 */
   STF_OP_TILT,     /* its slope */
   STF_OP_SELECT,   /* a holds: b, else c */
   /* of the machine only: a b + c, a b - c, c - a b */
@@ -80,9 +80,11 @@ enum stf_kind {
   /* c products of two or three factors, listed from b on, added one after the other */
   STF_OP_PAIRS,
   STF_OP_TRIPLES,
-  STF_OP_PAIRS_2, /* two, three, four */
+  STF_OP_PAIRS_2, /* two to six */
   STF_OP_PAIRS_3,
   STF_OP_PAIRS_4,
+  STF_OP_PAIRS_5,
+  STF_OP_PAIRS_6,
   STF_OP_KINDS,
   /* of the text only */
   STF_OP_NAME = STF_OP_KINDS, /* a: word; count: primes */

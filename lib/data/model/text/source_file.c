@@ -1,7 +1,10 @@
 /* source_file.c: the files of a model: its own, and those that it names, which lie beside it or below.
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "source.h"
 #include "text.h"
+#include <limits.h>
+#include <stdlib.h>
 #include <string.h>
 
 int stf_source_read(stf_sources *s, stf_pool *pool, const char *path, const char *name)
@@ -26,6 +29,18 @@ int stf_source_read(stf_sources *s, stf_pool *pool, const char *path, const char
   return code;
 }
 
+/* Does the path end below its first `folder` bytes, links followed? What is not there is told when it is opened. */
+static bool stays(const char *path, size_t folder)
+{
+  char real[PATH_MAX], home[PATH_MAX], own[PATH_MAX] = ".";
+  if (folder >= sizeof own) return false;
+  if (folder) snprintf(own, sizeof own, "%.*s", (int)folder, path);
+  if (!realpath(path, real)) return true;
+  if (!realpath(own, home)) return false;
+  const size_t length = strlen(home);
+  return !strncmp(real, home, length) && (length == 1 || real[length] == '/');
+}
+
 int stf_source_path(stf_sources *s, stf_pool *pool, uint32_t at, const char *name,
                     uint32_t length, const char **path)
 {
@@ -38,7 +53,8 @@ int stf_source_path(stf_sources *s, stf_pool *pool, uint32_t at, const char *nam
   memcpy(full + folder, name, length);
   const char *own = full + folder;
   *path = full;
-  if (*own && *own != '/' && strcmp(own, "-") && strncmp(own, "..", 2) && !strstr(own, "/.."))
+  if (*own && *own != '/' && strcmp(own, "-") && strncmp(own, "..", 2) && !strstr(own, "/..") &&
+      stays(full, folder))
     return STEIF_OK;
   return stf_complain(s, at, STEIF_BAD_INPUT,
                       "'%.60s' leaves the directory of the model; copy the file beside it",

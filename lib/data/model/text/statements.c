@@ -160,7 +160,10 @@ static int equation(stf_reader *r)
 
 static int end(stf_reader *r, uint32_t at)
 {
-  if (r->parent < 0) return stf_reader_fail(r, at, "'end' without 'for' or 'when'; remove it");
+  if (r->parent < 0) /* after an error it may be the end of a loop that was not read */
+    return r->p.syntax->sources.errors
+             ? STEIF_OK
+             : stf_reader_fail(r, at, "'end' without 'for' or 'when'; remove it");
   r->parent = STF_AT(r->p.syntax->statements, stf_statement, r->parent)->parent;
   return STEIF_OK;
 }
@@ -292,7 +295,7 @@ int stf_parse(stf_syntax *syntax, size_t which)
   while (!lexer.ended && syntax->sources.errors < STF_ERRORS) {
     STEIF_TRY(stf_lex_line(&lexer));
     r.p.at = first;
-    STEIF_TRY(line(&r));
+    if (!lexer.broken) STEIF_TRY(line(&r));
     syntax->tokens.count = first;
   }
   if (r.parent < 0) return STEIF_OK;

@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "doubled.h"
+#include "problem.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <string.h>
@@ -21,6 +22,7 @@ enum { LEVELS = 3, BITS = 38, BY_VECTORS = 2000 };
 typedef struct dependence {
   steif_context *ctx;
   const steif_problem *problem;
+  steif_problem named; /* the problem, where it has no name */
   int k;
   sunrealtype size; /* of p */
   N_Vector other, zero, unit;
@@ -219,6 +221,8 @@ static int open(dependence *d)
 int steif_impulse_direction_of(steif_context *ctx, const steif_problem *p, int k,
                                steif_impulse_direction *out)
 {
+  const steif_problem *asked = p;
+  STF_NAMED(p);
   STEIF_CHECK(p && out, ctx, STEIF_BAD_INPUT,
               "a problem and a direction are needed, one is NULL");
   *out = (steif_impulse_direction){0};
@@ -235,7 +239,8 @@ int steif_impulse_direction_of(steif_context *ctx, const steif_problem *p, int k
               p->name);
   dependence *d = stf_allocate(ctx, 1, sizeof *d);
   if (!d) return STEIF_NO_MEMORY;
-  *d = (dependence){.ctx = ctx, .problem = p, .k = k};
+  *d = (dependence){.ctx = ctx, .k = k};
+  d->problem = stf_with_name(asked, &d->named);
   out->user = d;
   int code = open(d);
   if (!code) code = fill(d, out);

@@ -100,7 +100,7 @@ static int put_in_order(stages *g)
     stf_real_value(c + g->order[0]) >= 0 && stf_real_value(c + g->order[s - 1]) <= 1;
   STEIF_CHECK(within || !r->integrals, r->of.ctx, STEIF_UNSUPPORTED,
               "nodes of '%s' lie outside of the step, so norms are not known in many digits: "
-              "leave --exact out",
+              "leave .exact out",
               r->of.method);
   return STEIF_OK;
 }

@@ -231,8 +231,8 @@ static void say_long(steif_weak_ball *r, sunrealtype h, sunrealtype longest,
                      const char *fastest)
 {
   snprintf(r->verdict, sizeof r->verdict,
-           "undecided: steps of %.3g do not resolve %s; take them below %.2g (--h), or another "
-           "interval (--t1)",
+           "undecided: steps of %.3g do not resolve %s; take them below %.2g (.h), or another "
+           "interval (.g->t1)",
            h, fastest, longest);
 }
 
@@ -260,7 +260,7 @@ static int check(const stf_measure *w, int m)
     q->method, w->subject.n);
   STEIF_CHECK(!q->exact || !w->subject.apart.linear.E || w->as_given, w->ctx, STEIF_UNSUPPORTED,
               "E and F have this index to rounding only, not to the last bit: a run in many "
-              "digits would be one on another system; leave --exact out");
+              "digits would be one on another system; leave .exact out");
   STEIF_CHECK(q->cells >= 0 && q->cells <= CELLS, w->ctx, STEIF_BAD_INPUT,
               "%d cells of B-splines were asked for: 1 to %d, or 0 for none", q->cells, CELLS);
   STEIF_CHECK(m == 0 || (m >= 1 && m >= k - 1 && m <= STF_SPACES), w->ctx, STEIF_BAD_INPUT,
@@ -295,6 +295,7 @@ static int measure(ball *b, steif_ball_row *row)
       if (i > 0 && isnan(b->inside)) to->order = log2((to - STF_SPACES)->norm / to->norm);
       if (m + 1 == r->m) row[i] = *to;
     }
+    if (!code) code = stf_measure_tell(w, i);
   }
   for (int j = 0; j < r->count && !code; j++)
     stf_ball_judge(rows + r->space[j].m - 1, q->rows, STF_SPACES, longest, r->space + j);

@@ -63,10 +63,10 @@ void stf_ball_say(steif_weak_ball *r, size_t rows, bool decidable)
     snprintf(text, room, "does not converge in any H^-m up to %d: norm %.3g, order %.2f there",
              last->m, last->norm, last->order);
   else if (rows == 1)
-    snprintf(text, room, "none: one row shows no order; three decide (--halvings)");
+    snprintf(text, room, "none: one row shows no order; three decide (.rows)");
   else
     snprintf(text, room,
              "undecided: fewer than three norms above rounding, or their orders differ; take "
              "larger steps or more rows%s",
-             decidable ? ", or --exact" : "");
+             decidable ? ", or set .exact" : "");
 }

@@ -98,7 +98,7 @@ static int ask(const stf_measure *w, const question *about, part *p)
   steif_weak_query query = *w->query;
   steif_weak_result result;
   query.problem = NULL, query.linear = about->linear, query.x0 = about->x0;
-  query.values = query.exacts = NULL, query.component = about->component;
+  query.tell = NULL, query.values = query.exacts = NULL, query.component = about->component;
   query.h = w->h, query.restart = w->mesh.anew;
   if (about->h > 0) query.h = about->h, query.rows = about->rows;
   if (about->exact) query.exact = 1;

@@ -245,8 +245,10 @@ static const int index[SIZE] = {1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2,
 static const sunrealtype end[] = {
   15.81077119629904,   -15.75637105984298,  0.040822240130731012, -0.53473011632269485,
   0.52440996588053035, 0.53473011632269485, 1.048080741042263};
+/* Ten digits: the published start is not quite consistent, and beta ends at 15.8107711951 from it as it is and at
+ * 15.8107711965 from the repaired one, by radau:s=4 and radau:s=5 alike. */
 static const steif_reference reference = {
-  .t = 0.03, .count = ANGLES, .value = end, .digits = 11, .source = IVP_TEST_SET "andrews"};
+  .t = 0.03, .count = ANGLES, .value = end, .digits = 10, .source = IVP_TEST_SET "andrews"};
 
 const steif_problem steif_problem_andrews = {
   .name = "andrews",

@@ -108,8 +108,10 @@ static const sunrealtype end[] = {
   0.049345578427540282,   0.49698946023017115,   1.0417425248854215,   0.37391102726536124,
   -0.07705836840409723,   0.0074468665872377852, 0.017556815753723223, 0.77034104377925194,
   -0.0047368865908489332, -0.0011046803312573436};
+/* Eleven digits: yl' is 7.446866592e-3, 4.9e-12 above the published value, by radau:s=4, 5 and 7, which agree
+ * to 2e-13. */
 static const steif_reference reference = {
-  .t = 3, .value = end, .digits = 12, .source = IVP_TEST_SET "caraxis"};
+  .t = 3, .value = end, .digits = 11, .source = IVP_TEST_SET "caraxis"};
 
 const steif_problem steif_problem_caraxis = {
   .name = "caraxis",

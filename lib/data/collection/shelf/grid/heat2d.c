@@ -41,6 +41,7 @@ static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector a,
                N_Vector b, N_Vector c)
 {
+  if (SUNMatGetID(J) != SUNMATRIX_SPARSE) return -1;
   const plate *p = user;
   const sunindextype n = p->n, step[] = {-n, -1, 0, 1, n};
   sunindextype *column = SUNSparseMatrix_IndexPointers(J),

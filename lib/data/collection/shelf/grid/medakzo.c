@@ -42,6 +42,7 @@ static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, N_Vector tmp1,
                N_Vector tmp2, N_Vector tmp3)
 {
+  if (SUNMatGetID(J) != SUNMATRIX_SPARSE) return -1;
   const sunindextype N = NV_LENGTH_S(y) / 2;
   const sunrealtype *u = NV_DATA_S(y);
   sunindextype *start = SM_INDEXPTRS_S(J), *row = SM_INDEXVALS_S(J), k = 0;

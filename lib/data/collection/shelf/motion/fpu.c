@@ -64,6 +64,7 @@ static int jac(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *user, 
   const sunrealtype *q = N_VGetArrayPointer(y);
   sunindextype at = 0;
   (void)t, (void)fy, (void)a, (void)b, (void)c;
+  if (SUNMatGetID(J) != SUNMATRIX_SPARSE) return -1;
   for (sunindextype j = 0; j < n; j++) {
     const sunrealtype left = stiffness(L, q, j), right = stiffness(L, q, j + 1);
     SM_INDEXPTRS_S(J)[j] = at;
