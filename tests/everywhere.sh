@@ -53,6 +53,9 @@ made() {
   shift 2
   cmake -S "$source" -B "$folder" "$@" && cmake --build "$folder" -j "$jobs" --target $targets
 }
+rooms_and_more() {
+  echo "^($(ctest --test-dir "$build" -N -L room | sed -n 's/.*Test *#[0-9]*: //p' | tr '\n' '|')manual|ranks_runs_.*)$"
+}
 rooms() { ctest --test-dir "$1" -L room --output-on-failure -j "$jobs"; }
 
 # A minute of every fuzzer, as many at a time as there are processors: each runs on one.
@@ -114,6 +117,15 @@ for folder in /usr/lib/*/blas /usr/lib/*/lapack /usr/lib64/blas /usr/lib64/lapac
   fi
 done
 if [ -n "$reference" ]; then
+  # Rounding of one more processor, without another build: the reference LAPACK over a BLAS that adds in another order.
+  ahead=$build/check-orders.so
+  for folder in $(echo "$reference" | tr ':' ' '); do
+    for file in "$folder/liblapack.so.3" "$folder/libblas.so.3"; do [ -e "$file" ] && ahead="$ahead $file"; done
+  done
+  stage "build of a BLAS with other orders of summation" ${CC:-cc} -std=gnu11 -O2 -ffp-contract=off -Wall -Wextra \
+    -shared -fPIC "$source/tests/everywhere/orders.c" -o "$build/check-orders.so" -lm &&
+    stage "other orders of summation, ranks and manual, too" env STEIF_BLAS_ORDER=5 LD_PRELOAD="$ahead" \
+      ctest --test-dir "$build" -R "$(rooms_and_more)" --output-on-failure -j "$jobs"
   stage "build with the reference BLAS and LAPACK" made "$build/check-reference" rooms -DBLA_VENDOR=Generic &&
     stage "reference BLAS and LAPACK" env LD_LIBRARY_PATH="$reference" \
       ctest --test-dir "$build/check-reference" -L room --output-on-failure -j "$jobs"

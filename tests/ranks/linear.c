@@ -307,13 +307,16 @@ static end run(MPI_Comm comm, const char *name, const char *spec, const char *me
   return e;
 }
 
+/* As many steps but for what sums in another order change: every BLAS and every number of ranks has its own. */
+static int nearly(long a, long b) { return a > 0 && b > 0 && 8 * labs(a - b) <= a + b; }
+
 static void compare(const char *name, const char *spec, const char *method, int closed)
 {
   const end many = run(MPI_COMM_WORLD, name, spec, method);
   end one = {0};
   if (rank == 0) one = run(MPI_COMM_SELF, name, spec, method);
   MPI_Bcast(&one, (int)sizeof one, MPI_BYTE, 0, MPI_COMM_WORLD);
-  const int fine = ALL(many.steps > 0 && many.steps == one.steps) &
+  const int fine = ALL(nearly(many.steps, one.steps)) &
                    ALL(fabs(many.norm - one.norm) <= 1e-5 * (1 + one.norm)) &
                    ALL(!closed || many.error <= 1e-5);
   if (!fine && rank == 0)
