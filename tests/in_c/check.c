@@ -113,9 +113,13 @@ static void runs_agree(void)
       CU_ASSERT_STRING_EQUAL(c->parameters->name[k], text.parameters->name[k]);
       CHECK(c->parameters->value[k] == text.parameters->value[k]);
     }
+    /* Start values that are computed are those of the BLAS of the build: alike to rounding. */
+    for (int k = 0; k < c->n; k++) CLOSE_FLOOR(c->y0[k], text.y0[k], 1e-12, 1e-3);
+    steif_problem started = *c;
+    started.y0 = text.y0, started.yp0 = text.yp0;
     steif_solver *s[2];
     for (int k = 0; k < 2; k++) {
-      s[k] = steif_solver_new(ctx, k ? c : &text, "radau:s=3", NULL);
+      s[k] = steif_solver_new(ctx, k ? &started : &text, "radau:s=3", NULL);
       CU_ASSERT_FATAL(s[k] != NULL);
       const int code = steif_solve_to(s[k], c->t1);
       if (code) printf("\n  %s: %s", models[i].path, steif_message(ctx));

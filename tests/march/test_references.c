@@ -38,7 +38,7 @@ static const row rows[] = {
   {"ringmod", {"radau:s=7", "gauss:s=4"}, 1e-12, true, 0, NULL},
   {"rober", {"radau:s=7", "gauss:s=4"}, 1e-11, false, 0, NULL},
   {"roessler", {"radau:s=7", "dopri87"}, 1e-11, false, 12, "rounding; see extended"},
-  {"transamp", {"radau:s=6", "radau:s=7"}, 1e-12, false, 0, NULL},
+  {"transamp", {"radau:s=5", "radau:s=7"}, 1e-11, false, 0, NULL},
   {"vdpol", {"radau:s=4", "gauss:s=4"}, 1e-13, false, 0, NULL},
   {"vdpol:mu=10", {"radau:s=7", "gauss:s=4"}, 1e-11, false, 0, NULL},
   {"vdpol:mu=30",
