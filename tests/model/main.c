@@ -5,6 +5,7 @@
 extern CU_TestInfo tests_of_examples[];
 extern CU_TestInfo tests_of_derivatives[];
 extern CU_TestInfo tests_of_events[];
+extern CU_TestInfo tests_of_circuits[];
 extern CU_TestInfo tests_of_interface[];
 extern CU_TestInfo tests_of_products[];
 extern CU_TestInfo tests_of_grids[];
@@ -13,6 +14,7 @@ extern CU_TestInfo tests_of_wrong_models[];
 SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_examples},
            {.pName = "derivatives against differences", .pTests = tests_of_derivatives},
            {.pName = "events", .pTests = tests_of_events},
+           {.pName = "circuits with diodes", .pTests = tests_of_circuits},
            {.pName = "the interface", .pTests = tests_of_interface},
            {.pName = "grids, and compiled models", .pTests = tests_of_grids},
            {.pName = "products with derivatives", .pTests = tests_of_products},

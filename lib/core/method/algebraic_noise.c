@@ -44,3 +44,21 @@ int stf_algebraic_noise(stf_step *s, N_Vector work, N_Vector other, N_Vector thi
   if (isfinite(size)) *noise = size;
   return STEIF_OK;
 }
+
+/* So many rejected steps have not cured what is no error of theirs. */
+enum { STUBBORN = 2 };
+
+int stf_without_residuals(stf_step *s, N_Vector probe, N_Vector Ep, N_Vector residual)
+{
+  const stf_space *space = &s->system.space;
+  if (s->tries < STUBBORN || s->count == 0 || s->system.form == STEIF_ODE || s->system.krylov ||
+      !space->serial || s->problem->dae_index > 1)
+    return STEIF_OK;
+  spread(s, Ep, probe);
+  STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', probe, Ep));
+  const sunrealtype *rows = STF_ARRAY(Ep);
+  sunrealtype *r = STF_ARRAY(residual);
+  for (sunindextype i = 0; i < space->n; i++)
+    if (rows[i] == 0) r[i] = 0;
+  return STEIF_OK;
+}

@@ -191,13 +191,13 @@ int stf_filter_rounds(const stf_step *s)
   return s->rejected && s->undamped > PATIENCE ? 3 : 1;
 }
 
-int stf_test_undamped(stf_step *s, N_Vector first, int rounds, bool diverged)
+int stf_test_undamped(stf_step *s, N_Vector first, int rounds, bool diverged, bool blended)
 {
   const stf_space *space = &s->system.space;
   const sunrealtype bound = 0.1;
   stf_axpy(space, -rounds, s->error, first);
   const sunrealtype part = stf_norm(space, first, s->weights);
-  if (!s->rejected) s->undamped = 0;
+  if (!s->rejected && (!blended || part <= bound)) s->undamped = 0;
   if (part > bound) s->undamped++;
   if (s->undamped > PATIENCE || diverged)
     stf_axpy(space, 1, first, s->next);

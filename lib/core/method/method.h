@@ -198,6 +198,11 @@ int stf_share_open(stf_step *s, const char *name, int q, int p);
 int stf_algebraic_noise(stf_step *s, N_Vector work, N_Vector other, N_Vector third,
                         sunrealtype *noise);
 
+/* Sets to 0 what `residual` has in algebraic equations of index 1, once steps were rejected again and again. What Newton's
+ * iteration or rounding has left there at y is no error of the step, whose end does not depend on it, and may be all
+ * there is at every step size. probe, Ep: room. */
+int stf_without_residuals(stf_step *s, N_Vector probe, N_Vector Ep, N_Vector residual);
+
 /* The errors of all steps so far as the problem carries them on (carried_error.c). */
 typedef struct stf_carried {
   N_Vector e, work, other; /* e NULL: not followed */
@@ -286,8 +291,9 @@ bool stf_filters_twice(const stf_step *s);
  * first estimate is the deviation of stiff and algebraic components, which later steps will return
  * with the same size; it must be small against the tolerance itself. Where shorter steps do not make it
  * so, or Newton diverged in this step, it is taken from s->next. s->error is the estimate after the
- * filters, `first` the sum of the `rounds` before it and is overwritten. */
-int stf_test_undamped(stf_step *s, N_Vector first, int rounds, bool diverged);
+ * filters, `first` the sum of the `rounds` before it and is overwritten. blended: the deviations of the last step
+ * count, too, since looser stages leave one in each, which would be halved in ever shorter steps. */
+int stf_test_undamped(stf_step *s, N_Vector first, int rounds, bool diverged, bool blended);
 /* How many estimates are taken off before the one that counts: 1, more where refusals do not help, since
  * each leaves a part of a deviation that a nonlinear f or an old matrix keeps. */
 int stf_filter_rounds(const stf_step *s);

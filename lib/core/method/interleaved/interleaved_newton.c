@@ -199,6 +199,13 @@ static int renew_from_stage(stf_step *s, double h)
   return stf_irk_interleaved_factor(s, h);
 }
 
+/* Of algebraic unknowns, corrections by the matrix of an earlier step may be far smaller than what is left, and shrink
+ * slowly behind others that shrink fast: a diode that opens conducts a thousandth of what the matrix says. */
+static bool outdated(const stf_step *s, const stf_irk_interleaved *e)
+{
+  return e->M && !e->J_new && !s->system.linear && s->problem->dae_index < 2;
+}
+
 /* The norm is that of the multipliers where their rounding, eps / h^2, ends the iteration: one correction more
  * for the velocities, in which it leaves an error that is kept and adds up in positions. */
 static int once_more(stf_step *s, double h)
@@ -214,7 +221,9 @@ static int once_more(stf_step *s, double h)
 int stf_irk_interleaved_iterate(stf_step *s, double h)
 {
   stf_irk_interleaved *e = s->state;
-  const double tolerance = floor_of(s, e), mean = 1 / (double)(e->s * e->n);
+  const double tolerance = floor_of(s, e),
+               first_rate = s->system.linear || s->problem->dae_index > 1 ? 0 : 1e-3,
+               mean = 1 / (double)(e->s * e->n);
   const double *y = STF_ARRAY(s->y), *w = STF_ARRAY(s->weights);
   double last = 0, quotient = 0, theta = 0, first = 0;
   e->eta = stf_power(fmax(e->eta, STF_EPS), 0.8),
@@ -231,10 +240,13 @@ int stf_irk_interleaved_iterate(stf_step *s, double h)
       theta = since == 2 ? now : sqrt(now * quotient);
       quotient = now;
       if (m == 2) first = now < 1 ? now / (1 - now) : 1, e->eta_of = last;
-      if (stalled(s, norm, last, tolerance)) break;
+      const bool stuck = stalled(s, norm, last, tolerance), old = outdated(s, e),
+                 doubt = stuck && old && !e->J_from_stage;
+      if (stuck && !doubt) break;
       e->eta = theta / (1 - theta);
-      if (theta < 1 && e->eta * norm <= tolerance) break;
-      if (worth(s, e, norm, theta, tolerance)) {
+      const bool told = !doubt && (m > 2 || !old || norm <= tolerance);
+      if (told && theta < 1 && e->eta * norm <= tolerance) break;
+      if (doubt || worth(s, e, norm, theta, tolerance)) {
         STEIF_TRY(renew_from_stage(s, h));
         since = 0, e->eta = 1, last = fmax(norm, STF_EPS);
         continue;
@@ -253,7 +265,7 @@ int stf_irk_interleaved_iterate(stf_step *s, double h)
         return refuse(s, h, norm, theta,
                       0.8 * stf_power(q, -1.0 / (4 + (left > 0 ? left : 0))));
       }
-    } else if (e->eta * fmax(1, norm / e->eta_of) * norm <= tolerance)
+    } else if (fmax(first_rate, e->eta * fmax(1, norm / e->eta_of)) * norm <= tolerance)
       break;
     last = fmax(norm, STF_EPS);
   }

@@ -6,7 +6,8 @@
  *   the factors when the rate of convergence was above 1e-3.
  *   Newton: theta_m = ||d^m|| / ||d^(m-1)||, eta = theta/(1 - theta), stop at eta ||d|| <= kappa. The eta of the last
  *   step's first two corrections, or that of its last two if larger, judges the first one, as many times larger
- *   as that is: where f couples y in one direction later corrections vanish, and say nothing of the first.
+ *   as that is, and never below 1e-3: where f couples y in one direction later corrections vanish, and say nothing of
+ *   the first.
  *   Where many iterations are left, one new Jacobian and LU at a stage as it is then.
  *   Error: (lambda_0/h M - J)^{-1} [f(t_n, y_n) + M/h sum d_j Z_j], filtered twice at the start and
  *   after a refusal; where the end is not a stage, the same of f and the slope at the end.
@@ -114,6 +115,60 @@ static void defect(const state *e, const double *f, double h, double *x)
   }
 }
 
+/* What is left in algebraic equations at y, of Newton's iteration or rounding, is no error of the step: the end does
+ * not depend on it. After so many rejected steps it may be all there is, at every step size. */
+enum { STUBBORN = 2 };
+
+static bool algebraic(const state *e, int i)
+{
+  double row = 0;
+  for (int j = 0; e->M && j < e->n; j++) row += fabs(e->M[i * e->n + j]);
+  return e->M && row == 0;
+}
+
+static void without_residuals(const stf_step *s, double *f)
+{
+  const state *e = s->state;
+  if (s->tries < STUBBORN || s->count == 0 || s->problem->dae_index > 1) return;
+  for (int i = 0; i < e->n; i++)
+    if (algebraic(e, i)) f[i] = 0;
+}
+
+/* The middle of the widest gap between nodes, 0 among them. */
+static double widest(const steif_table *T)
+{
+  double from = 0, gap = 0, x = 0;
+  for (int j = 0; j < T->s; from = T->c[j++])
+    if (T->c[j] - from > gap) gap = T->c[j] - from, x = from + gap / 2;
+  return x;
+}
+
+/* Between stages of a step that has grown a diode may have conducted: there algebraic equations hold to the accuracy of
+ * the polynomial, and never in the size of the solution itself. */
+static int look_between(stf_step *s, double h)
+{
+  state *e = s->state;
+  const double grown = 1.5, x = widest(e->table);
+  double *y = STF_ARRAY(e->moved), *r = STF_ARRAY(e->rest);
+  if (!e->M || s->problem->dae_index > 1 || s->system.linear || h <= grown * s->h)
+    return STEIF_OK;
+  stf_copy(&s->system.space, s->y, e->moved);
+  for (int j = 0; j < e->s; j++) {
+    double weight = 0;
+    for (int k = e->s; k-- > 0;) weight = (weight + e->K[j][k]) * x;
+    for (int i = 0; i < e->n; i++) y[i] += weight * e->L->Z[i * e->L->wide + j];
+  }
+  STEIF_TRY(stf_system_rhs(&s->system, s->t + x * h, e->moved, e->rest));
+  for (int i = 0; i < e->n; i++)
+    if (!algebraic(e, i)) r[i] = 0;
+  stf_interleaved_filter(e->L, r);
+  const double size = stf_norm(&s->system.space, e->rest, s->weights) * s->options->rtol;
+  if (size <= 1) return STEIF_OK;
+  stf_copy(&s->system.space, e->rest, s->error);
+  s->error_norm = -1;
+  return STEIF_OK;
+}
+
 /* The estimate with f at y + the first one: free of what stiff components off their slow manifold
  * add to that at every step size, and at index 3 of the errors of velocities. */
 static int filter_again(stf_step *s, double t, N_Vector y, double h)
@@ -122,6 +177,7 @@ static int filter_again(stf_step *s, double t, N_Vector y, double h)
   double *x = STF_ARRAY(s->error), f[STF_INTERLEAVED];
   stf_sum(&s->system.space, 1, y, 1, s->error, e->moved);
   STEIF_TRY(slope(s, t, e->moved, f));
+  without_residuals(s, f);
   defect(e, f, h, x);
   stf_interleaved_filter(e->L, x);
   return STEIF_OK;
@@ -151,6 +207,7 @@ static int estimate(stf_step *s, double h)
   state *e = s->state;
   if (!e->f0_known) STEIF_TRY(slope(s, s->t, s->y, e->f0));
   e->f0_known = finite(e->n, e->f0);
+  without_residuals(s, e->f0);
   defect(e, e->f0, h, STF_ARRAY(s->error));
   stf_interleaved_filter(e->L, STF_ARRAY(s->error));
   if (stf_filters_twice(s) &&
@@ -172,7 +229,7 @@ static int estimate_end(stf_step *s, double h)
   const int rounds = stf_filter_rounds(s);
   for (int k = 1; k < rounds; k++) STEIF_TRY(filter_again(s, s->t + h, e->moved, h));
   stf_sum(space, 1, e->moved, -1, s->next, e->moved);
-  return stf_test_undamped(s, e->moved, rounds, e->fails > 0);
+  return stf_test_undamped(s, e->moved, rounds, e->fails > 0, false);
 }
 
 static void set_tolerance(stf_step *s, const state *e)
@@ -215,7 +272,7 @@ static int attempt(stf_step *s, sunrealtype h)
   s->control.keep = e->theta <= 1e-3 ? usual->keep : 1;
   STEIF_TRY(e->accurate ? estimate(s, h) : estimate_end(s, h));
   stf_estimate_levels(s);
-  return STEIF_OK;
+  return look_between(s, h);
 }
 
 static void commit(stf_step *s)

@@ -121,10 +121,9 @@ static void predict(stf_step *s, sunrealtype h)
   stf_mix(space, e->s, e->s, stf_stage_polynomial_ahead(&e->u, h / s->h), e->Z, e->trial);
 }
 
-/* error = -(lambda/h E - A)^{-1} F(t, y, u') with the real lane; with a pair the quadratic filter
- * -(re/im) Im of the complex solve, or its real part, which keeps stiff components; with the one
- * shift sigma of the blended iteration -sigma h gamma_0 (sigma E - A)^{-1} F, gamma_0 = 1/lambda or
- * re/|lambda|^2. */
+/* error = -(lambda/h E - A)^{-1} F(t, y, u') with the real lane; with a pair the quadratic filter -(re/im) Im of the
+ * complex solve, or its real part, which keeps stiff components; with the one shift sigma of the blended iteration
+ * -sigma h gamma_0 (sigma E - A)^{-1} F, gamma_0 = 1/lambda or re/|lambda|^2. */
 static int filter(stf_step *s, sunrealtype h, N_Vector v)
 {
   state *e = s->state;
@@ -141,6 +140,7 @@ static int filtered(stf_step *s, sunrealtype h, sunrealtype t, N_Vector y)
 {
   state *e = s->state;
   STEIF_TRY(stf_system_residual(&s->system, t, y, e->work, s->error));
+  if (y == s->y) STEIF_TRY(stf_without_residuals(s, e->X[0], e->imaginary, s->error));
   stf_scale(&s->system.space, -1, s->error, s->error);
   return filter(s, h, s->error);
 }
@@ -158,7 +158,7 @@ static int estimate_end(stf_step *s, sunrealtype h)
     stf_sum(space, 1, s->next, 1, first, s->newton.Y);
     STEIF_TRY(filtered(s, h, s->t + h, s->newton.Y));
   }
-  return stf_test_undamped(s, first, rounds, s->newton.fails > e->fails);
+  return stf_test_undamped(s, first, rounds, s->newton.fails > e->fails, s->newton.gamma > 0);
 }
 
 /* Of the components of index 1: others begin at the error of the last step. */
