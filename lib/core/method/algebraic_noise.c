@@ -10,19 +10,14 @@
 #include "method.h"
 #include "pencil.h"
 #include <math.h>
-#include <stdint.h>
 
-/* dy, and a probe of no particular direction. */
+/* dy, of signs that a probe gives. */
 static void spread(const stf_step *s, N_Vector dy, N_Vector probe)
 {
-  const sunrealtype *y = STF_ARRAY(s->y);
-  sunrealtype *d = STF_ARRAY(dy), *p = STF_ARRAY(probe);
-  uint32_t bits = 1;
-  for (sunindextype i = 0; i < s->system.space.n; i++) {
-    bits = bits * 1664525u + 1013904223u; /* Knuth, TAOCP 2, 3.3.4 */
-    d[i] = (bits >> 31 ? STF_EPS : -STF_EPS) * y[i];
-    p[i] = 1 + (sunrealtype)bits / UINT32_MAX;
-  }
+  const sunrealtype *y = STF_ARRAY(s->y), *p = STF_ARRAY(probe);
+  sunrealtype *d = STF_ARRAY(dy);
+  for (sunindextype i = 0; i < s->system.space.n; i++)
+    d[i] = (p[i] >= 1.5 ? STF_EPS : -STF_EPS) * y[i];
 }
 
 int stf_algebraic_noise(stf_step *s, N_Vector work, N_Vector other, N_Vector third,
@@ -32,33 +27,13 @@ int stf_algebraic_noise(stf_step *s, N_Vector work, N_Vector other, N_Vector thi
   *noise = 0;
   if (s->system.form == STEIF_ODE || s->system.krylov || !space->serial || !s->newton.factored)
     return STEIF_OK;
+  stf_row_probe(space, third);
   spread(s, work, third);
   STEIF_TRY(steif_pencil_product(s->system.pencil, 'A', work, other));
   STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', third, work));
-  const sunrealtype *Ep = STF_ARRAY(work);
-  sunrealtype *r = STF_ARRAY(other);
-  for (sunindextype i = 0; i < space->n; i++)
-    if (Ep[i] != 0) r[i] = 0;
+  stf_keep_rows(space, work, true, other);
   STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &other, NULL));
   const sunrealtype size = stf_norm(space, other, s->weights);
   if (isfinite(size)) *noise = size;
-  return STEIF_OK;
-}
-
-/* So many rejected steps have not cured what is no error of theirs. */
-enum { STUBBORN = 2 };
-
-int stf_without_residuals(stf_step *s, N_Vector probe, N_Vector Ep, N_Vector residual)
-{
-  const stf_space *space = &s->system.space;
-  if (s->tries < STUBBORN || s->count == 0 || s->system.form == STEIF_ODE || s->system.krylov ||
-      !space->serial || s->problem->dae_index > 1)
-    return STEIF_OK;
-  spread(s, Ep, probe);
-  STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', probe, Ep));
-  const sunrealtype *rows = STF_ARRAY(Ep);
-  sunrealtype *r = STF_ARRAY(residual);
-  for (sunindextype i = 0; i < space->n; i++)
-    if (rows[i] == 0) r[i] = 0;
   return STEIF_OK;
 }

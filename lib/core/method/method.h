@@ -198,10 +198,30 @@ int stf_share_open(stf_step *s, const char *name, int q, int p);
 int stf_algebraic_noise(stf_step *s, N_Vector work, N_Vector other, N_Vector third,
                         sunrealtype *noise);
 
-/* Sets to 0 what `residual` has in algebraic equations of index 1, once steps were rejected again and again. What Newton's
- * iteration or rounding has left there at y is no error of the step, whose end does not depend on it, and may be all
- * there is at every step size. probe, Ep: room. */
+/* -- algebraic_equations.c -- */
+
+/* A vector of no particular direction, of components between 1 and 2. Where E times it is 0, a row is algebraic. */
+void stf_row_probe(const stf_space *space, N_Vector v);
+/* r with its algebraic rows only, or with the others only; Ep: E times a probe. */
+void stf_keep_rows(const stf_space *space, N_Vector Ep, bool algebraic, N_Vector r);
+
+/* Once steps were rejected again and again, what a residual at y has in algebraic equations of index 1 may be all there
+ * is, at every step size; and it is no error of the step, whose end does not depend on it. */
+bool stf_residuals_remain(const stf_step *s);
+/* `residual` without it, where that is so. probe, Ep: room. */
 int stf_without_residuals(stf_step *s, N_Vector probe, N_Vector Ep, N_Vector residual);
+
+/* Between stages of a step that has grown a diode may have conducted: there algebraic equations of index 1 hold to the
+ * accuracy of the polynomial, and never in a thirtieth of the size of the solution. Looked at where h is so much more than
+ * the last step, half-way from node k - 1, or the start, to node k. `off`: what they are off, filtered; it becomes the
+ * error of the step, and the answer is yes, where it is as large as that. */
+bool stf_looks_between(const stf_step *s, sunrealtype h);
+sunrealtype stf_between(const steif_table *T, int k);
+bool stf_off_between(stf_step *s, N_Vector off);
+struct stf_stage_polynomial;
+/* pair: the factors at hand are complex. slope, off: room. */
+int stf_look_between(stf_step *s, const struct stf_stage_polynomial *u, sunrealtype h,
+                     N_Vector *Z, bool pair, N_Vector slope, N_Vector off);
 
 /* The errors of all steps so far as the problem carries them on (carried_error.c). */
 typedef struct stf_carried {

@@ -115,10 +115,6 @@ static void defect(const state *e, const double *f, double h, double *x)
   }
 }
 
-/* What is left in algebraic equations at y, of Newton's iteration or rounding, is no error of the step: the end does
- * not depend on it. After so many rejected steps it may be all there is, at every step size. */
-enum { STUBBORN = 2 };
-
 static bool algebraic(const state *e, int i)
 {
   double row = 0;
@@ -129,43 +125,36 @@ static bool algebraic(const state *e, int i)
 static void without_residuals(const stf_step *s, double *f)
 {
   const state *e = s->state;
-  if (s->tries < STUBBORN || s->count == 0 || s->problem->dae_index > 1) return;
-  for (int i = 0; i < e->n; i++)
+  for (int i = 0; stf_residuals_remain(s) && i < e->n; i++)
     if (algebraic(e, i)) f[i] = 0;
 }
 
-/* The middle of the widest gap between nodes, 0 among them. */
-static double widest(const steif_table *T)
+/* y: the polynomial of this attempt at t + x h; K gives its coefficients about the end. */
+static void between(const stf_step *s, double x, double *y)
 {
-  double from = 0, gap = 0, x = 0;
-  for (int j = 0; j < T->s; from = T->c[j++])
-    if (T->c[j] - from > gap) gap = T->c[j] - from, x = from + gap / 2;
-  return x;
+  const state *e = s->state;
+  memcpy(y, STF_ARRAY(s->next), (size_t)e->n * sizeof *y);
+  for (int j = 0; j < e->s; j++) {
+    double weight = 0;
+    for (int k = e->s; k-- > 0;) weight = (weight + e->K[j][k]) * (x - 1);
+    for (int i = 0; i < e->n; i++) y[i] += weight * e->L->Z[i * e->L->wide + j];
+  }
 }
 
-/* Between stages of a step that has grown a diode may have conducted: there algebraic equations hold to the accuracy of
- * the polynomial, and never in the size of the solution itself. */
 static int look_between(stf_step *s, double h)
 {
   state *e = s->state;
-  const double grown = 1.5, x = widest(e->table);
-  double *y = STF_ARRAY(e->moved), *r = STF_ARRAY(e->rest);
-  if (!e->M || s->problem->dae_index > 1 || s->system.linear || h <= grown * s->h)
-    return STEIF_OK;
-  stf_copy(&s->system.space, s->y, e->moved);
-  for (int j = 0; j < e->s; j++) {
-    double weight = 0;
-    for (int k = e->s; k-- > 0;) weight = (weight + e->K[j][k]) * x;
-    for (int i = 0; i < e->n; i++) y[i] += weight * e->L->Z[i * e->L->wide + j];
+  bool right = stf_looks_between(s, h);
+  double *off = STF_ARRAY(e->rest);
+  for (int k = 0; right && k < e->s; k++) {
+    const double x = stf_between(e->table, k);
+    between(s, x, STF_ARRAY(e->moved));
+    STEIF_TRY(stf_system_rhs(&s->system, s->t + x * h, e->moved, e->rest));
+    for (int i = 0; i < e->n; i++)
+      if (!algebraic(e, i)) off[i] = 0;
+    stf_interleaved_filter(e->L, off);
+    right = !stf_off_between(s, e->rest);
   }
-  STEIF_TRY(stf_system_rhs(&s->system, s->t + x * h, e->moved, e->rest));
-  for (int i = 0; i < e->n; i++)
-    if (!algebraic(e, i)) r[i] = 0;
-  stf_interleaved_filter(e->L, r);
-  const double size = stf_norm(&s->system.space, e->rest, s->weights) * s->options->rtol;
-  if (size <= 1) return STEIF_OK;
-  stf_copy(&s->system.space, e->rest, s->error);
-  s->error_norm = -1;
   return STEIF_OK;
 }
 
@@ -177,7 +166,7 @@ static int filter_again(stf_step *s, double t, N_Vector y, double h)
   double *x = STF_ARRAY(s->error), f[STF_INTERLEAVED];
   stf_sum(&s->system.space, 1, y, 1, s->error, e->moved);
   STEIF_TRY(slope(s, t, e->moved, f));
-  without_residuals(s, f);
+  if (y == s->y) without_residuals(s, f);
   defect(e, f, h, x);
   stf_interleaved_filter(e->L, x);
   return STEIF_OK;

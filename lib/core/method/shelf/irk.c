@@ -1,9 +1,7 @@
 /* irk.c: fully implicit Runge-Kutta methods (Gauss, Radau, Lobatto IIIC), all stages at once.
  *
- * Stages Y_i = y_n + Z_i with slopes Y_i' = (1/h) sum_m B_im Z_m, B = A^{-1}, are solved through
- * the split of B. The polynomial of degree s with y_n at 0 and slopes Y_i' at c_i,
- *   u(t_n + x h) = y_n + sum_j w_j(x) Z_j,   w(x)^T = (int_0^x l_i)_i^T B,
- * gives the end value (w(1) = b^T B), the start of the next iteration and dense output.
+ * Stages Y_i = y_n + Z_i with slopes Y_i' = (1/h) sum_m B_im Z_m, B = A^{-1}, are solved through the split of B. The
+ * polynomial u(t_n + x h) of stage_polynomial.h gives the end value (w(1) = b^T B), the start of the next iteration and dense output.
  * Error estimate (c_1 > 0): the shifted solve of -F(t_n, y_n, u'(t_n)); order s (Hairer and Wanner II, IV.8).
  * Where the end is not a stage, of -F(t_n + h, y_{n+1}, u'(t_n + h)): stiff and algebraic components are off.
  * compensated=1: stages solved until rounding stops it, coefficients in two parts, and the end value
@@ -66,9 +64,8 @@ static int open_sums(stf_step *s, const steif_spec *spec)
   return e->lost && e->next_lost ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-/* Sparse factors cost many solves: one real matrix is factored in place of s, and serves steps within
- * a ratio of 2. The iteration converges linearly however exact the Jacobian: renewed when it does
- * worse than 0.4, or with the factors. */
+/* Sparse factors cost many solves: one real matrix is factored in place of s, and serves steps within a ratio of 2. The
+ * iteration converges linearly however exact the Jacobian: renewed when it does worse than 0.4, or with the factors. */
 static int blend(stf_step *s)
 {
   state *e = s->state;
@@ -124,15 +121,19 @@ static void predict(stf_step *s, sunrealtype h)
 /* error = -(lambda/h E - A)^{-1} F(t, y, u') with the real lane; with a pair the quadratic filter -(re/im) Im of the
  * complex solve, or its real part, which keeps stiff components; with the one shift sigma of the blended iteration
  * -sigma h gamma_0 (sigma E - A)^{-1} F, gamma_0 = 1/lambda or re/|lambda|^2. */
+static bool is_pair(const stf_step *s)
+{
+  return s->newton.gamma <= 0 && s->newton.transform.im[0] != 0;
+}
+
 static int filter(stf_step *s, sunrealtype h, N_Vector v)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
-  const stf_transform *transform = &s->newton.transform;
-  const bool blended = s->newton.gamma > 0, real = blended || transform->im[0] == 0;
-  if (!real) stf_zero(space, e->imaginary);
-  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &v, real ? NULL : &e->imaginary));
-  if (blended) stf_scale(space, e->filter * s->newton.shift * h, v, v);
+  const bool pair = is_pair(s);
+  if (pair) stf_zero(space, e->imaginary);
+  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &v, pair ? &e->imaginary : NULL));
+  if (s->newton.gamma > 0) stf_scale(space, e->filter * s->newton.shift * h, v, v);
   return STEIF_OK;
 }
 
@@ -247,16 +248,15 @@ static int attempt(stf_step *s, sunrealtype h)
   if (!s->adaptive) return STEIF_OK;
   STEIF_TRY(estimate(s, h));
   stf_estimate_levels(s);
-  return STEIF_OK;
+  return stf_look_between(s, &e->u, h, e->trial, is_pair(s), e->imaginary, e->work);
 }
 
 static void commit(stf_step *s)
 {
   state *e = s->state;
-  N_Vector *Z = e->Z, y = e->before;
+  N_Vector *Z = e->Z, y = e->before, lost = e->lost;
   e->Z = e->trial, e->trial = Z;
   e->before = s->y, s->y = s->next, s->next = y;
-  N_Vector lost = e->lost;
   e->lost = e->next_lost, e->next_lost = lost;
   e->history = true, e->fails = s->newton.fails;
   if (s->system.form == STEIF_IMPLICIT)
