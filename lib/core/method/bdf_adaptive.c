@@ -257,7 +257,8 @@ static void commit(stf_step *s)
   state *e = s->state;
   e->last = e->k;
   const sunrealtype own = e->alpha[0] / s->h_try; /* which operators follow */
-  stf_carried_add(s, &e->carried, s->system.krylov ? own : s->newton.shift, s->error);
+  stf_carried_add(s, &e->carried, s->system.krylov ? own : s->newton.shift, s->error,
+                  s->error_norm);
   stf_carried_tell(&e->carried, e->wanted[e->p], &s->control);
   choose(s);
   N_Vector oldest = e->y[POINTS];

@@ -21,14 +21,16 @@
 #include "pencil.h"
 #include <math.h>
 
-/* Steps before anything is known, and before it is sure; parts of a time before a step that became far shorter. */
-enum { FIRST = 20, SURE = 100, MOST_PARTS = 4 };
+/* Steps before anything is known, times that before it is sure; parts of a time before a step that became far
+ * shorter. */
+enum { FIRST = 20, SURE = 5, MOST_PARTS = 4 };
 static const sunrealtype LONGEST = 3.41421356237309505, MOST = 0.1; /* LONGEST: of tau */
 
 int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool exact,
                      stf_carried *c)
 {
   if (!s->adaptive) return STEIF_OK;
+  if (!c->first) c->first = FIRST;
   c->all = all;
   c->exact = exact;
   c->loose = c->always ? MOST : 0;
@@ -42,6 +44,16 @@ int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool ex
   if (!c->e || !c->work || !c->other) return STEIF_NO_MEMORY;
   stf_zero(&s->system.space, c->e);
   return STEIF_OK;
+}
+
+/* Its steps are longer: four of them tell enough. */
+int stf_carried_by_collocation(stf_step *s, const steif_table *T, bool real, stf_carried *c)
+{
+  const sunrealtype all = 0.1;
+  c->goal = 1, c->first = 4;
+  if (!(T->claims & STEIF_STIFFLY_ACCURATE) || !real || s->options->ewt || s->system.krylov)
+    return STEIF_OK;
+  return stf_carried_open(s, 0, all, false, c);
 }
 
 /* Largest component, in tolerances. */
@@ -58,6 +70,17 @@ static sunrealtype largest(stf_step *s, const stf_carried *c, N_Vector x)
   return most;
 }
 
+static int by_pencil(stf_step *s, N_Vector v, N_Vector out)
+{
+  return steif_pencil_product(s->system.pencil, 'E', v, out);
+}
+
+static int solve_by_pencil(stf_step *s, sunrealtype h, N_Vector v)
+{
+  (void)h;
+  return steif_pencil_solve(s->system.pencil, 0, 1, &v, NULL);
+}
+
 /* e <- R e for tau <= LONGEST, and its norm. Iterative solvers know what is small by Newton's tolerance: solutions have many
  * times its length. */
 static int apply(stf_step *s, stf_carried *c, sunrealtype sigma, sunrealtype tau,
@@ -67,14 +90,16 @@ static int apply(stf_step *s, stf_carried *c, sunrealtype sigma, sunrealtype tau
   const sunrealtype before = *norm, bend = tau - 2, many = 20;
   const sunrealtype slow = 0.05; /* what is slow must not seem to be forgotten */
   if (!(before > 0)) return STEIF_OK;
-  const sunrealtype unit = before / (many * s->newton.tolerance);
-  stf_pencil_force(s->system.pencil, slow, true);
+  const sunrealtype unit = before / (many * (c->solve ? 1 : s->newton.tolerance)), h = s->h_try;
+  int (*product)(stf_step *, N_Vector, N_Vector) = c->product ? c->product : by_pencil;
+  int (*solve)(stf_step *, sunrealtype, N_Vector) = c->solve ? c->solve : solve_by_pencil;
+  if (!c->solve) stf_pencil_force(s->system.pencil, slow, true);
   stf_scale(space, sigma / unit, c->e, c->e);
-  STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', c->e, c->work));
-  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &c->work, NULL));
+  STEIF_TRY(product(s, c->e, c->work));
+  STEIF_TRY(solve(s, h, c->work));
   stf_scale(space, sigma, c->work, c->e);
-  STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', c->e, c->other));
-  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &c->other, NULL));
+  STEIF_TRY(product(s, c->e, c->other));
+  STEIF_TRY(solve(s, h, c->other));
   stf_sum(space, -unit * bend, c->work, unit * (1 + bend), c->other, c->e);
   *norm = stf_norm(space, c->e, s->weights);
   c->growth *= *norm / before;
@@ -84,7 +109,7 @@ static int apply(stf_step *s, stf_carried *c, sunrealtype sigma, sunrealtype tau
 /* Is it still open whether e shrinks, so that no time may be passed over? */
 static bool watched(const stf_carried *c)
 {
-  return c->goal > 0 && !c->rises && c->steps < SURE;
+  return c->goal > 0 && !c->rises && c->steps < SURE * c->first;
 }
 
 /* The norm has grown from `before` to `now` over a part of the time, the `stretch`th, and by its weights since it
@@ -140,7 +165,7 @@ static sunrealtype share(const stf_step *s, stf_carried *c)
 {
   const sunrealtype times = 4;
   if (c->always) return fmin(MOST, c->all / c->remembered);
-  if (c->steps < FIRST) return 0;
+  if (c->steps < c->first) return 0;
   if ((sunrealtype)c->steps > times * c->remembered) c->forgets = true;
   const sunrealtype of_all = c->forgets ? fmin(MOST, c->all / c->remembered) : 0;
   return fmax(of_all, share_of_rest(s, c));
@@ -151,14 +176,15 @@ static bool due(const stf_step *s, const stf_carried *c, sunrealtype sigma)
 {
   const sunrealtype most = 0.5, parts = 2;
   if (watched(c)) return c->time * sigma >= parts * LONGEST;
-  const bool rare = c->steps > FIRST && c->remembered > most * (sunrealtype)c->steps;
+  const bool rare = c->steps > c->first && c->remembered > most * (sunrealtype)c->steps;
   const sunrealtype pause = c->exact ? 1 : rare ? 8 : 2;
   return (c->time + s->h_try) * sigma > pause * LONGEST;
 }
 
 /* Steps on problems of index 3, and of index 2 where no goal is set, are all remembered: R does not carry on
  * the errors of their hidden constraints. */
-void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector estimate)
+void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector error,
+                     sunrealtype norm)
 {
   const stf_space *space = &s->system.space;
   if (!c->e) return;
@@ -166,14 +192,14 @@ void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector es
   c->steps++;
   c->jumped = c->jumped || s->crossed;
   c->remembered++;
-  c->sum += c->goal > 0 ? s->error_norm : largest(s, c, estimate);
+  c->sum += c->goal > 0 ? norm : largest(s, c, error);
   if (c->summed) {
     c->size = c->sum;
     c->loose = c->always ? share(s, c) : 0;
     return;
   }
-  stf_axpy(space, 1, estimate, c->e);
-  c->added += s->error_norm;
+  stf_axpy(space, 1, error, c->e);
+  c->added += norm;
   if (due(s, c, sigma)) {
     const int code = carry(s, c, sigma);
     if (code == STEIF_CALLBACK) c->failure = code;
@@ -189,7 +215,7 @@ void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector es
 int stf_carried_retry(const stf_step *s, stf_carried *c)
 {
   enum { MANY = 6, MORE = 2 };
-  if (s->tries >= MANY && s->count > FIRST) c->least = fmin(MOST, MORE * c->least);
+  if (s->tries >= MANY && s->count > c->first) c->least = fmin(MOST, MORE * c->least);
   return c->failure;
 }
 

@@ -69,19 +69,45 @@ void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transfor
                           : end ? 0.0003
                                 : 0.001,
                     part = fmin(most, undamped * low * s * s);
+  e->most = pow(rtol, (s + 1.0) / (2 * s)) / rtol;
   e->loosest =
     part * pow(anchor, (s + 1.0) / (2 * s)) * pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
+}
+
+static sunrealtype ratio_of(const stf_estimate *e, sunrealtype top, sunrealtype below)
+{
+  sunrealtype ratio = e->gain;
+  for (int k = 0; k < e->beyond; k++) ratio *= e->s * top / below;
+  return ratio;
+}
+
+bool stf_estimate_sees(const stf_estimate *e, sunrealtype top)
+{
+  const sunrealtype seen = 0.3;
+  return top * e->legendre > seen;
+}
+
+sunrealtype stf_estimate_ratio(const stf_estimate *e, sunrealtype top, sunrealtype below)
+{
+  const sunrealtype ratio = ratio_of(e, top, below);
+  return ratio < 1 ? ratio : 1;
 }
 
 void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunrealtype below)
 {
   const sunrealtype wanted = 0.3;
-  const bool seen = top * e->legendre > wanted;
-  sunrealtype ratio = seen ? e->gain : 0; /* of the error to the estimate */
-  for (int k = 0; k < e->beyond; k++) ratio *= e->s * top / below;
+  const sunrealtype ratio = stf_estimate_sees(e, top) ? ratio_of(e, top, below) : 0;
   const bool less = ratio * e->loosest > wanted && e->loosest > wanted;
   s->control.tolerance = !less ? e->loosest : ratio < 1 ? wanted / ratio : wanted;
   s->control.order = e->s + (less && ratio < 1 ? e->beyond : 0);
+}
+
+void stf_estimate_share(stf_step *s, const stf_estimate *e, sunrealtype ratio,
+                        sunrealtype share)
+{
+  const sunrealtype wanted = 0.3;
+  const sunrealtype more = fmin(e->most, fmin(wanted, share) / ratio);
+  if (more > s->control.tolerance) s->control.tolerance = more;
 }
 
 void stf_estimate_none(stf_step *s, const stf_estimate *e)
@@ -99,16 +125,20 @@ static int by_pencil(stf_step *s, N_Vector v, N_Vector out)
   return steif_pencil_product(s->system.pencil, 'E', v, out);
 }
 
-/* Norm of v without components of higher index, whose errors the superconvergence of the others does not need. */
-static sunrealtype of_index_one(const stf_step *s, N_Vector v, N_Vector work)
+void stf_of_index_one(const stf_step *s, N_Vector v)
 {
   const int *index = s->problem->index;
-  if (!index || s->problem->dae_index < 2) return stf_norm(&s->system.space, v, s->weights);
+  if (!index || s->problem->dae_index < 2) return;
   sunindextype rows;
-  stf_copy(&s->system.space, v, work);
-  sunrealtype *x = stf_own_rows(work, &rows);
+  sunrealtype *x = stf_own_rows(v, &rows);
   for (sunindextype i = 0; x && i < rows; i++)
     if (index[i] > 1) x[i] = 0;
+}
+
+static sunrealtype norm_of_index_one(const stf_step *s, N_Vector v, N_Vector work)
+{
+  stf_copy(&s->system.space, v, work);
+  stf_of_index_one(s, work);
   return stf_norm(&s->system.space, work, s->weights);
 }
 
@@ -130,7 +160,7 @@ int stf_estimate_stiff(stf_step *s, const stf_estimate *e, sunrealtype h,
     STEIF_TRY((product ? product : by_pencil)(s, rest, work));
     STEIF_TRY(filter(s, h, work));
     stf_axpy(space, -1 / (e->weight * h), work, rest);
-    size = e->s * of_index_one(s, rest, work);
+    size = e->s * norm_of_index_one(s, rest, work);
   }
   const sunrealtype times = size / bound * s->control.tolerance / whole;
   if (k == 1 || !(times > 1)) return STEIF_OK;

@@ -242,8 +242,11 @@ typedef struct stf_carried {
   sunrealtype seen, added,
     rise; /* norms of e carried on, of estimates since; log of its growth */
   int failure;
-  bool summed;  /* e is not carried on */
-  bool rises;   /* e has grown by much at some time */
+  int first; /* steps before anything is known; 0: as many as multistep methods take */
+  int (*product)(stf_step *s, N_Vector v, N_Vector out); /* by E; NULL: by the pencil, ... */
+  int (*solve)(stf_step *s, sunrealtype h, N_Vector v);  /* ... as is this, with sigma E - A */
+  bool summed;                                           /* e is not carried on */
+  bool rises;                                            /* e has grown by much at some time */
   bool forgets; /* the errors of few steps were remembered at some time */
   bool jumped;  /* at an event, e as well, by the derivative of what is done there: not known */
 } stf_carried;
@@ -251,8 +254,12 @@ typedef struct stf_carried {
  * tolerances. `exact`: at twice the cost. */
 int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool exact,
                      stf_carried *c);
-/* After a step with the shift sigma in the factors. */
-void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector estimate);
+/* The same for collocation, whose estimates are of lower order than its errors, where factors of a real shift are at hand
+ * and the end is a stage. */
+int stf_carried_by_collocation(stf_step *s, const steif_table *T, bool real, stf_carried *c);
+/* After a step of this error, with the shift sigma in the factors. */
+void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector error,
+                     sunrealtype norm);
 /* At an attempt: where shorter steps do not help, rounding is larger than thought. STEIF_CALLBACK: a
  * callback stopped the solves after the last step. */
 int stf_carried_retry(const stf_step *s, stf_carried *c);
@@ -276,14 +283,23 @@ void stf_carried_tell(const stf_carried *c, sunrealtype wanted, stf_control *con
 typedef struct stf_estimate {
   int s, beyond;             /* beyond: p - s */
   sunrealtype gain, loosest; /* s! / (gamma_0 (p + 1)!) */
-  sunrealtype weight;        /* gamma_0 */
-  sunrealtype legendre;      /* size of x^s + ... orthogonal to lower powers on [0, 1] */
+  sunrealtype
+    most; /* where the errors of steps are forgotten: ten times that of Hairer and Wanner */
+  sunrealtype weight;   /* gamma_0 */
+  sunrealtype legendre; /* size of x^s + ... orthogonal to lower powers on [0, 1] */
   sunrealtype top[STEIF_STAGES], below[STEIF_STAGES]; /* weights of Z_j */
 } stf_estimate;
 void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transform *transform,
                        sunrealtype rtol);
 /* s->control.tolerance and s->control.order of this attempt, from the norms of the two differences. */
 void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunrealtype below);
+/* Is the difference of order s above what Newton's iteration leaves? */
+bool stf_estimate_sees(const stf_estimate *e, sunrealtype top);
+/* Of the error to the estimate, from the two differences; 1 where it is no less. */
+sunrealtype stf_estimate_ratio(const stf_estimate *e, sunrealtype top, sunrealtype below);
+/* A larger s->control.tolerance, up to e->most, where the error is `ratio` times the estimate and may be `share` tolerances. */
+void stf_estimate_share(stf_step *s, const stf_estimate *e, sunrealtype ratio,
+                        sunrealtype share);
 
 /* The same where the estimate is all that is known: no higher order. */
 void stf_estimate_none(stf_step *s, const stf_estimate *e);
@@ -302,6 +318,8 @@ int stf_estimate_stiff(stf_step *s, const stf_estimate *e, sunrealtype h,
  * larger for them, as if the tolerance had not been raised, but above rounding; not in the first steps,
  * whose start they forget, nor where many shorter steps do not help. */
 void stf_estimate_levels(stf_step *s);
+/* v without components of higher index, whose errors the superconvergence of the others does not need. */
+void stf_of_index_one(const stf_step *s, N_Vector v);
 /* Is a large estimate to be filtered once more? That removes what a stiff component not on its slow
  * manifold contributes at every step size: at the start and after a refusal, but not, without
  * need, the errors of velocities at index 3. */

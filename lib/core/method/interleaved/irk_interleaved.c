@@ -9,8 +9,6 @@
  *   as that is, and never below 1e-3: where f couples y in one direction later corrections vanish, and say nothing of
  *   the first.
  *   Where many iterations are left, one new Jacobian and LU at a stage as it is then.
- *   Error: (lambda_0/h M - J)^{-1} [f(t_n, y_n) + M/h sum d_j Z_j], filtered twice at the start and
- *   after a refusal; where the end is not a stage, the same of f and the slope at the end.
  * Hairer and Wanner, Solving ODEs II, IV.8.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -87,154 +85,12 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
     e->kappa = 10 * stf_multipliers_known(s->options->rtol, table->order);
   e->eta = e->eta_of = 1, e->J_new = true;
   stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
-  return STEIF_OK;
-}
-
-/* -- error, end ---------------------------------------------------------------------------------------- */
-
-static int slope(stf_step *s, double t, N_Vector y, double *out)
-{
-  state *e = s->state;
-  STEIF_TRY(stf_system_rhs(&s->system, t, y, s->error));
-  memcpy(out, STF_ARRAY(s->error), (size_t)e->n * sizeof *out);
-  return STEIF_OK;
-}
-
-/* x = f + M/h sum d_j Z_j. */
-static void defect(const state *e, const double *f, double h, double *x)
-{
-  double sum[STF_INTERLEAVED];
-  for (int i = 0; i < e->n; i++) {
-    sum[i] = 0;
-    for (int j = 0; j < e->s; j++) sum[i] += e->d[j] * e->L->Z[i * e->L->wide + j];
-    sum[i] /= h;
-  }
-  for (int i = 0; i < e->n; i++) {
-    x[i] = e->M ? f[i] : f[i] + sum[i];
-    for (int j = 0; e->M && j < e->n; j++) x[i] += e->M[i * e->n + j] * sum[j];
-  }
-}
-
-static bool algebraic(const state *e, int i)
-{
-  double row = 0;
-  for (int j = 0; e->M && j < e->n; j++) row += fabs(e->M[i * e->n + j]);
-  return e->M && row == 0;
-}
-
-static void without_residuals(const stf_step *s, double *f)
-{
-  const state *e = s->state;
-  for (int i = 0; stf_residuals_remain(s) && i < e->n; i++)
-    if (algebraic(e, i)) f[i] = 0;
-}
-
-/* y: the polynomial of this attempt at t + x h; K gives its coefficients about the end. */
-static void between(const stf_step *s, double x, double *y)
-{
-  const state *e = s->state;
-  memcpy(y, STF_ARRAY(s->next), (size_t)e->n * sizeof *y);
-  for (int j = 0; j < e->s; j++) {
-    double weight = 0;
-    for (int k = e->s; k-- > 0;) weight = (weight + e->K[j][k]) * (x - 1);
-    for (int i = 0; i < e->n; i++) y[i] += weight * e->L->Z[i * e->L->wide + j];
-  }
-}
-
-static int look_between(stf_step *s, double h)
-{
-  state *e = s->state;
-  bool right = stf_looks_between(s, h);
-  double *off = STF_ARRAY(e->rest);
-  for (int k = 0; right && k < e->s; k++) {
-    const double x = stf_between(e->table, k);
-    between(s, x, STF_ARRAY(e->moved));
-    STEIF_TRY(stf_system_rhs(&s->system, s->t + x * h, e->moved, e->rest));
-    for (int i = 0; i < e->n; i++)
-      if (!algebraic(e, i)) off[i] = 0;
-    stf_interleaved_filter(e->L, off);
-    right = !stf_off_between(s, e->rest);
-  }
-  return STEIF_OK;
-}
-
-/* The estimate with f at y + the first one: free of what stiff components off their slow manifold
- * add to that at every step size, and at index 3 of the errors of velocities. */
-static int filter_again(stf_step *s, double t, N_Vector y, double h)
-{
-  state *e = s->state;
-  double *x = STF_ARRAY(s->error), f[STF_INTERLEAVED];
-  stf_sum(&s->system.space, 1, y, 1, s->error, e->moved);
-  STEIF_TRY(slope(s, t, e->moved, f));
-  if (y == s->y) without_residuals(s, f);
-  defect(e, f, h, x);
-  stf_interleaved_filter(e->L, x);
-  return STEIF_OK;
-}
-
-static bool finite(int n, const double *x)
-{
-  double zero = 0;
-  for (int i = 0; i < n; i++) zero += 0 * x[i];
-  return zero == 0;
-}
-
-static int product(stf_step *s, N_Vector v, N_Vector out)
-{
-  const state *e = s->state;
-  const double *a = STF_ARRAY(v);
-  double *x = STF_ARRAY(out);
-  for (int i = 0; i < e->n; i++) {
-    x[i] = e->M ? 0 : a[i];
-    for (int j = 0; e->M && j < e->n; j++) x[i] += e->M[i * e->n + j] * a[j];
-  }
-  return STEIF_OK;
-}
-
-static int estimate(stf_step *s, double h)
-{
-  state *e = s->state;
-  if (!e->f0_known) STEIF_TRY(slope(s, s->t, s->y, e->f0));
-  e->f0_known = finite(e->n, e->f0);
-  without_residuals(s, e->f0);
-  defect(e, e->f0, h, STF_ARRAY(s->error));
-  stf_interleaved_filter(e->L, STF_ARRAY(s->error));
-  if (stf_filters_twice(s) &&
-      stf_norm(&s->system.space, s->error, s->weights) > s->control.tolerance)
-    STEIF_TRY(filter_again(s, s->t, s->y, h));
-  return stf_estimate_stiff(s, &e->higher_order, h, product, stf_irk_interleaved_damp, e->moved,
-                            e->rest);
-}
-
-static int estimate_end(stf_step *s, double h)
-{
-  state *e = s->state;
-  const stf_space *space = &s->system.space;
-  double f[STF_INTERLEAVED];
-  STEIF_TRY(slope(s, s->t + h, s->next, f));
-  defect(e, f, h, STF_ARRAY(s->error));
-  stf_interleaved_filter(e->L, STF_ARRAY(s->error));
-  STEIF_TRY(filter_again(s, s->t + h, s->next, h));
-  const int rounds = stf_filter_rounds(s);
-  for (int k = 1; k < rounds; k++) STEIF_TRY(filter_again(s, s->t + h, e->moved, h));
-  stf_sum(space, 1, e->moved, -1, s->next, e->moved);
-  return stf_test_undamped(s, e->moved, rounds, e->fails > 0, false);
-}
-
-static void set_tolerance(stf_step *s, const state *e)
-{
-  const double *w = STF_ARRAY(s->weights);
-  double top = 0, below = 0;
-  const int *index = s->problem->index;
-  for (int i = 0; i < e->n; i++) {
-    const double *z = e->L->Z + i * e->L->wide;
-    double high = 0, low = 0;
-    if (index && index[i] > 1) continue;
-    for (int j = 0; j < e->s; j++)
-      high += e->higher_order.top[j] * z[j], low += e->higher_order.below[j] * z[j];
-    top += w[i] * w[i] * high * high, below += w[i] * w[i] * low * low;
-  }
-  stf_estimate_set(s, &e->higher_order, e->rounding_limited ? 0 : sqrt(top), sqrt(below));
+  e->carried.product = stf_irk_interleaved_product, e->carried.solve = stf_irk_interleaved_damp;
+  STEIF_TRY(stf_carried_by_collocation(s, table, transform.im[0] == 0, &e->carried));
+  if (!e->carried.e) return STEIF_OK;
+  e->own = stf_pool_vector(s->pool, s->y);
+  e->ratio = stf_pool_array(s->pool, (size_t)e->n, sizeof *e->ratio);
+  return e->own && e->ratio ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 static int attempt(stf_step *s, sunrealtype h)
@@ -244,7 +100,7 @@ static int attempt(stf_step *s, sunrealtype h)
   STEIF_TRY(stf_irk_interleaved_prepare(s, h));
   STEIF_TRY(stf_irk_interleaved_iterate(s, h));
   stf_interleaved_end(e->L);
-  set_tolerance(s, e);
+  stf_irk_interleaved_tolerance(s);
   double *next = STF_ARRAY(s->next);
   const double *y = STF_ARRAY(s->y);
   for (int i = 0; i < e->n; i++) {
@@ -259,9 +115,7 @@ static int attempt(stf_step *s, sunrealtype h)
     fmin(usual->safety, usual->safety * (reach + 1) / (e->iterations + reach));
   s->control.grow = e->theta > 0.05 ? fmax(1, 0.5 / e->theta) : usual->grow;
   s->control.keep = e->theta <= 1e-3 ? usual->keep : 1;
-  STEIF_TRY(e->accurate ? estimate(s, h) : estimate_end(s, h));
-  stf_estimate_levels(s);
-  return look_between(s, h);
+  return stf_irk_interleaved_estimate(s, h);
 }
 
 static void commit(stf_step *s)
@@ -270,6 +124,8 @@ static void commit(stf_step *s)
   const int wide = e->L->wide;
   double size = 0;
   const double *w = STF_ARRAY(s->weights);
+  stf_carried_add(s, &e->carried, 1 / (e->higher_order.weight * e->h_factored), e->own,
+                  e->own_norm);
   stf_interleaved_keep(e->L, e->K, e->a);
   for (int i = 0; i < e->n; i++) {
     const double *z = e->L->Z + i * wide;
@@ -340,6 +196,7 @@ static void keep(stf_step *s, stf_image *m)
   STF_KEEP(m, e->J_new);
   STF_KEEP(m, e->J_ahead);
   STF_KEEP(m, e->J_from_stage);
+  stf_carried_keep(&e->carried, m);
 }
 
 static int trace(const stf_step *s, stf_trace *out)

@@ -20,6 +20,9 @@ typedef struct stf_irk_interleaved {
   double *last_Z;       /* n x wide, with M: stages before a correction */
   const sunrealtype *B; /* A^{-1}, s x s by rows */
   stf_estimate higher_order;
+  stf_carried carried;
+  N_Vector own;                   /* the error; NULL: none is carried on */
+  double own_norm, *ratio, least; /* ratio of the error to the estimate; least: that of norms */
   stf_stage_polynomial
     u; /* with derivatives by parameters; so are stages and what is set aside: */
   N_Vector *stage;
@@ -42,6 +45,13 @@ void stf_irk_interleaved_predict(const stf_step *s, stf_irk_interleaved *e, doub
 int stf_irk_interleaved_prepare(stf_step *s, double h);
 /* The stages, from the prediction. */
 int stf_irk_interleaved_iterate(stf_step *s, double h);
+
+/* What the estimate may be, from the stages. */
+void stf_irk_interleaved_tolerance(stf_step *s);
+/* The error, and a look between the stages. */
+int stf_irk_interleaved_estimate(stf_step *s, double h);
+/* out = M v. */
+int stf_irk_interleaved_product(stf_step *s, N_Vector v, N_Vector out);
 
 /* Factors of the matrices at hand. */
 int stf_irk_interleaved_factor(stf_step *s, double h);

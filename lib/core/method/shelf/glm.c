@@ -215,7 +215,7 @@ static void commit(stf_step *s)
 {
   state *e = s->state;
   if (e->wanted > 0) {
-    stf_carried_add(s, &e->carried, 1 / (e->chain.gamma * s->h_try), s->error);
+    stf_carried_add(s, &e->carried, 1 / (e->chain.gamma * s->h_try), s->error, s->error_norm);
     stf_carried_tell(&e->carried, e->wanted, &s->control);
   }
   N_Vector *free1 = e->past, *free2 = e->x == e->at ? e->from : e->at, *F = e->slopes,

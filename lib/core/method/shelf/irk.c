@@ -166,11 +166,8 @@ static int estimate_end(stf_step *s, sunrealtype h)
 static void difference(stf_step *s, const sunrealtype *weight, N_Vector d)
 {
   const state *e = s->state;
-  const int *index = s->problem->index;
   stf_combine(&s->system.space, e->s, weight, e->trial, d);
-  sunindextype rows = 0;
-  sunrealtype *v = index ? stf_own_rows(d, &rows) : NULL;
-  for (sunindextype i = 0; v && i < rows; i++) v[i] = index[i] > 1 ? 0 : v[i];
+  stf_of_index_one(s, d);
 }
 
 /* Oscillations that a step does not resolve take from the higher order. */
