@@ -1,6 +1,7 @@
 /* test_gain.c: what the estimate of collocation says about the error.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "integrator.h"
+#include "step_error.h"
 #include "suite.h"
 #include <nvector/nvector_serial.h>
 #include <steif/steif.h>

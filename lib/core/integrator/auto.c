@@ -31,6 +31,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "integrator.h"
 #include "fill_order.h"
+#include "step_error.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

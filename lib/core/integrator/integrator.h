@@ -164,10 +164,6 @@ int stf_constraint_open(steif_solver *s);
 int stf_constraint_check(steif_solver *s, sunrealtype t, N_Vector y, const char *where);
 int stf_constraint_keep(steif_solver *s, sunrealtype h, int tries);
 
-/* Are absolute tolerances above so many times the rounding of the largest component of y? Where they
- * are below, small components are differences of large ones. */
-bool stf_above_rounding(const steif_problem *p, const steif_options *o, const sunrealtype *y,
-                        sunrealtype times);
 /* s->rounding where it may matter; after a step, what has become of rounding errors. */
 int stf_rounding_open(steif_solver *s);
 int stf_rounding_step(steif_solver *s);

@@ -11,6 +11,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "integrator.h"
+#include "step_error.h"
 #include <math.h>
 
 enum { EVERY = 4 }; /* steps are carried along together: the order of magnitude is asked for */
@@ -23,17 +24,6 @@ struct stf_rounding {
   int waiting;                     /* ... and steps since then */
   unsigned state;
 };
-
-bool stf_above_rounding(const steif_problem *p, const steif_options *o, const sunrealtype *y,
-                        sunrealtype times)
-{
-  sunrealtype most = 0, least = o->atol;
-  for (sunindextype i = 0; i < p->n; i++) {
-    most = fmax(most, fabs(y[i]));
-    if (o->atols) least = i ? fmin(least, o->atols[i]) : o->atols[i];
-  }
-  return times * STF_EPS * most <= least;
-}
 
 int stf_rounding_open(steif_solver *s)
 {

@@ -14,6 +14,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bdf_adaptive.h"
+#include "step_error.h"
 #include <math.h>
 #include <string.h>
 

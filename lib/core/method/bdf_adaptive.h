@@ -4,6 +4,7 @@
 #define STF_BDF_ADAPTIVE_H
 
 #include "carry.h"
+#include "step_error.h"
 
 enum { STF_BDF_HIGHEST = 5, STF_BDF_POINTS = STF_BDF_HIGHEST + 2 };
 

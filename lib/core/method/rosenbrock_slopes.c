@@ -7,8 +7,8 @@
  *   E V - A U       = -F(t_i, Y_i, Z_i) - gamma_i h F_t,
  * so that V = U/(gamma h) - r and (E/(gamma h) - A) U = -F - gamma_i h F_t + E r: the matrices of one system.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "method.h"
 #include "rosenbrock_data.h"
+#include "step_error.h"
 #include "varying_mass.h"
 #include <math.h>
 

@@ -4,8 +4,8 @@
 #define STF_ROSENBROCK_STATE_H
 
 #include "lu.h"
-#include "method.h"
 #include "rosenbrock_data.h"
+#include "step_error.h"
 
 typedef struct stf_rosenbrock_state {
   const stf_rodas *r;
@@ -15,6 +15,8 @@ typedef struct stf_rosenbrock_state {
   bool unrolled; /* the stages run through `kernel` */
   stf_rosenbrock kernel;
   sunrealtype h_factored;
+  stf_carried carried;
+  sunrealtype wanted; /* what an estimate may be where all errors add */
 } stf_rosenbrock_state;
 
 /* carry_rosenbrock.c. */

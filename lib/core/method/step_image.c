@@ -1,7 +1,7 @@
 /* step_image.c: what a run remembers between two steps.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "method.h"
 #include "pencil.h"
+#include "step_error.h"
 
 static void keep_scalars(stf_step *s, stf_image *m)
 {

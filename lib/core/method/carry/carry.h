@@ -13,8 +13,8 @@
 #ifndef STF_CARRY_H
 #define STF_CARRY_H
 
-#include "method.h"
 #include "stage_polynomial.h"
+#include "step_error.h"
 
 enum { STF_CARRY_MISSES = 2 };
 

@@ -1,6 +1,7 @@
 /* carry_collocation.c: S through a step of collocation, and its error estimate, that of y differentiated.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "carry.h"
+#include "step_error.h"
 
 /* Weighted size of sum_j weight_j dZ_j, of components of index 1. */
 static sunrealtype size_of(stf_carry *T, const stf_collocation_stages *c, int k,

@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "irk_interleaved.h"
+#include "step_error.h"
 #include <math.h>
 #include <string.h>
 

@@ -13,6 +13,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "irk_interleaved.h"
+#include "step_error.h"
 #include <math.h>
 #include <string.h>
 
@@ -86,7 +87,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->eta = e->eta_of = 1, e->J_new = true;
   stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
   e->carried.product = stf_irk_interleaved_product, e->carried.solve = stf_irk_interleaved_damp;
-  STEIF_TRY(stf_carried_by_collocation(s, table, transform.im[0] == 0, &e->carried));
+  if (e->accurate && transform.im[0] == 0)
+    STEIF_TRY(stf_carried_by_one_step(s, 4, 0.3, &e->carried));
   if (!e->carried.e) return STEIF_OK;
   e->own = stf_pool_vector(s->pool, s->y);
   e->ratio = stf_pool_array(s->pool, (size_t)e->n, sizeof *e->ratio);

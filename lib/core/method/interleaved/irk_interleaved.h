@@ -4,8 +4,8 @@
 #define STF_IRK_INTERLEAVED_H
 
 #include "lu.h"
-#include "method.h"
 #include "stage_polynomial.h"
+#include "step_error.h"
 
 typedef struct stf_irk_interleaved {
   const steif_table *table;

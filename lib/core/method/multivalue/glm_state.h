@@ -7,6 +7,7 @@
 #include "general.h"
 #include "stage_chain.h"
 #include "starting_values.h"
+#include "step_error.h"
 
 enum { STF_GLM_DATA = STF_LEAST, STF_GLM_POWERS = STEIF_PAST + 1 };
 

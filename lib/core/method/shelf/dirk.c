@@ -7,6 +7,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "carry.h"
 #include "stage_chain.h"
+#include "step_error.h"
 
 typedef struct state {
   const steif_table *table;
@@ -16,6 +17,8 @@ typedef struct state {
   N_Vector before;
   bool accurate; /* stiffly accurate */
   bool stepped;
+  stf_carried carried;
+  sunrealtype wanted; /* what an estimate may be where all errors add */
 } state;
 
 static int check(stf_step *s, state *e)
@@ -54,6 +57,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->before = stf_pool_vector(s->pool, s->y);
   const int q = table->order_hat < table->order ? table->order_hat : table->order;
   STEIF_TRY(stf_share_open(s, table->name, q, table->order));
+  e->wanted = s->control.tolerance;
+  STEIF_TRY(stf_carried_by_one_step(s, 6, 0.1, &e->carried));
   return e->old && e->before ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
@@ -67,8 +72,13 @@ static int estimate(stf_step *s, sunrealtype h)
   stf_combine(space, e->s, weight, e->chain.K, e->chain.base);
   STEIF_TRY(stf_chain_filter(s, &e->chain));
   if (!e->accurate) return STEIF_OK;
+  const sunrealtype whole = stf_norm(space, s->error, s->weights), stiff = 0.1;
   stf_scale(space, 1 / (e->chain.gamma * h), s->error, e->chain.base);
-  return stf_chain_filter(s, &e->chain);
+  STEIF_TRY(stf_chain_filter(s, &e->chain));
+  s->error_norm = stf_norm(space, s->error, s->weights);
+  s->control.tolerance =
+    s->error_norm < stiff * whole ? e->wanted : stf_carried_share(&e->carried, e->wanted);
+  return STEIF_OK;
 }
 
 static int attempt(stf_step *s, sunrealtype h)
@@ -96,6 +106,9 @@ static void commit(stf_step *s)
 {
   state *e = s->state;
   N_Vector *K = e->old, y = e->before;
+  const sunrealtype own = 1 / (e->chain.gamma * s->h_try); /* which operators follow */
+  stf_carried_add(s, &e->carried, s->system.krylov ? own : s->newton.shift, s->error,
+                  s->error_norm);
   e->old = e->chain.K, e->chain.K = K;
   e->before = s->y, s->y = s->next, s->next = y;
   e->stepped = true;
@@ -144,6 +157,7 @@ static void keep(stf_step *s, stf_image *m)
   stf_keep_vectors(m, e->s, e->chain.X);
   stf_keep_vector(m, e->before);
   STF_KEEP(m, e->stepped);
+  stf_carried_keep(&e->carried, m);
 }
 
 /* ---- derivatives by parameters: trial and kept hold those of the slopes K ------------------------ */

@@ -2,6 +2,7 @@
  * weights chooses steps; inside of them its solution is that of a shorter step, of full order.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "carry.h"
+#include "step_error.h"
 
 typedef struct state {
   const steif_table *table;

@@ -7,6 +7,7 @@
  * step the values of the start. The start is fitted to p further values within the first step.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "glm_state.h"
+#include "step_error.h"
 #include <math.h>
 
 enum { DATA = STF_GLM_DATA, POWERS = STF_GLM_POWERS };

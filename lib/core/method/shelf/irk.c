@@ -10,6 +10,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "kick_drift.h"
 #include "carry.h"
+#include "step_error.h"
 #include <math.h>
 
 typedef struct state {

@@ -7,8 +7,8 @@
  * one product and one solve with the factors at hand; the signs, a fixed sequence, keep terms from cancelling.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "method.h"
 #include "pencil.h"
+#include "step_error.h"
 #include <math.h>
 
 /* dy, of signs that a probe gives. */

@@ -5,9 +5,9 @@
  * happened there that no stage has seen, such as a diode that conducted.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "method.h"
 #include "pencil.h"
 #include "stage_polynomial.h"
+#include "step_error.h"
 #include <stdint.h>
 
 /* So many rejected steps have not cured what is no error of theirs. */

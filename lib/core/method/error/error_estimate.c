@@ -1,7 +1,7 @@
 /* error_estimate.c: what methods make of their error estimates.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "method.h"
 #include "pencil.h"
+#include "step_error.h"
 #include <math.h>
 
 /* Weights of the divided difference through k + 1 nodes. */
@@ -12,6 +12,17 @@ static void difference(int k, const sunrealtype *node, sunrealtype *weight)
     for (int m = 0; m <= k; m++)
       if (m != j) weight[j] /= node[j] - node[m];
   }
+}
+
+bool stf_above_rounding(const steif_problem *p, const steif_options *o, const sunrealtype *y,
+                        sunrealtype times)
+{
+  sunrealtype most = 0, least = o->atol;
+  for (sunindextype i = 0; i < p->n; i++) {
+    most = fmax(most, fabs(y[i]));
+    if (o->atols) least = i ? fmin(least, o->atols[i]) : o->atols[i];
+  }
+  return times * STF_EPS * most <= least;
 }
 
 sunrealtype stf_share(const stf_step *s, int q, int p, sunrealtype rounding)

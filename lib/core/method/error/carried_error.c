@@ -17,8 +17,8 @@
  * whole, and by the weights, which grow where solutions decay; one growth by 2 ends this for the run.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "method.h"
 #include "pencil.h"
+#include "step_error.h"
 #include <math.h>
 
 /* Steps before anything is known, times that before it is sure; parts of a time before a step that became far
@@ -30,7 +30,7 @@ int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool ex
                      stf_carried *c)
 {
   if (!s->adaptive) return STEIF_OK;
-  if (!c->first) c->first = FIRST;
+  if (!c->first) c->first = FIRST, c->most = 0.3;
   c->all = all;
   c->exact = exact;
   c->loose = c->always ? MOST : 0;
@@ -46,13 +46,10 @@ int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool ex
   return STEIF_OK;
 }
 
-/* Its steps are longer: four of them tell enough. */
-int stf_carried_by_collocation(stf_step *s, const steif_table *T, bool real, stf_carried *c)
+int stf_carried_by_one_step(stf_step *s, int first, sunrealtype most, stf_carried *c)
 {
   const sunrealtype all = 0.1;
-  c->goal = 1, c->first = 4;
-  if (!(T->claims & STEIF_STIFFLY_ACCURATE) || !real || s->options->ewt || s->system.krylov)
-    return STEIF_OK;
+  c->goal = 1, c->first = first, c->most = most;
   return stf_carried_open(s, 0, all, false, c);
 }
 
@@ -151,13 +148,13 @@ static int carry(stf_step *s, stf_carried *c, sunrealtype sigma)
  * 1.5 alone, and make less than they may: hence twice. */
 static sunrealtype share_of_rest(const stf_step *s, const stf_carried *c)
 {
-  const sunrealtype shrunk = 0.7, most = 0.3, times = 2;
+  const sunrealtype shrunk = 0.7, times = 2;
   const sunrealtype left = (s->options->t1 - s->t) / s->h_try - 1;
   const bool known =
     c->goal > 0 && !c->rises && !c->jumped && c->remembered < shrunk * (sunrealtype)c->steps;
   if (!known || s->carry || !(left > 0)) return 0;
   const sunrealtype count = c->forgets ? fmin(left, c->remembered) : left;
-  return fmin(most, times * fmax(0, c->goal - c->size) / fmax(1, count));
+  return times * fmax(0, c->goal - c->size) / fmax(1, count);
 }
 
 /* What one of the errors remembered may be; 0 as long as the problem was never seen to forget. */
@@ -168,7 +165,7 @@ static sunrealtype share(const stf_step *s, stf_carried *c)
   if (c->steps < c->first) return 0;
   if ((sunrealtype)c->steps > times * c->remembered) c->forgets = true;
   const sunrealtype of_all = c->forgets ? fmin(MOST, c->all / c->remembered) : 0;
-  return fmax(of_all, share_of_rest(s, c));
+  return fmin(c->most, fmax(of_all, share_of_rest(s, c)));
 }
 
 /* Of e, in parts that are carried on: the longer, the less there is to know. */
