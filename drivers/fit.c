@@ -18,9 +18,11 @@ static int run(struct call *call)
 
 static const struct option options[] = {
   {"--data", WORD, "FILE.csv",
-   "measurements: a first line t and names of unknowns or outputs; empty cells are skipped",
+   "measurements: a first line t and names of unknowns or outputs; empty cells are skipped; a "
+   "model may name its own",
    NULL},
-  {"--parameters", WORD, "P=START,...", "parameters, perhaps with start values, or all", "all"},
+  {"--parameters", WORD, "P=START,...",
+   "parameters, perhaps with start values, or all; a model may name its own", "all"},
   {"--log", FLAG, NULL, "fit log p (default where start values and bounds are positive)", NULL},
   {"--linear", FLAG, NULL, "fit p itself", NULL},
   {"--sd", REALS, "S,...", "standard deviations of the columns, or one for all", NULL},
@@ -35,13 +37,12 @@ static const struct option options[] = {
   OPTIONS_END,
 };
 
-static const struct rule rules[] = {
-  {"--data", REQUIRED, NULL}, {"--log", EXCLUDES, "--linear"}, RULES_END};
+static const struct rule rules[] = {{"--log", EXCLUDES, "--linear"}, RULES_END};
 
 const struct verb verb_fit = {
   .name = "fit",
   .about = "Find parameters from measurements",
-  .usage = "PROBLEM METHOD --data FILE.csv [--parameters k1=0.02,k2 --sd S --starts N]",
+  .usage = "PROBLEM METHOD [--data FILE.csv] [--parameters k1=0.02,k2 --sd S --starts N]",
   .least = 2,
   .most = 2,
   .picture = true,

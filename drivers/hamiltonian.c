@@ -51,7 +51,7 @@ static int run(struct call *call)
 {
   if (!call->words) return present_result(call, fill_examples, NULL);
   const char *name = call->word[0];
-  if (strpbrk(name, "./")) return from_file(call);
+  if (!strcmp(name, "-") || strpbrk(name, "./")) return from_file(call);
   const steif_hamiltonian_example *e;
   for (size_t i = 0; (e = steif_hamiltonian_example_at(i)); i++)
     if (!strcmp(e->name, name)) return find(call, e->n, e->A);

@@ -30,6 +30,12 @@ expect(5 hamiltonian barely --tol 2e-11 ERR "undecided.*--tol")
 expect(0 hamiltonian --json)
 member(rotation examples 0 name)
 
+file(WRITE ${FOLDER}/turn.steif "state x = 1, y = 0\nx' = -y\ny' = x\n")
+execute_process(COMMAND ${PROGRAM} hamiltonian - INPUT_FILE ${FOLDER}/turn.steif OUTPUT_VARIABLE out RESULT_VARIABLE code)
+if(code OR NOT out MATCHES "symplectic +yes")
+  message(FATAL_ERROR "hamiltonian - of a model: ${code}, ${out}")
+endif()
+
 expect(2 hamiltonian saddel ERR "did you mean saddle")
 expect(2 hamiltonian A.mtx --tol 0 ERR "above 0")
 expect(2 hamiltonian A.mtx --tol 3 ERR "tolerance")

@@ -34,7 +34,7 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   const steif_fit *f = &a->fit;
   steif_report_text(r, "problem", call->word[0]);
   steif_report_text(r, "method", call->word[1]);
-  steif_report_text(r, "data", word_of(call, "--data"));
+  steif_report_text(r, "data", fitted_data(call, a));
   steif_report_whole(r, "measurements", (long)f->residuals);
   steif_report_text(r, "theta", f->log ? "log p" : "p / scale");
   rows(r, a);
@@ -68,9 +68,9 @@ int fitted_find(struct call *call, struct fitted *a)
                                .start = a->start,
                                .low = a->low,
                                .high = a->high,
-                               .scale = given(call, "--log")      ? STEIF_FIT_LOG
-                                        : given(call, "--linear") ? STEIF_FIT_LINEAR
-                                                                  : STEIF_FIT_AUTO,
+                               .scale = given(call, "--log") || a->log ? STEIF_FIT_LOG
+                                        : given(call, "--linear")      ? STEIF_FIT_LINEAR
+                                                                       : STEIF_FIT_AUTO,
                                .starts = (int)whole_of(call, "--starts"),
                                .evaluations = (int)whole_of(call, "--evaluations")};
   int code = check_outputs(call);

@@ -60,6 +60,45 @@ static int named(struct call *call, struct fitted *a, const char *list)
   return EXIT_OK;
 }
 
+/* Those that the model names. */
+static int by_model(struct call *call, struct fitted *a)
+{
+  const char *name;
+  for (size_t i = 0; (name = steif_model_fitted(a->problem, i)); i++) {
+    const int k = steif_parameter_find(call->ctx, a->problem, name);
+    if (k < 0) return fail(call);
+    if (a->count == FITTED) return bad_usage(call, "the model names more than %d", FITTED);
+    add(a, k, a->problem->parameters->value[k]);
+  }
+  return EXIT_OK;
+}
+
+static steif_model_data said(const struct call *call, const struct fitted *a)
+{
+  steif_model_data data = {0};
+  if (steif_model_parameter(a->problem, 0, NULL))
+    steif_model_data_find(call->ctx, a->problem, &data);
+  return data;
+}
+
+const char *fitted_data(const struct call *call, const struct fitted *a)
+{
+  const char *path = word_of(call, "--data");
+  return path ? path : said(call, a).path;
+}
+
+static int file(struct call *call, struct fitted *a)
+{
+  if (!fitted_data(call, a))
+    return bad_usage(
+      call,
+      "--data FILE.csv is missing: '%s' names no measurements, as a model does by "
+      "data \"FILE.csv\"",
+      call->word[0]);
+  a->log = said(call, a).log && !given(call, "--linear");
+  return EXIT_OK;
+}
+
 static int choose(struct call *call, struct fitted *a)
 {
   const char *list = word_of(call, "--parameters");
@@ -68,6 +107,8 @@ static int choose(struct call *call, struct fitted *a)
     return bad_usage(
       call, "problem '%s' has no parameters: rober and chemakzo have, and models as text",
       call->word[0]);
+  if (!given(call, "--parameters") && steif_model_fitted(a->problem, 0))
+    return by_model(call, a);
   if (strcmp(list, "all")) return named(call, a, list);
   if (q->count > FITTED)
     return bad_usage(call, "problem '%s' has %d parameters, more than %d: name some",
@@ -108,7 +149,8 @@ int fitted_ask(struct call *call, struct fitted *a)
   double sd[REALS_MOST];
   a->run = options_of(call);
   a->run.rtol = real_of(call, "--rtol");
-  int code = choose(call, a);
+  int code = file(call, a);
+  if (!code) code = choose(call, a);
   if (!code) code = bounds(call, a);
   if (code) return code;
   const size_t count = given(call, "--sd") ? reals_of(call, "--sd", sd) : 0;

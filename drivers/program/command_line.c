@@ -74,8 +74,8 @@ static int keep(struct call *call, const struct option *o, const char *text)
   return EXIT_OK;
 }
 
-/* The option that other programs call so. */
-static const char *known_elsewhere(const char *name, size_t length)
+/* The option of this verb that others call so. */
+static const char *known_elsewhere(const struct verb *v, const char *name, size_t length)
 {
   static const char *const words[][2] = {{"--tend", "--t1"},
                                          {"--t-end", "--t1"},
@@ -96,12 +96,15 @@ static const char *known_elsewhere(const char *name, size_t length)
                                          {"--out", "--csv"},
                                          {"--output", "--csv"},
                                          {"--save", "--csv"},
+                                         {"--param", "--parameters"},
+                                         {"--params", "--parameters"},
                                          {"--param", "--set"},
                                          {"--params", "--set"},
                                          {"--sigma", "--sd"},
                                          {"--seconds", "--max-seconds"}};
   for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-    if (strlen(words[i][0]) == length && !strncmp(name, words[i][0], length))
+    if (strlen(words[i][0]) == length && !strncmp(name, words[i][0], length) &&
+        find(v, words[i][1], strlen(words[i][1])))
       return words[i][1];
   return NULL;
 }
@@ -113,8 +116,8 @@ static int one_option(struct call *call, int argc, char **argv, int *i)
   const size_t length = text ? (size_t)(text - name) : strlen(name);
   char near[GUESS];
   const struct option *o = find(call->verb, name, length);
-  const char *other = o ? NULL : known_elsewhere(name, length);
-  if (other && find(call->verb, other, strlen(other)))
+  const char *other = o ? NULL : known_elsewhere(call->verb, name, length);
+  if (other)
     return bad_usage(call, "no option %.*s; here it is %s; 'steif %s --help' lists them all",
                      (int)length, name, other, call->verb->name);
   if (!o)

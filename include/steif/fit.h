@@ -51,7 +51,7 @@ typedef struct steif_measurements {
  * any order; sd_NAME beside NAME is the standard deviation of each of its values. An empty cell, or NA, is
  * skipped. Times ascend and lie between t0 and t1 (0: the problem's, if it has one); each occurs once unless
  * `repeated`. # begins a comment. sd: sd_count standard deviations, one for all columns, or one for each in
- * their order; NULL: those of the file, or none. STEIF_BAD_INPUT, STEIF_UNKNOWN_NAME, STEIF_NOT_FINITE, STEIF_IO with
+ * their order; NULL: those of the file, of the model (`data`), or none. path NULL: what the model names. STEIF_BAD_INPUT, STEIF_UNKNOWN_NAME, STEIF_NOT_FINITE, STEIF_IO with
  * file, line and column. Free it with the context it was read with. */
 STEIF_EXPORT int steif_measurements_read(steif_context *ctx, const steif_problem *problem,
                                          const char *path, sunrealtype t1, int repeated,

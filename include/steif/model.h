@@ -91,6 +91,21 @@ STEIF_EXPORT const char *steif_model_parameter(const steif_problem *problem, siz
 /* What reading did to the start: guesses ('~') that do not fulfil the equations, where they were and where they are,
  * beyond 1e-6 of their size, or why no consistent start was found; "": none moved, or no model. */
 STEIF_EXPORT const char *steif_model_start(const steif_problem *problem);
+/* What the model says of measurements: `data "FILE.csv", name = expression sd s, ...` and `fit k1, k2 log`. */
+typedef struct steif_model_data {
+  const char *path; /* of FILE.csv, beside the model; NULL: not told */
+  int
+    columns; /* their names and standard deviations, 0: not told. Columns of expressions are outputs. */
+  const char *const *column;
+  const sunrealtype *sd;
+  int fitted, log; /* parameters that `fit` names; 1: `log` stands after them */
+  void *reserved[4];
+} steif_model_data;
+/* STEIF_BAD_INPUT: the problem was not made from a text. */
+STEIF_EXPORT int steif_model_data_find(steif_context *ctx, const steif_problem *problem,
+                                       steif_model_data *data);
+/* Name of the parameter that `fit` names as number i, from 0; NULL past the end. */
+STEIF_EXPORT const char *steif_model_fitted(const steif_problem *problem, size_t i);
 /* Name of output i; NULL past the end. Their values at (t, y), as many as there are names. */
 STEIF_EXPORT const char *steif_model_output(const steif_problem *problem, size_t i);
 STEIF_EXPORT int steif_model_outputs(const steif_problem *problem, sunrealtype t, N_Vector y,

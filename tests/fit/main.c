@@ -3,9 +3,10 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_fits[], tests_of_statistics[], tests_of_measurements[],
-  tests_of_bad_fits[];
+  tests_of_bad_fits[], tests_of_models[];
 
 SUITE_MAIN({.pName = "fits", .pTests = tests_of_fits},
            {.pName = "statistics", .pTests = tests_of_statistics},
            {.pName = "measurements", .pTests = tests_of_measurements},
-           {.pName = "bad fits", .pTests = tests_of_bad_fits})
+           {.pName = "bad fits", .pTests = tests_of_bad_fits},
+           {.pName = "models that name their measurements", .pTests = tests_of_models})

@@ -20,7 +20,7 @@ static void no_interval(void)
   CHECK(s.p.t0 == 0 && s.p.t1 == 0 && s.p.break_count == 1);
   CHECK(!steif_solver_new(s.ctx, &s.p, "radau:s=3", &o));
   CHECK(!!strstr(steif_message(s.ctx), "m.steif: no time interval; set options.t1, or in a "
-                                       "model add 'time 0 to 10'"));
+                                       "model add 'time 0 to 10 {s}'"));
   o.t1 = 3;
   steif_solver *solver = steif_solver_new(s.ctx, &s.p, "radau:s=3", &o);
   CU_ASSERT_FATAL(solver != NULL);

@@ -37,7 +37,15 @@ static const wrong models[] = {
   {"state x = 1\nx' = k7*x\ntime 0 to 1\nparam k1 = 1, k2 = 2, k3 = 3\n", ":k7=1",
    "m.steif has no parameter 'k7'; the nearest is 'k1'. It has k1, k2, k3"},
   {"state u[i in 1:100] = 0\nfor i in 1:100\n  u[i]' = u[i+1]\nend\ntime 0 to 1\n", "",
-   "m.steif:3:11: u[101] does not exist (i = 100; u runs from 1 to 100)"},
+   "m.steif:3:11: u[101] does not exist (i = 100; u runs from 1 to 100); end the loop at 99 or "
+   "add "
+   "'boundary u[101] = ...'"},
+  {"state u[i in 1:100] = 0\nfor i in 1:100\n  u[i]' = u[i-1]\nend\ntime 0 to 1\n", "",
+   "m.steif:3:11: u[0] does not exist (i = 1; u runs from 1 to 100); begin the loop at 2 or "
+   "add "
+   "'boundary u[0] = ...'"},
+  {"state u[1:9] = 0\nfor i in 1:5\n  u[2*i]' = u[2*i]\nend\ntime 0 to 1\n", "",
+   "m.steif:3:3: u[10] does not exist (i = 5; u runs from 1 to 9); end the loop at 4 or add "},
   {"state u[i in 1:3] = 0\nfor i in 1:10^12\nu[i]' = 0\nend\n", "",
    "m.steif:2:10: a loop of 1e+12 passes; 1e8 is the most."},
   {"state u[i in 1:3] = 0\nfor i in 1:1000000000\nu[i]' = 0\nend\n", "",
@@ -67,7 +75,9 @@ static const wrong models[] = {
   {"state z = -1\nz'=0\nstate y = 1\n\ny' = log(z)\ntime 0 to 1\n", "",
    "m.steif:5:6: log of -1 at the start (t = 0, z = -1)"},
   {"\n\n\nstate u[i in 1:100] = 1\n\n\nfor i in 2:99\nu[i]' = 1\nend\ntime 0 to 1\n", "",
-   "m.steif: no equation for u[1], u[100] (declared in line 4)"},
+   "m.steif: no equation for u[1], u[100] (declared in line 4; the loop of line 7 runs from 2 "
+   "to "
+   "99)"},
   {"\nparam n = 2.5\nstate u[1:n] = 1\n", "",
    "m.steif:3:7: the size n = 2.5 must be a whole number from 1 to 1e7; declare 'param n = 2 "
    "whole'"},

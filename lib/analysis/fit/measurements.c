@@ -28,6 +28,7 @@ typedef struct table {
   sunrealtype t0, t1, last;
   long last_line;
   bool repeated, weighted;
+  steif_model_data said; /* by a model */
   steif_measurements *data;
 } table;
 
@@ -158,6 +159,16 @@ static int header(table *T, const char *line)
 
 /* ---- standard deviations of columns ---------------------------------------------------------- */
 
+/* What a model says of column k, unless the file has standard deviations of its values. */
+static sunrealtype told(const table *T, int k)
+{
+  char room[STEIF_SPEC_WORD];
+  const char *name = measured_name(T->problem, T->component[k], room);
+  for (int i = 0; i < T->said.columns && T->sd_at[k] < 0; i++)
+    if (!strcmp(T->said.column[i], name)) return T->said.sd[i];
+  return 0;
+}
+
 static int spread(table *T, int count, const sunrealtype *sd)
 {
   int values = 0;
@@ -167,15 +178,15 @@ static int spread(table *T, int count, const sunrealtype *sd)
               values, T->path);
   for (int k = 1, i = 0; k < T->columns; k++) {
     if (T->sd_of[k] >= 0) continue;
-    const sunrealtype s = count ? sd[count == 1 ? 0 : i] : 0;
+    const sunrealtype s = count ? sd[count == 1 ? 0 : i] : told(T, k);
     STEIF_CHECK(!count || (s > 0 && isfinite(s)), T->ctx, STEIF_BAD_INPUT,
                 "the standard deviation %g of column %d of '%s' must be positive", s, k + 1,
                 T->path);
-    T->sd[k] = s, T->weighted |= count > 0 || T->sd_at[k] >= 0, i++;
+    T->sd[k] = s, T->weighted |= s > 0 || T->sd_at[k] >= 0, i++;
   }
   for (int k = 1; k < T->columns && T->weighted && !count; k++)
     STEIF_CHECK(
-      T->sd_of[k] >= 0 || T->sd_at[k] >= 0, T->ctx, STEIF_BAD_INPUT,
+      T->sd_of[k] >= 0 || T->sd_at[k] >= 0 || T->sd[k] > 0, T->ctx, STEIF_BAD_INPUT,
       "column %d of '%s' has no standard deviations, and others have: give all, or none", k + 1,
       T->path);
   return STEIF_OK;
@@ -307,14 +318,22 @@ int steif_measurements_read(steif_context *ctx, const steif_problem *problem, co
   STEIF_CHECK(data, ctx, STEIF_BAD_INPUT, "no place for the measurements: it is NULL");
   *data = (steif_measurements){0};
   if (!ctx) return STEIF_BAD_INPUT;
-  STEIF_CHECK(problem && path, ctx, STEIF_BAD_INPUT,
-              "a problem and the path of a file are needed, got NULL");
+  steif_model_data said = {0};
+  STEIF_CHECK(problem, ctx, STEIF_BAD_INPUT, "a problem is needed, got NULL");
+  if (steif_model_output(problem, 0) || steif_model_parameter(problem, 0, NULL))
+    STEIF_TRY(steif_model_data_find(ctx, problem, &said));
+  if (!path) path = said.path;
+  STEIF_CHECK(
+    path, ctx, STEIF_BAD_INPUT,
+    "the path of a file of measurements is needed: problem '%s' names none, as a model "
+    "does by data \"FILE.csv\"",
+    problem->name ? problem->name : "?");
   char *text = stf_input_text(ctx, path);
   if (!text) return steif_status(ctx);
   table *T = stf_allocate(ctx, 1, sizeof *T);
   int code = T ? stf_plain_begin(ctx, &plain) : STEIF_NO_MEMORY;
   if (!code) {
-    *T = (table){.ctx = ctx, .problem = problem, .path = path, .data = data};
+    *T = (table){.ctx = ctx, .problem = problem, .path = path, .data = data, .said = said};
     T->t0 = problem->t0, T->t1 = stf_fit_end(problem, t1), T->repeated = repeated;
     data->reserved[0] = T->pool = stf_pool_new(ctx);
     code = T->pool ? read(T, text, sd ? sd_count : 0, sd) : STEIF_NO_MEMORY;

@@ -63,7 +63,7 @@ int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_optio
               "max_seconds = %g must not be negative; 0 means no limit", o->max_seconds);
   if (o->mesh) STEIF_TRY(check_mesh(ctx, o, p->t0));
   STEIF_CHECK(p->t1 > p->t0 || o->t1 != p->t1, ctx, STEIF_BAD_INPUT,
-              "%s: no time interval; set options.t1, or in a model add 'time 0 to 10'",
+              "%s: no time interval; set options.t1, or in a model add 'time 0 to 10 {s}'",
               p->name);
   STEIF_CHECK(isfinite(o->t1) && o->t1 > p->t0, ctx, STEIF_BAD_INPUT,
               "the end t1 = %g must lie after the start t0 = %g of problem '%s'", o->t1, p->t0,

@@ -10,7 +10,7 @@
 typedef struct stf_rosenbrock_state {
   const stf_rodas *r;
   N_Vector u[STF_RODAS_STAGES], old[STF_RODAS_STAGES]; /* of the trial, of the last step */
-  N_Vector Y, sum, ft, f0, before;
+  N_Vector Y, sum, ft, f0, before, between, Ep, off;
   bool have_f0;  /* f0 = f(t_n, y_n), ft = df/dt there */
   bool unrolled; /* the stages run through `kernel` */
   stf_rosenbrock kernel;

@@ -7,6 +7,20 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
+/* "", or what a callback was asked for where the problem has another storage of its own. */
+static const char *asked(const stf_system *s, const char *what)
+{
+  static const char *const words[] = {
+    [STEIF_DENSE] = "; it was asked for dense matrices, and the problem has others of its own",
+    [STEIF_BAND] = "; it was asked for band matrices, and the problem has others of its own",
+    [STEIF_SPARSE] =
+      "; it was asked for sparse matrices, and the problem has others of its own"};
+  const size_t storage = (size_t)s->storage;
+  const bool own = s->storage == s->problem->storage || what[0] == 'f' || what[0] == 'F';
+  return own || storage >= sizeof words / sizeof *words || !words[storage] ? ""
+                                                                           : words[storage];
+}
+
 /* A callback's return value as ours, with the sentence. */
 static int callback(stf_system *s, int returned, const char *what, sunrealtype t)
 {
@@ -17,8 +31,8 @@ static int callback(stf_system *s, int returned, const char *what, sunrealtype t
       "%s of problem '%s' could not be evaluated at t = %.12g (it returned %d)", what,
       s->problem->name, t, returned);
   return STEIF_FAIL(s->ctx, STEIF_CALLBACK,
-                    "%s of problem '%s' stopped the run at t = %.12g (it returned %d)", what,
-                    s->problem->name, t, returned);
+                    "%s of problem '%s' stopped the run at t = %.12g (it returned %d)%s", what,
+                    s->problem->name, t, returned, asked(s, what));
 }
 
 int stf_system_rhs(stf_system *s, sunrealtype t, N_Vector y, N_Vector out)

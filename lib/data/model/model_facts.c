@@ -53,6 +53,28 @@ const char *steif_model_parameter(const steif_problem *p, size_t which, sunrealt
   return NULL;
 }
 
+int steif_model_data_find(steif_context *ctx, const steif_problem *p, steif_model_data *data)
+{
+  const stf_model *m = model_of(p);
+  STEIF_CHECK(m && data, ctx, STEIF_BAD_INPUT, "problem '%s' was not made from a text",
+              p && p->name ? p->name : "NULL");
+  const stf_measured *d = &m->measured;
+  *data = (steif_model_data){.path = d->path,
+                             .columns = d->columns,
+                             .column = d->column,
+                             .sd = d->sd,
+                             .fitted = d->fitted,
+                             .log = d->log};
+  return STEIF_OK;
+}
+
+const char *steif_model_fitted(const steif_problem *p, size_t which)
+{
+  const stf_model *m = model_of(p);
+  return m && which < (size_t)m->measured.fitted ? stf_named(m, m->measured.parameter[which])
+                                                 : NULL;
+}
+
 const char *steif_model_start(const steif_problem *p)
 {
   const stf_model *m = model_of(p);

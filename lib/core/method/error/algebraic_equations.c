@@ -6,7 +6,6 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "pencil.h"
-#include "stage_polynomial.h"
 #include "step_error.h"
 #include <stdint.h>
 
@@ -51,44 +50,44 @@ int stf_without_residuals(stf_step *s, N_Vector probe, N_Vector Ep, N_Vector res
   return stf_keep_rows(&s->system.space, Ep, false, residual), STEIF_OK;
 }
 
-bool stf_looks_between(const stf_step *s, sunrealtype h)
+static bool grown(const stf_step *s, sunrealtype h)
 {
-  const sunrealtype grown = 1.5;
-  return has_rows(s) && !s->system.linear && h > grown * s->h;
+  const sunrealtype much = 1.5;
+  return has_rows(s) && !s->system.linear && h > much * s->h;
 }
 
-sunrealtype stf_between(const steif_table *T, int k)
+/* Rows of E that are 0 do not depend on y'. */
+static int off_at(stf_step *s, sunrealtype h, sunrealtype x, const stf_look *look)
 {
-  return ((k ? T->c[k - 1] : 0) + T->c[k]) / 2;
+  const sunrealtype t = s->t + x * h;
+  STEIF_TRY(look->inside(s, x, look->y));
+  STEIF_TRY(s->system.form == STEIF_MASS
+              ? stf_system_rhs(&s->system, t, look->y, look->off)
+              : stf_system_residual(&s->system, t, look->y, look->Ep, look->off));
+  stf_keep_rows(&s->system.space, look->Ep, true, look->off);
+  return look->solve(s, h, look->off);
 }
 
-bool stf_off_between(stf_step *s, N_Vector off)
+int stf_look_between(stf_step *s, sunrealtype h, const stf_look *look)
 {
   const stf_space *space = &s->system.space;
   const sunrealtype most = 0.03;
-  if (stf_norm(space, off, s->weights) * s->options->rtol <= most) return false;
-  stf_copy(space, off, s->error);
-  s->error_norm = -1;
-  return true;
-}
-
-int stf_look_between(stf_step *s, const stf_stage_polynomial *u, sunrealtype h, N_Vector *Z,
-                     bool pair, N_Vector slope, N_Vector off)
-{
-  const stf_space *space = &s->system.space;
-  N_Vector y = s->newton.Y;
-  bool right = stf_looks_between(s, h);
-  for (int k = 0; right && k < u->s; k++) {
-    const sunrealtype x = stf_between(u->table, k);
-    STEIF_TRY(stf_stage_polynomial_at(u, space, x, s->y, Z, y));
-    stf_zero(space, slope);
-    STEIF_TRY(stf_system_residual(&s->system, s->t + x * h, y, slope, off));
-    stf_row_probe(space, y);
-    STEIF_TRY(steif_pencil_product(s->system.pencil, 'E', y, slope));
-    stf_keep_rows(space, slope, true, off);
-    if (pair) stf_zero(space, y);
-    STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &off, pair ? &y : NULL));
-    right = !stf_off_between(s, off);
+  if (!grown(s, h)) return STEIF_OK;
+  stf_row_probe(space, look->y);
+  STEIF_TRY(look->product ? look->product(s, look->y, look->Ep)
+                          : steif_pencil_product(s->system.pencil, 'E', look->y, look->Ep));
+  for (int k = 0; k < look->points; k++) {
+    STEIF_TRY(off_at(s, h, look->x[k], look));
+    if (stf_norm(space, look->off, s->weights) * s->options->rtol <= most) continue;
+    stf_copy(space, look->off, s->error);
+    s->error_norm = -1;
+    break;
   }
   return STEIF_OK;
+}
+
+int stf_between_nodes(const steif_table *T, sunrealtype *x)
+{
+  for (int k = 0; k < T->s; k++) x[k] = ((k ? T->c[k - 1] : 0) + T->c[k]) / 2;
+  return T->s;
 }

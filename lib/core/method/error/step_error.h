@@ -36,16 +36,21 @@ bool stf_residuals_remain(const stf_step *s);
 int stf_without_residuals(stf_step *s, N_Vector probe, N_Vector Ep, N_Vector residual);
 
 /* Between stages of a step that has grown a diode may have conducted: there algebraic equations of index 1 hold to the
- * accuracy of the polynomial, and never in a thirtieth of the size of the solution. Looked at where h is so much more than
- * the last step, half-way from node k - 1, or the start, to node k. `off`: what they are off, filtered; it becomes the
- * error of the step, and the answer is yes, where it is as large as that. */
-bool stf_looks_between(const stf_step *s, sunrealtype h);
-sunrealtype stf_between(const steif_table *T, int k);
-bool stf_off_between(stf_step *s, N_Vector off);
-struct stf_stage_polynomial;
-/* pair: the factors at hand are complex. slope, off: room. */
-int stf_look_between(stf_step *s, const struct stf_stage_polynomial *u, sunrealtype h,
-                     N_Vector *Z, bool pair, N_Vector slope, N_Vector off);
+ * accuracy of what is between, and never in a thirtieth of the size of the solution. */
+typedef struct stf_look {
+  const sunrealtype *x; /* where, in parts of the step */
+  int points;
+  int (*inside)(stf_step *s, sunrealtype x,
+                N_Vector y); /* the solution of this attempt there */
+  int (*product)(stf_step *s, N_Vector v, N_Vector out); /* by E; NULL: by the pencil */
+  int (*solve)(stf_step *s, sunrealtype h, N_Vector v);  /* with sigma E - A of the attempt */
+  N_Vector y, Ep, off;                                   /* room */
+} stf_look;
+/* Looked at where h is so much more than the last step; what the solution is off becomes the error of the step where it
+ * is as large as that. */
+int stf_look_between(stf_step *s, sunrealtype h, const stf_look *look);
+/* x half-way from node k - 1, or the start, to node k; how many. */
+int stf_between_nodes(const steif_table *T, sunrealtype *x);
 
 /* The errors of all steps so far as the problem carries them on (carried_error.c). */
 typedef struct stf_carried {

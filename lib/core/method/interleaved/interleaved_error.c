@@ -62,33 +62,33 @@ static void without_residuals(const stf_step *s, double *f)
     if (algebraic(e, i)) f[i] = 0;
 }
 
-/* y: the polynomial of this attempt at t + x h; K gives its coefficients about the end. */
-static void between(const stf_step *s, double x, double *y)
+/* The polynomial of this attempt at t + x h; K gives its coefficients about the end. */
+static int inside(stf_step *s, double x, N_Vector v)
 {
   const state *e = s->state;
-  memcpy(y, STF_ARRAY(s->next), (size_t)e->n * sizeof *y);
+  double *y = STF_ARRAY(v);
+  stf_copy(&s->system.space, s->next, v);
   for (int j = 0; j < e->s; j++) {
     double weight = 0;
     for (int k = e->s; k-- > 0;) weight = (weight + e->K[j][k]) * (x - 1);
     for (int i = 0; i < e->n; i++) y[i] += weight * e->L->Z[i * e->L->wide + j];
   }
+  return STEIF_OK;
 }
 
 static int look_between(stf_step *s, double h)
 {
-  state *e = s->state;
-  bool right = stf_looks_between(s, h);
-  double *off = STF_ARRAY(e->rest);
-  for (int k = 0; right && k < e->s; k++) {
-    const double x = stf_between(e->table, k);
-    between(s, x, STF_ARRAY(e->moved));
-    STEIF_TRY(stf_system_rhs(&s->system, s->t + x * h, e->moved, e->rest));
-    for (int i = 0; i < e->n; i++)
-      if (!algebraic(e, i)) off[i] = 0;
-    stf_interleaved_filter(e->L, off);
-    right = !stf_off_between(s, e->rest);
-  }
-  return STEIF_OK;
+  const state *e = s->state;
+  double x[STF_EIGEN_STAGES];
+  const stf_look look = {.x = x,
+                         .points = stf_between_nodes(e->table, x),
+                         .inside = inside,
+                         .product = stf_irk_interleaved_product,
+                         .solve = stf_irk_interleaved_damp,
+                         .y = e->moved,
+                         .Ep = e->between,
+                         .off = e->rest};
+  return stf_look_between(s, h, &look);
 }
 
 /* The estimate with f at y + the first one: free of what stiff components off their slow manifold

@@ -45,12 +45,14 @@ static int claim(stf_step *s, state *e)
   e->a = stf_pool_array(s->pool, n * (size_t)e->L->wide, sizeof *e->a);
   e->moved = stf_pool_vector(s->pool, s->y);
   e->rest = stf_pool_vector(s->pool, s->y);
+  e->between = stf_pool_vector(s->pool, s->y);
   e->f0 = stf_pool_array(s->pool, n, sizeof *e->f0);
   e->before = stf_pool_array(s->pool, n, sizeof *e->before);
   if (e->M) e->last_Z = stf_pool_array(s->pool, n * (size_t)e->L->wide, sizeof *e->last_Z);
   if (e->M && !e->last_Z) return STEIF_NO_MEMORY;
-  return e->Y && e->F && e->moved && e->rest && e->a && e->f0 && e->before ? STEIF_OK
-                                                                           : STEIF_NO_MEMORY;
+  return e->Y && e->F && e->moved && e->rest && e->between && e->a && e->f0 && e->before
+           ? STEIF_OK
+           : STEIF_NO_MEMORY;
 }
 
 static int open_derivatives(stf_step *s)

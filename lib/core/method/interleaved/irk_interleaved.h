@@ -12,7 +12,7 @@ typedef struct stf_irk_interleaved {
   int s, n, itmax, iterations, fails; /* fails: attempts refused since the last accepted step */
   stf_interleaved *L;
   N_Vector *Y, *F; /* views of the stages in L */
-  N_Vector moved, rest;
+  N_Vector moved, rest, between;
   double *a; /* n x wide: u(t_n + x h_old) - y_n = sum_k a_k x^(k+1) */
   double K[STF_EIGEN_STAGES][STF_INTERLEAVED_STAGES]; /* a_k = sum_j K[j][k] Z_j */
   double d[STF_EIGEN_STAGES], end[STF_EIGEN_STAGES];

@@ -1,35 +1,19 @@
 /* irk.c: fully implicit Runge-Kutta methods (Gauss, Radau, Lobatto IIIC), all stages at once.
  *
  * Stages Y_i = y_n + Z_i with slopes Y_i' = (1/h) sum_m B_im Z_m, B = A^{-1}, are solved through the split of B. The
- * polynomial u(t_n + x h) of stage_polynomial.h gives the end value (w(1) = b^T B), the start of the next iteration and dense output.
- * Error estimate (c_1 > 0): the shifted solve of -F(t_n, y_n, u'(t_n)); order s (Hairer and Wanner II, IV.8).
- * Where the end is not a stage, of -F(t_n + h, y_{n+1}, u'(t_n + h)): stiff and algebraic components are off.
+ * polynomial u(t_n + x h) of stage_polynomial.h gives the end value (w(1) = b^T B), the start of the next iteration and
+ * dense output.
  * compensated=1: stages solved until rounding stops it, coefficients in two parts, and the end value
  * a sum that remembers its rounding (E. Hairer, R. I. McLachlan and A. Razakarivony, BIT 48 (2008)).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "kick_drift.h"
 #include "carry.h"
+#include "irk_state.h"
 #include "step_error.h"
 #include <math.h>
 
-typedef struct state {
-  const steif_table *table;
-  int s;
-  stf_stage_polynomial u;
-  sunrealtype *row_sum; /* B 1 */
-  sunrealtype filter;   /* blended iteration: weight gamma_0 of the estimate */
-  stf_estimate higher_order;
-  sunrealtype omega;   /* frequency of the fastest part if that oscillates; 0: it does not */
-  long omega_of;       /* Jacobians made when omega was found */
-  long fails;          /* of Newton up to the accepted step */
-  N_Vector *Z, *trial; /* of the last step and of the attempt, relative to y_n */
-  N_Vector *base, *offset, *X;
-  N_Vector before, work, imaginary; /* before: y_n of the last step */
-  N_Vector lost, next_lost; /* what rounding took from y and from the trial; NULL: not kept */
-  stf_parts parts;          /* of B and of w(1), where that is kept */
-  bool history;
-} state;
+typedef stf_irk_state state;
 
 static int claim(stf_step *s, state *e)
 {
@@ -119,93 +103,6 @@ static void predict(stf_step *s, sunrealtype h)
   stf_mix(space, e->s, e->s, stf_stage_polynomial_ahead(&e->u, h / s->h), e->Z, e->trial);
 }
 
-/* error = -(lambda/h E - A)^{-1} F(t, y, u') with the real lane; with a pair the quadratic filter -(re/im) Im of the
- * complex solve, or its real part, which keeps stiff components; with the one shift sigma of the blended iteration
- * -sigma h gamma_0 (sigma E - A)^{-1} F, gamma_0 = 1/lambda or re/|lambda|^2. */
-static bool is_pair(const stf_step *s)
-{
-  return s->newton.gamma <= 0 && s->newton.transform.im[0] != 0;
-}
-
-static int filter(stf_step *s, sunrealtype h, N_Vector v)
-{
-  state *e = s->state;
-  const stf_space *space = &s->system.space;
-  const bool pair = is_pair(s);
-  if (pair) stf_zero(space, e->imaginary);
-  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &v, pair ? &e->imaginary : NULL));
-  if (s->newton.gamma > 0) stf_scale(space, e->filter * s->newton.shift * h, v, v);
-  return STEIF_OK;
-}
-
-static int filtered(stf_step *s, sunrealtype h, sunrealtype t, N_Vector y)
-{
-  state *e = s->state;
-  STEIF_TRY(stf_system_residual(&s->system, t, y, e->work, s->error));
-  if (y == s->y) STEIF_TRY(stf_without_residuals(s, e->X[0], e->imaginary, s->error));
-  stf_scale(&s->system.space, -1, s->error, s->error);
-  return filter(s, h, s->error);
-}
-
-static int estimate_end(stf_step *s, sunrealtype h)
-{
-  state *e = s->state;
-  const stf_space *space = &s->system.space;
-  N_Vector first = e->X[0];
-  STEIF_TRY(filtered(s, h, s->t + h, s->next));
-  const int rounds = stf_filter_rounds(s);
-  N_VConst(0, first);
-  for (int k = 0; k < rounds; k++) {
-    stf_axpy(space, 1, s->error, first);
-    stf_sum(space, 1, s->next, 1, first, s->newton.Y);
-    STEIF_TRY(filtered(s, h, s->t + h, s->newton.Y));
-  }
-  return stf_test_undamped(s, first, rounds, s->newton.fails > e->fails, s->newton.gamma > 0);
-}
-
-/* Of the components of index 1: others begin at the error of the last step. */
-static void difference(stf_step *s, const sunrealtype *weight, N_Vector d)
-{
-  const state *e = s->state;
-  stf_combine(&s->system.space, e->s, weight, e->trial, d);
-  stf_of_index_one(s, d);
-}
-
-/* Oscillations that a step does not resolve take from the higher order. */
-static int set_tolerance(stf_step *s, sunrealtype h)
-{
-  state *e = s->state;
-  if (s->system.nje != e->omega_of) {
-    e->omega_of = s->system.nje;
-    stf_sum(&s->system.space, 1, s->next, -1, s->y, e->work);
-    STEIF_TRY(stf_oscillation(s, e->work, e->X[0], e->imaginary, &e->omega));
-  }
-  N_Vector d[] = {e->work, e->imaginary};
-  sunrealtype size[2];
-  difference(s, e->higher_order.top, d[0]), difference(s, e->higher_order.below, d[1]);
-  stf_norm_each(&s->system.space, 2, d, s->weights, size);
-  stf_estimate_set(s, &e->higher_order, size[0], size[1]);
-  if (e->omega * h > 1) stf_estimate_none(s, &e->higher_order);
-  return STEIF_OK;
-}
-
-static int estimate(stf_step *s, sunrealtype h)
-{
-  state *e = s->state;
-  const stf_space *space = &s->system.space;
-  STEIF_TRY(set_tolerance(s, h));
-  sunrealtype slope[STEIF_STAGES];
-  for (int j = 0; j < e->s; j++) slope[j] = e->u.slope[j] / h;
-  stf_combine(space, e->s, slope, e->trial, e->work);
-  if (!e->u.accurate) return estimate_end(s, h);
-  STEIF_TRY(filtered(s, h, s->t, s->y));
-  if (stf_filters_twice(s) && stf_norm(space, s->error, s->weights) > s->control.tolerance) {
-    stf_sum(space, 1, s->y, 1, s->error, s->newton.Y);
-    STEIF_TRY(filtered(s, h, s->t, s->newton.Y));
-  }
-  return stf_estimate_stiff(s, &e->higher_order, h, NULL, filter, e->X[0], e->work);
-}
-
 static int solve(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
@@ -244,9 +141,7 @@ static int attempt(stf_step *s, sunrealtype h)
   } else if (!s->absolute)
     stf_sum(space, 1, s->y, 1, e->trial[e->s - 1], s->next);
   if (!s->adaptive) return STEIF_OK;
-  STEIF_TRY(estimate(s, h));
-  stf_estimate_levels(s);
-  return stf_look_between(s, &e->u, h, e->trial, is_pair(s), e->imaginary, e->work);
+  return stf_irk_estimate(s, h);
 }
 
 static void commit(stf_step *s)
@@ -313,7 +208,7 @@ static int carry(stf_carry *T, sunrealtype h)
                                     .estimate = &e->higher_order,
                                     .oscillates = e->omega * h > 1,
                                     .Z = e->trial,
-                                    .filter = filter};
+                                    .filter = stf_irk_filter};
   return stf_carry_collocation(T, h, &c);
 }
 

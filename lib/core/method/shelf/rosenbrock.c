@@ -51,7 +51,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(stf_check_index(s, spec->name));
   STEIF_TRY(stf_transform_single(s->pool, 1 / e->r->g, &transform));
   STEIF_TRY(stf_newton_open(s->pool, &s->system, &transform, s->weights, &s->newton));
-  N_Vector *const all[] = {&e->Y, &e->sum, &e->ft, &e->f0, &e->before};
+  N_Vector *const all[] = {&e->Y,      &e->sum,     &e->ft, &e->f0,
+                           &e->before, &e->between, &e->Ep, &e->off};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++)
     if (!(*all[i] = stf_pool_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
   for (int i = 0; i < e->r->s; i++)
@@ -169,6 +170,45 @@ static int stages_unrolled(stf_step *s, sunrealtype h)
   return STEIF_OK;
 }
 
+/* (1 - x) y_n + x y_{n+1} + x (1 - x) sum (d_i + x d_{s+i}) u_i. */
+static void combine(const stf_step *s, const stf_rodas *r, sunrealtype x, N_Vector before,
+                    N_Vector end, N_Vector *u, N_Vector y)
+{
+  const stf_space *space = &s->system.space;
+  sunrealtype c[STF_RODAS_STAGES];
+  for (int i = 0; i < r->s; i++) c[i] = x * (1 - x) * (r->d[i] + x * r->d[r->s + i]);
+  stf_combine(space, r->s, c, u, y);
+  stf_axpy(space, 1 - x, before, y);
+  stf_axpy(space, x, end, y);
+}
+
+static int inside(stf_step *s, sunrealtype x, N_Vector y)
+{
+  state *e = s->state;
+  combine(s, e->r, x, s->y, s->next, e->u, y);
+  return STEIF_OK;
+}
+
+static int solve_pencil(stf_step *s, sunrealtype h, N_Vector v)
+{
+  (void)h;
+  return steif_pencil_solve(s->system.pencil, 0, 1, &v, NULL);
+}
+
+static int look_between(stf_step *s, sunrealtype h)
+{
+  const state *e = s->state;
+  static const sunrealtype x[] = {0.1, 0.3, 0.5, 0.7, 0.9};
+  const stf_look look = {.x = x,
+                         .points = 5,
+                         .inside = inside,
+                         .solve = e->unrolled ? solve_unrolled : solve_pencil,
+                         .y = e->between,
+                         .Ep = e->Ep,
+                         .off = e->off};
+  return stf_look_between(s, h, &look);
+}
+
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
@@ -183,7 +223,7 @@ static int attempt(stf_step *s, sunrealtype h)
                          "the step of problem '%s' from t = %.12g with h = %.6g is not finite: "
                          "f gave NaN or infinity, or the step is too large",
                          s->problem->name, s->t, h);
-  return STEIF_OK;
+  return look_between(s, h);
 }
 
 static void commit(stf_step *s)
@@ -200,17 +240,10 @@ static void commit(stf_step *s)
   stf_swap(s);
 }
 
-/* (1 - x) y_n + x y_{n+1} + x (1 - x) sum (d_i + x d_{s+i}) u_i. */
 int stf_rodas_inside(const stf_step *s, const stf_rodas *r, sunrealtype t, N_Vector before,
                      N_Vector end, N_Vector *u, N_Vector y)
 {
-  const stf_space *space = &s->system.space;
-  const sunrealtype x = (t - (s->t - s->h)) / s->h;
-  sunrealtype c[STF_RODAS_STAGES];
-  for (int i = 0; i < r->s; i++) c[i] = x * (1 - x) * (r->d[i] + x * r->d[r->s + i]);
-  stf_combine(space, r->s, c, u, y);
-  stf_axpy(space, 1 - x, before, y);
-  stf_axpy(space, x, end, y);
+  combine(s, r, (t - (s->t - s->h)) / s->h, before, end, u, y);
   return STEIF_OK;
 }
 

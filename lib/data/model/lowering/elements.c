@@ -263,16 +263,20 @@ static int outside(stf_builder *b, const stf_symbol *s, const stf_code *c, const
     return stf_push_node(b, stf_number(b->g, 0));
   }
   if (!said || c->primes) {
-    char pass[60] = "";
+    char pass[60] = "", where[60] = "end the loop earlier";
     const stf_binding *local = b->bindings.data;
+    const int64_t high = s->low[d] + s->count[d] - 1, beyond = x[d].c - high;
     if (b->bindings.count && local->node < 0)
       snprintf(pass, sizeof pass, "%.30s = %lld; ", stf_named(b->m, local->word),
                (long long)local->at.c);
+    if (b->bindings.count == 1 && local->node < 0)
+      snprintf(where, sizeof where, "%s the loop at %lld", beyond > 0 ? "end" : "begin",
+               (long long)(local->at.c - (beyond > 0 ? beyond : x[d].c - s->low[d])));
     return stf_complain(&b->m->syntax.sources, c->at, STEIF_BAD_INPUT,
-                        "%s[%lld] does not exist (%s%s runs from %d to %d); end the loop "
-                        "earlier or add 'boundary %s[%lld] = ...'",
-                        name, (long long)x[d].c, pass, name, s->low[d],
-                        s->low[d] + s->count[d] - 1, name, (long long)x[d].c);
+                        "%s[%lld] does not exist (%s%s runs from %d to %lld); %s or add "
+                        "'boundary %s[%lld] = ...'",
+                        name, (long long)x[d].c, pass, name, s->low[d], (long long)high, where,
+                        name, (long long)x[d].c);
   }
   const size_t scope = b->bindings.count;
   for (int k = 0; k < c->count; k++)

@@ -99,6 +99,16 @@ typedef struct stf_matrix {
   sunrealtype *scratch; /* entries, for dense storage */
 } stf_matrix;
 
+/* Of `data` and `fit`; path NULL, fitted 0: not told. */
+typedef struct stf_measured {
+  const char *path;
+  int columns, fitted;
+  bool log;
+  const char **column;
+  double *sd;         /* of each column; 0: not told */
+  int32_t *parameter; /* words */
+} stf_measured;
+
 typedef struct stf_model {
   steif_context *ctx;
   stf_pool *pool;
@@ -132,6 +142,7 @@ typedef struct stf_model {
   steif_event *event_list;
   double *event_values[2];
   double *event_shift, *event_range; /* of each relation: see event_values.c */
+  stf_measured measured;
   steif_reference reference;
   sunindextype *reference_component;
   int *constraint;
@@ -257,6 +268,8 @@ double stf_span(const stf_model *m);
 int stf_number_of(stf_model *m, const stf_expression *e, double *value);
 /* extras.c: breaks, reference, invariants, constraints. */
 int stf_build_constraints(stf_model *m);
+/* measured.c: what is said of measurements. */
+int stf_find_measured(stf_model *m);
 int stf_finish(stf_model *m, steif_problem *problem);
 /* m->output_slopes is there. */
 int stf_output_slopes(stf_model *m);

@@ -175,12 +175,42 @@ static int tell(sides *s, stf_pool *pool)
 
 /* ---- rows of arrays that no loop gives --------------------------------------------------------- */
 
+static bool has_element(const stf_model *m, const stf_expression *e, int32_t word)
+{
+  for (uint32_t k = e->from; k < e->to; k++) {
+    const stf_code *c = STF_AT(m->syntax.codes, stf_code, k);
+    if (c->kind == STF_OP_ELEMENT && c->b == word) return true;
+  }
+  return false;
+}
+
+/* "; the loop of line 7 runs from 2 to 99" of the one loop that has the array on its left; "" where there are others. */
+static void loop_of(stf_model *m, int32_t word, char *text, size_t room)
+{
+  int found = 0;
+  for (size_t i = 0; i < m->syntax.statements.count; i++) {
+    const stf_statement *s = stf_statement_at(m, (int32_t)i);
+    double low, high;
+    if (s->kind != STF_SAY_EQUATION || s->parent < 0 || !has_element(m, &s->value, word))
+      continue;
+    const stf_statement *loop = stf_statement_at(m, s->parent);
+    *text = 0;
+    if (loop->kind != STF_SAY_FOR || loop->parent >= 0 || found++ ||
+        stf_number_of(m, &loop->range[0].low, &low) ||
+        stf_number_of(m, &loop->range[0].high, &high))
+      return;
+    snprintf(text, room, "; the loop of line %d runs from %.0f to %.0f", (int)loop->line, low,
+             high);
+  }
+}
+
 /* Elements without an equation, where all other equations are explicit; false: something else. */
 static bool missing_rows(stf_model *m, const int32_t *taken_by, int64_t missing_count)
 {
-  char names[300] = "";
+  char names[300] = "", loop[80] = "";
   int64_t found = 0;
   int count = 0, line = 0;
+  int32_t word = -1;
   for (int32_t i = 0; i < m->n; i++) {
     if (taken_by[i]) continue;
     const stf_symbol *s = stf_symbol_at(m, m->owner[i]);
@@ -190,11 +220,13 @@ static bool missing_rows(stf_model *m, const int32_t *taken_by, int64_t missing_
       snprintf(names + used, sizeof names - used, "%s%s", count > 1 ? ", " : "", m->unknown[i]);
     if (count == 7) snprintf(names + used, sizeof names - used, ", ...");
     line = (int)stf_statement_at(m, s->statement)->line;
+    word = s->word;
     found++;
   }
   if (found != missing_count) return false;
+  loop_of(m, word, loop, sizeof loop);
   stf_complain(&m->syntax.sources, STF_NOWHERE, STEIF_BAD_INPUT,
-               "no equation for %s (declared in line %d)", names, line);
+               "no equation for %s (declared in line %d%s)", names, line, loop);
   return true;
 }
 

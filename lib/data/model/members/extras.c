@@ -241,5 +241,6 @@ int stf_finish(stf_model *m, steif_problem *p)
   STEIF_TRY(breaks(m, p));
   STEIF_TRY(invariants(m, p));
   p->constraint = m->constrained ? m->constraint : NULL;
+  STEIF_TRY(stf_find_measured(m));
   return reference(m, p);
 }

@@ -43,6 +43,22 @@ static void make_folders(const char *path)
   }
 }
 
+/* Is a part of the path a link that another user could have made? Links of the user or of the system are followed. */
+static bool through_links(const char *path)
+{
+  char part[PATH_ROOM];
+  struct stat found;
+  for (size_t i = 1; path[i - 1] && i < sizeof part; i++) {
+    if (path[i] != '/' && path[i]) continue;
+    memcpy(part, path, i);
+    part[i] = 0;
+    if (!lstat(part, &found) && S_ISLNK(found.st_mode) && found.st_uid != geteuid() &&
+        found.st_uid != 0)
+      return true;
+  }
+  return false;
+}
+
 static int check_folder(steif_context *ctx, const char *folder)
 {
   struct stat found;
@@ -50,10 +66,20 @@ static int check_folder(steif_context *ctx, const char *folder)
     folder[0] == '/' && strlen(folder) < PATH_ROOM - 64, ctx, STEIF_BAD_INPUT,
     "the folder of compiled models must be an absolute path of less than %d characters",
     PATH_ROOM - 64);
+  STEIF_CHECK(
+    !through_links(folder), ctx, STEIF_IO,
+    "the folder %.200s for compiled models is reached by a link of another user and is not "
+    "used",
+    folder);
   make_folders(folder);
   STEIF_CHECK(!lstat(folder, &found) && S_ISDIR(found.st_mode), ctx, STEIF_IO,
               "the folder %.200s for compiled models cannot be made or is none", folder);
-  STEIF_CHECK(found.st_uid == geteuid() && !(found.st_mode & 077), ctx, STEIF_IO,
+  STEIF_CHECK(
+    found.st_uid == geteuid(), ctx, STEIF_IO,
+    "the folder %.200s belongs to another user and is not used for compiled models: give "
+    "XDG_CACHE_HOME, or one of your own",
+    folder);
+  STEIF_CHECK(!(found.st_mode & 077), ctx, STEIF_IO,
               "the folder %.200s is open to other users and is not used for compiled models: "
               "chmod 700",
               folder);

@@ -45,6 +45,11 @@ int stf_source_path(stf_sources *s, stf_pool *pool, uint32_t at, const char *nam
                     uint32_t length, const char **path)
 {
   const stf_text *text = s->texts.data;
+  if (!strcmp(text->name, "-"))
+    return stf_complain(s, at, STEIF_BAD_INPUT,
+                        "'%.*s': a model from standard input has no folder and names no files; "
+                        "write it into a file",
+                        length < 60 ? (int)length : 60, name);
   const char *slash = strrchr(text->name, '/');
   const size_t folder = slash ? (size_t)(slash - text->name) + 1 : 0;
   char *full = stf_pool_array(pool, folder + length + 1, 1);

@@ -126,6 +126,38 @@ static int reference(stf_reader *r)
   return STEIF_OK;
 }
 
+/* Is the value of s the name of s and nothing else? */
+static bool is_itself(const stf_reader *r, const stf_statement *s)
+{
+  const stf_code *c = STF_AT(r->p.syntax->codes, stf_code, s->value.from);
+  return !s->dimensions && !s->primes && s->value.to == s->value.from + 1 &&
+         c->kind == STF_OP_NAME && c->a == s->name;
+}
+
+/* column = expression sd s: any expression but the unknown of that name is an output. */
+static int column(stf_reader *r, stf_statement *s)
+{
+  STEIF_TRY(stf_reader_assignment(r, s));
+  if (stf_reader_take(r, "sd")) STEIF_TRY(stf_parse_number(&r->p, &s->other));
+  if (is_itself(r, s)) return STEIF_OK;
+  stf_statement output = *s;
+  output.kind = STF_SAY_OUTPUT, output.parent = -1, output.other = (stf_expression){0};
+  return stf_reader_keep(r, &output);
+}
+
+static int data(stf_reader *r)
+{
+  stf_statement s = stf_reader_fresh(r, STF_SAY_DATA);
+  const size_t place = r->p.syntax->statements.count;
+  const int32_t around = r->parent;
+  STEIF_TRY(stf_reader_string(r, &s));
+  STEIF_TRY(stf_reader_keep(r, &s));
+  r->parent = (int32_t)place;
+  const int code = stf_take(&r->p, ',') ? stf_reader_list(r, STF_SAY_COLUMN, column) : STEIF_OK;
+  r->parent = around;
+  return code;
+}
+
 static int form(stf_reader *r)
 {
   static const char *const names[] = {"ode", "mass", "implicit", "descriptor"};
@@ -225,6 +257,7 @@ static int dispatch(stf_reader *r, const stf_token *t)
   case STF_WORD_TOLERANCE: return stf_reader_list(r, STF_SAY_TOLERANCE, stf_reader_tolerance);
   case STF_WORD_FORM: return form(r);
   case STF_WORD_REFERENCE: return reference(r);
+  case STF_WORD_DATA: return data(r);
   case STF_WORD_FIT: return stf_reader_list(r, STF_SAY_FIT, stf_reader_fit);
   case STF_WORD_END: return end(r, t->at);
   default: r->p.at--; return equation(r);

@@ -61,7 +61,8 @@ enum stf_statement_kind {
   STF_SAY_FORM,
   STF_SAY_REFERENCE, /* values: children of kind VALUE */
   STF_SAY_VALUE,
-  STF_SAY_DATA,
+  STF_SAY_DATA, /* columns: children of kind COLUMN; other: the standard deviation */
+  STF_SAY_COLUMN,
   STF_SAY_FIT
 };
 
