@@ -92,7 +92,7 @@ static int file(struct call *call, struct fitted *a)
   if (!fitted_data(call, a))
     return bad_usage(
       call,
-      "--data FILE.csv is missing: '%s' names no measurements, as a model does by "
+      "--data FILE.csv is needed: '%s' names no measurements, as a model does by "
       "data \"FILE.csv\"",
       call->word[0]);
   a->log = said(call, a).log && !given(call, "--linear");

@@ -49,7 +49,7 @@ int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool ex
 int stf_carried_by_one_step(stf_step *s, int first, sunrealtype most, stf_carried *c)
 {
   const sunrealtype all = 0.1;
-  c->goal = 1, c->first = first, c->most = most;
+  c->goal = 0.5, c->first = first, c->most = most;
   return stf_carried_open(s, 0, all, false, c);
 }
 

@@ -80,7 +80,7 @@ void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transfor
                           : end ? 0.0003
                                 : 0.001,
                     part = fmin(most, undamped * low * s * s);
-  e->most = pow(rtol, (s + 1.0) / (2 * s)) / rtol;
+  e->most = 0.1 * pow(rtol, (s + 1.0) / (2 * s)) / rtol;
   e->loosest =
     part * pow(anchor, (s + 1.0) / (2 * s)) * pow(rtol / anchor, (s + 1.0) / T->order) / rtol;
 }

@@ -112,8 +112,7 @@ void stf_carried_tell(const stf_carried *c, sunrealtype wanted, stf_control *con
 typedef struct stf_estimate {
   int s, beyond;             /* beyond: p - s */
   sunrealtype gain, loosest; /* s! / (gamma_0 (p + 1)!) */
-  sunrealtype
-    most; /* where the errors of steps are forgotten: ten times that of Hairer and Wanner */
+  sunrealtype most;     /* where errors are forgotten: that of Hairer and Wanner (II, IV.8) */
   sunrealtype weight;   /* gamma_0 */
   sunrealtype legendre; /* size of x^s + ... orthogonal to lower powers on [0, 1] */
   sunrealtype top[STEIF_STAGES], below[STEIF_STAGES]; /* weights of Z_j */

@@ -90,7 +90,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
   e->carried.product = stf_irk_interleaved_product, e->carried.solve = stf_irk_interleaved_damp;
   if (e->accurate && transform.im[0] == 0)
-    STEIF_TRY(stf_carried_by_one_step(s, 4, 0.3, &e->carried));
+    STEIF_TRY(stf_carried_by_one_step(s, 4, 0.2, &e->carried));
   if (!e->carried.e) return STEIF_OK;
   e->own = stf_pool_vector(s->pool, s->y);
   e->ratio = stf_pool_array(s->pool, (size_t)e->n, sizeof *e->ratio);

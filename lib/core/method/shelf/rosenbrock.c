@@ -65,7 +65,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(stf_share_open(s, spec->name, e->r->order - 1, e->r->order));
   e->wanted = fmin(0.1, GENEROUS * s->control.tolerance);
   e->carried.solve = e->unrolled ? solve_unrolled : NULL;
-  return corrected(s) ? stf_carried_by_one_step(s, 6, 0.3, &e->carried) : STEIF_OK;
+  return corrected(s) ? stf_carried_by_one_step(s, 6, 0.01, &e->carried) : STEIF_OK;
 }
 
 /* f at the accepted point and its slope in t. */
