@@ -105,4 +105,6 @@ if(NOT back MATCHES "-(4[.]0|3[.]99999999999|4[.]0000000000)[0-9]*,[ \n]*-0[.](5
 endif()
 expect(1 c2d made_A.mtx --dt 0.1 --mtx no/such/folder ERR "cannot write")
 expect(2 order be --mtx made_ ERR "order makes no matrices")
+file(WRITE ${FOLDER}/forced.steif "state x = 1\nx' = -x + sin(t)\ntime 0 to 1\n")
+expect(0 c2d forced.steif --dt 0.1 ERR "free of x are left out")
 file(REMOVE_RECURSE ${FOLDER})

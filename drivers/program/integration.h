@@ -27,7 +27,7 @@ typedef struct outcome {
 #define RUN_OPTIONS                                                                            \
   SET_OPTION,                                                                                  \
   {"--compile", FLAG, NULL,                                                                    \
-   "a model by the C compiler of CC (else cc), kept in the cache folder of the user", NULL},   \
+   "a model by the C compiler STEIF_CC (else CC, cc), kept in the cache folder of the user", NULL},   \
   INTERPRETED_OPTIONS
 #define INTERPRETED_OPTIONS                                                                    \
   {"--t1", POSITIVE, "T", "end of the integration (default: the problem's)", NULL},            \

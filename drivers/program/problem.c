@@ -18,11 +18,18 @@ static const char *cache_folder(char *room, size_t size)
   return length > 0 && (size_t)length < size ? room : NULL;
 }
 
+/* STEIF_CC, else CC where it has no arguments, else cc. */
+static const char *compiler_of(void)
+{
+  const char *own = getenv("STEIF_CC"), *usual = getenv("CC");
+  if (own && *own) return own;
+  return usual && *usual && !strpbrk(usual, " \t") ? usual : "cc";
+}
+
 static void compile(struct call *call, const steif_problem *p)
 {
   char folder[900];
-  const char *compiler = getenv("CC");
-  if (!compiler || !*compiler) compiler = "cc";
+  const char *compiler = compiler_of();
   if (!steif_model_compile(call->ctx, p, compiler, cache_folder(folder, sizeof folder))) return;
   say(call, "%s; it runs without --compile", steif_message(call->ctx));
   steif_forget(call->ctx);

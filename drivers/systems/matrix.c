@@ -1,6 +1,7 @@
 /* matrix.c: dense matrices from files.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "matrix.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <nvector/nvector_serial.h>
@@ -99,6 +100,23 @@ static int fill_matrix(struct call *call, const steif_problem *p, bool of_E, str
   return code ? no_memory(call, "the matrices of the model", "take fewer states") : EXIT_OK;
 }
 
+/* Has the model terms free of x, which matrices leave out? Looked at in two times. */
+static bool is_forced(struct call *call, const steif_problem *p)
+{
+  SUNContext sun = steif_sundials(call->ctx);
+  N_Vector x = N_VNew_Serial(p->n, sun), f = N_VNew_Serial(p->n, sun);
+  sunrealtype most = 0;
+  for (int k = 0; x && f && k < 2; k++) {
+    const sunrealtype t = p->t0 + 0.7 * k;
+    N_VConst(0, x), N_VConst(0, f);
+    const int failed = p->f ? p->f(t, x, f, p->user) : p->g ? p->g(t, 0, f, p->user) : -1;
+    if (!failed) most = fmax(most, N_VMaxNorm(f));
+  }
+  if (x) N_VDestroy(x);
+  if (f) N_VDestroy(f);
+  return most > 0;
+}
+
 static int of_model(struct call *call, const char *path, struct matrix *A, struct matrix *E)
 {
   steif_problem p;
@@ -118,6 +136,9 @@ static int of_model(struct call *call, const char *path, struct matrix *A, struc
   }
   if (!code) code = fill_matrix(call, &p, false, A);
   if (!code && p.E) code = fill_matrix(call, &p, true, E);
+  if (!code && is_forced(call, &p))
+    say(call, "the terms of '%s' that are free of x are left out: of x' = A x only A is taken",
+        path);
   steif_problem_clear(call->ctx, &p);
   return code;
 }

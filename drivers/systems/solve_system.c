@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "descriptor.h"
 #include "solve_system.h"
+#include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
@@ -47,11 +48,21 @@ static int solve(struct call *call, const struct descriptor *l,
   return code;
 }
 
+static bool is_matrix_file(const char *word)
+{
+  const size_t length = strlen(word);
+  return length > 4 && !strcmp(word + length - 4, ".mtx");
+}
+
 int solve_system(struct call *call, int (*work)(struct call *call, const steif_problem *p))
 {
   struct descriptor l;
   const int words = call->words;
   const bool two = words > 2;
+  if (is_matrix_file(call->word[words - 1]))
+    return bad_usage(
+      call, "%s is a file of a matrix where the method is due: steif solve E.mtx A.mtx auto",
+      call->word[words - 1]);
   call->words = words - 1; /* all but the method: the matrices */
   int code = descriptor_open(call, &l, 0, true);
   if (!code) code = descriptor_started(call, &l);

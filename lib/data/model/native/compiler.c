@@ -202,7 +202,8 @@ static int compile(const place *at, const char *compiler)
   pid_t child = 0;
   const int failed = start(at, compiler, &child), left = failed ? -1 : waited(child);
   STEIF_CHECK(failed != ENOENT && failed != EACCES && left != 127, at->ctx, STEIF_UNSUPPORTED,
-              "no C compiler '%.100s': install one or name it (CC)", compiler);
+              "no C compiler '%.100s': install one, or name it, without arguments (STEIF_CC)",
+              compiler);
   first_line(at->log, line);
   STEIF_CHECK(left == 0, at->ctx, STEIF_UNSUPPORTED,
               "the compiler '%.100s' did not compile the model (exit code %d): %s", compiler,
