@@ -167,8 +167,8 @@ static void low_orders_are_right_or_say_so(void)
               {"glm:nord22", {1e-3, 1e-4, 1e-6}, 20},
               {"glm:irks,p=2", {1e-3, 1e-5, 1e-6}, 20},
               {"bdf", {1e-6, 1e-9, 1e-11}, 19},
-              {"dirk:esdirk43", {1e-3, 1e-7, 1e-11}, 27},
-              {"rodas5p", {1e-3, 1e-7, 1e-11}, 27}};
+              {"dirk:esdirk43", {1e-3, 1e-7, 1e-11}, 25},
+              {"rodas5p", {1e-3, 1e-7, 1e-11}, 25}};
   for (size_t m = 0; m < sizeof runs / sizeof *runs; m++) {
     int succeeded = 0;
     for (size_t i = 0; i < sizeof some / sizeof *some; i++)
