@@ -73,6 +73,7 @@ for _row in (
     ("steif_record_values", POINTER, POINTER),
     ("steif_record_at", INT, POINTER, REAL, POINTER, POINTER),
     ("steif_model_output", c.c_char_p, POINTER, c.c_size_t),
+    ("steif_model_fitted", c.c_char_p, POINTER, c.c_size_t),
     ("steif_problem_vary", INT, POINTER, POINTER, INT, POINTER, POINTER, POINTER),
     ("steif_sensitivity", INT, POINTER, REAL, INT, POINTER),
     ("steif_measurements_read", INT, POINTER, POINTER, c.c_char_p, REAL, INT, INT, POINTER, POINTER),

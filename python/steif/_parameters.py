@@ -89,6 +89,13 @@ class _Parametrised:
             found.append(self.names.index(one) if isinstance(one, str) else int(one))
         return np.array(found, dtype=c.c_int)
 
+    def fitted(self):
+        """The names that a model gives by `fit`, or None."""
+        names = []
+        while (name := lib.steif_model_fitted(self.run.problem.address, len(names))):
+            names.append(name.decode())
+        return names or None
+
     def measured(self, key):
         """Of an unknown its number, of output k of a model n + k."""
         if isinstance(key, str):
@@ -205,11 +212,11 @@ def _columns(problem, t, data, sd):
 
 def _measurements(problem, t, data, sd):
     m = Struct("measurements")
-    if isinstance(data, (str, bytes, os.PathLike)):
+    if data is None or isinstance(data, (str, bytes, os.PathLike)):
         widths = None if sd is None else np.atleast_1d(np.asarray(sd, dtype=float))
         code = lib.steif_measurements_read(
-            problem.context.pointer, problem.run.problem.address, os.fspath(data).encode()
-            if not isinstance(data, bytes) else data, problem.t1, 1,
+            problem.context.pointer, problem.run.problem.address,
+            os.fsencode(data) if data is not None else None, problem.t1, 1,
             0 if widths is None else widths.size, None if widths is None else widths.ctypes.data,
             m.address)
         problem.check(code)
@@ -242,16 +249,17 @@ def _fit_options(problem, which, start, bounds, scale, starts):
     return o
 
 
-def fit(f, t, data, *, p=None, y0=None, t_span=None, by=None, sd=None, bounds=None, scale="auto",
+def fit(f, t=None, data=None, *, p=None, y0=None, t_span=None, by=None, sd=None, bounds=None, scale="auto",
         starts=1, method="radau:s=3", rtol=1e-8, atol=None, jac=None, jac_sparsity=None, mass=None):
     """Find parameters from measurements by weighted least squares (Levenberg and Marquardt).
 
     f       f(t, y, *p), or the name of a problem ("lotka.steif")
     t       times of the measurements; of a CSV file None
-    data    n x times, NaN where there is none; or {unknown or output: values}; or a CSV file (t, their names)
+    data    n x times, NaN where there is none; or {unknown or output: values}; or a CSV file (t, their names);
+            None: the file that a model names, `data "FILE.csv"`
     p       values to begin with; of a named problem a dict of those that are to be others
     t_span  None: of f from 0 to the last time, of a named problem its own
-    by      names or numbers of the parameters to find; None: all
+    by      names or numbers of the parameters to find; None: those that a model names, `fit k`, else all
     sd      standard deviations: one number, an array like data, or {unknown: number or array}; None: not known
     bounds  {name: (low, high)}, None for no bound
     scale   "log", "linear", or "auto": log where starts and bounds are positive
@@ -264,11 +272,13 @@ def fit(f, t, data, *, p=None, y0=None, t_span=None, by=None, sd=None, bounds=No
         raise ValueError("scale must be one of %s" % ", ".join(_SCALES))
     context, problem, found, data_read, own = Context(), None, Struct("fit"), None, False
     named = isinstance(f, (str, bytes, os.PathLike))
+    if data is None and not named:
+        raise ValueError("data is missing: only a model names its own")
     if t_span is None and not named:
         t_span = (0.0, float(np.max(t)))
     try:
         problem = _Parametrised(context, f, t_span, y0, p, jac, jac_sparsity, mass)
-        which = problem.numbers(by)
+        which = problem.numbers(problem.fitted() if by is None else by)
         _tolerances(problem.run, rtol, atol, problem.run.n)
         problem.run.options.set("t1", REAL, problem.t1)
         data_read, own = _measurements(problem, t, data, sd)

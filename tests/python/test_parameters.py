@@ -86,6 +86,20 @@ class Fit(unittest.TestCase):
         for low, truth, high in zip(r.low, (1.5, 1, 3, 1), r.high):  # as the file says
             self.assertTrue(low < truth < high)
 
+    def test_a_model_that_names_its_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "decay.steif")
+            with open(path, "w") as file:
+                file.write("param k = 1, gain = 2\nstate x = 1\nx' = -k*x\ntime 0 to 2\n"
+                           'data "decay.csv", signal = gain*x sd 0.01\nfit k\n')
+            with open(os.path.join(folder, "decay.csv"), "w") as file:
+                file.write("t,signal\n" + "".join("%g,%.15g\n" % (t, 2 * np.exp(-1.3 * t)) for t in (0.5, 1, 2)))
+            r = steif.fit(path)
+        self.assertEqual(r.names, ["k"])
+        np.testing.assert_allclose(r.p, [1.3], rtol=1e-6)
+        with self.assertRaisesRegex(ValueError, "only a model names its own"):
+            steif.fit(chain, p=[1, 2], y0=[1, 0])
+
     def test_missing_values_bounds_and_bad_requests(self):
         data = np.array([np.full(9, np.nan), second(self.t, 0.9, 0.25)])
         r = steif.fit(chain, self.t, data, p=[0.3, 0.2], y0=[1, 0], sd=0.01, bounds={"m": (None, 0.24)})
