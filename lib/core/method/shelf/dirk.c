@@ -99,6 +99,7 @@ static int attempt(stf_step *s, sunrealtype h)
   state *e = s->state;
   const stf_space *space = &s->system.space;
   stf_chain *chain = &e->chain;
+  STEIF_TRY(stf_carried_retry(s, &e->carried));
   if (e->first) {
     const bool start = !e->stepped || (s->restart && s->yp_known);
     stf_copy(space, start ? s->yp : e->old[e->s - 1], chain->K[0]);

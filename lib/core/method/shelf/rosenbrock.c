@@ -214,6 +214,7 @@ static int attempt(stf_step *s, sunrealtype h)
   state *e = s->state;
   const stf_space *space = &s->system.space;
   const int last = e->r->s - 1;
+  STEIF_TRY(stf_carried_retry(s, &e->carried));
   s->control.tolerance = fmin(1, fmax(e->wanted, GENEROUS * stf_carried_share(&e->carried, 0)));
   if (!e->have_f0) STEIF_TRY(start(s, h));
   STEIF_TRY(e->unrolled ? stages_unrolled(s, h) : stages(s, h));
