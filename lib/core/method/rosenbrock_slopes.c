@@ -49,7 +49,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
         !(e->v[i] = stf_pool_vector(s->pool, s->y)))
       return STEIF_NO_MEMORY;
   s->newton.jacobian_new = false;
-  STEIF_TRY(stf_share_open(s, spec->name, e->r->order - 1, e->r->order));
+  STEIF_TRY(stf_share_open(s, spec->name, e->r->order - 1, e->r->order, 0.1));
   s->control.tolerance = fmin(0.1, 8 * s->control.tolerance);
   return STEIF_OK;
 }

@@ -32,9 +32,9 @@ sunrealtype stf_share(const stf_step *s, int q, int p, sunrealtype rounding)
   return fmin(most, fmax(pow(sum * rtol / anchor, power) * anchor, rounding) / rtol);
 }
 
-int stf_share_open(stf_step *s, const char *name, int q, int p)
+int stf_share_open(stf_step *s, const char *name, int q, int p, sunrealtype least)
 {
-  const sunrealtype rounding = 1e-14, none = 0.1 * rounding;
+  const sunrealtype rounding = 1e-14, none = least * rounding;
   const sunrealtype wanted = stf_share(s, q, p, none) * s->options->rtol;
   s->control.order = q;
   if (!s->adaptive) return STEIF_OK;

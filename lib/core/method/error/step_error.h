@@ -14,8 +14,9 @@ sunrealtype stf_share(const stf_step *s, int q, int p, sunrealtype rounding);
 /* Newton's tolerance for s->control.tolerance, unless the caller has given his: what is left of the
  * iteration must not be seen in the estimate. */
 void stf_share_newton(stf_step *s, sunrealtype rounding);
-/* Both for a method of one order, which refuses what is below rounding. */
-int stf_share_open(stf_step *s, const char *name, int q, int p);
+/* Both for a method of one order, which does not take what is below `least` times rounding: 0.1 where errors may be
+ * forgotten, 0.5 where they add. */
+int stf_share_open(stf_step *s, const char *name, int q, int p, sunrealtype least);
 
 /* What rounding of algebraic equations leaves in algebraic unknowns, in tolerances; 0 without factors, and where
  * matrices are operators. Three vectors of scratch. */

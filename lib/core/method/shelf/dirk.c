@@ -56,7 +56,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->old = stf_pool_vectors(s->pool, e->s, s->y);
   e->before = stf_pool_vector(s->pool, s->y);
   const int q = table->order_hat < table->order ? table->order_hat : table->order;
-  STEIF_TRY(stf_share_open(s, table->name, q, table->order));
+  STEIF_TRY(stf_share_open(s, table->name, q, table->order, 0.1));
   e->wanted = s->control.tolerance;
   STEIF_TRY(stf_carried_by_one_step(s, 6, 0.06, &e->carried));
   return e->old && e->before ? STEIF_OK : STEIF_NO_MEMORY;

@@ -19,7 +19,8 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   state *e = s->state;
   e->table = table;
   for (int i = 0; table->bhat && i < table->s; i++) e->differ[i] = table->b[i] - table->bhat[i];
-  if (table->bhat) STEIF_TRY(stf_share_open(s, table->name, table->order_hat, table->order));
+  if (table->bhat)
+    STEIF_TRY(stf_share_open(s, table->name, table->order_hat, table->order, 0.1));
   e->K = stf_pool_vectors(s->pool, table->s, s->y);
   e->work = stf_pool_vector(s->pool, s->y);
   e->before = stf_pool_vector(s->pool, s->y);

@@ -83,7 +83,7 @@ static int open_share(stf_step *s)
   const sunrealtype part = 0.5;
   if (!s->adaptive) return STEIF_OK;
   if (!(e->chain.gamma > 0)) {
-    STEIF_TRY(stf_share_open(s, e->g->name, e->p, e->p));
+    STEIF_TRY(stf_share_open(s, e->g->name, e->p, e->p, 0.5));
     e->explicit_share = part * s->control.tolerance;
     return STEIF_OK;
   }

@@ -62,7 +62,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->unrolled = serves(s) && !s->options->sensitivities;
   if (e->unrolled) stf_system_rosenbrock_open(&s->system, &e->kernel);
   s->newton.jacobian_new = false;
-  STEIF_TRY(stf_share_open(s, spec->name, e->r->order - 1, e->r->order));
+  STEIF_TRY(stf_share_open(s, spec->name, e->r->order - 1, e->r->order, 0.1));
   e->wanted = fmin(0.1, GENEROUS * s->control.tolerance);
   e->carried.solve = e->unrolled ? solve_unrolled : NULL;
   return corrected(s) ? stf_carried_by_one_step(s, 6, 0.01, &e->carried) : STEIF_OK;
