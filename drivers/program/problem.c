@@ -90,7 +90,8 @@ static int find_end(struct call *call, steif_problem *p)
   if (p->t1 > p->t0 || !runs || given(call, "--data")) return EXIT_OK;
   if (given(call, "--t1")) p->t1 = fmax(p->t0, real_of(call, "--t1"));
   if (p->t1 > p->t0) return EXIT_OK;
-  say(call, "%s: no time interval; add 'time %.12g to %.12g {s}' or give --t1 [STEIF_BAD_INPUT]",
+  say(call,
+      "%s: no time interval; add 'time %.12g to %.12g {s}' or give --t1 [STEIF_BAD_INPUT]",
       p->name, p->t0, p->t0 + 10);
   steif_problem_clear(call->ctx, p);
   return EXIT_FILE;
