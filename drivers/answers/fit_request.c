@@ -76,8 +76,7 @@ static int by_model(struct call *call, struct fitted *a)
 static steif_model_data said(const struct call *call, const struct fitted *a)
 {
   steif_model_data data = {0};
-  if (steif_model_parameter(a->problem, 0, NULL))
-    steif_model_data_find(call->ctx, a->problem, &data);
+  steif_model_data_find(call->ctx, a->problem, &data);
   return data;
 }
 

@@ -101,7 +101,7 @@ typedef struct steif_model_data {
   int fitted, log; /* parameters that `fit` names; 1: `log` stands after them */
   void *reserved[4];
 } steif_model_data;
-/* STEIF_BAD_INPUT: the problem was not made from a text. */
+/* All 0 where the problem says nothing of them, or is no model. */
 STEIF_EXPORT int steif_model_data_find(steif_context *ctx, const steif_problem *problem,
                                        steif_model_data *data);
 /* Name of the parameter that `fit` names as number i, from 0; NULL past the end. */

@@ -6,6 +6,7 @@ extern CU_TestInfo tests_of_examples[];
 extern CU_TestInfo tests_of_derivatives[];
 extern CU_TestInfo tests_of_events[];
 extern CU_TestInfo tests_of_circuits[];
+extern CU_TestInfo tests_of_growth[];
 extern CU_TestInfo tests_of_interface[];
 extern CU_TestInfo tests_of_products[];
 extern CU_TestInfo tests_of_grids[];
@@ -15,6 +16,7 @@ SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_e
            {.pName = "derivatives against differences", .pTests = tests_of_derivatives},
            {.pName = "events", .pTests = tests_of_events},
            {.pName = "circuits with diodes", .pTests = tests_of_circuits},
+           {.pName = "errors that grow again", .pTests = tests_of_growth},
            {.pName = "the interface", .pTests = tests_of_interface},
            {.pName = "grids, and compiled models", .pTests = tests_of_grids},
            {.pName = "products with derivatives", .pTests = tests_of_products},

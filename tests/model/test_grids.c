@@ -174,6 +174,25 @@ static void what_is_not_used(void)
   CHECK(system(command) == 0);
 }
 
+/* As root alone: a folder that is given to another user, and a link of another user to one of ours. */
+static void what_others_could_change(void)
+{
+  enum { OTHER = 65534 };
+  char folder[200], link[300], command[700];
+  if (geteuid() != 0) return;
+  CU_ASSERT_FATAL(folder_make(folder, sizeof folder) != NULL);
+  snprintf(cache, sizeof cache, "%s/models", folder);
+  snprintf(link, sizeof link, "%s/link", folder);
+  CHECK(compile_text(cache, C_COMPILER, NULL) == STEIF_OK);
+  CHECK(!symlink(cache, link) && !lchown(link, OTHER, OTHER));
+  strcat(link, "/deeper");
+  CHECK(compile_text(link, C_COMPILER, "by a link of another user") == STEIF_IO);
+  CHECK(!chown(cache, OTHER, OTHER));
+  CHECK(compile_text(cache, C_COMPILER, "belongs to another user") == STEIF_IO);
+  snprintf(command, sizeof command, "rm -r '%s'", folder);
+  CHECK(system(command) == 0);
+}
+
 /* ---- memory ----------------------------------------------------------------------------------- */
 
 /* All that can be asked of a model. `in` the same vectors for all calls. */
@@ -228,5 +247,6 @@ CU_TestInfo tests_of_grids[] = {{"three dimensions", three_dimensions},
                                 {"wide stencils and borders in parts", wide_stencils},
                                 {"compiled models give the same numbers", the_same_numbers},
                                 {"what is not used", what_is_not_used},
+                                {"what others could change", what_others_could_change},
                                 {"memory may be short", memory_may_be_short_anywhere},
                                 CU_TEST_INFO_NULL};

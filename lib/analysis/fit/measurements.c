@@ -320,8 +320,7 @@ int steif_measurements_read(steif_context *ctx, const steif_problem *problem, co
   if (!ctx) return STEIF_BAD_INPUT;
   steif_model_data said = {0};
   STEIF_CHECK(problem, ctx, STEIF_BAD_INPUT, "a problem is needed, got NULL");
-  if (steif_model_output(problem, 0) || steif_model_parameter(problem, 0, NULL))
-    STEIF_TRY(steif_model_data_find(ctx, problem, &said));
+  STEIF_TRY(steif_model_data_find(ctx, problem, &said));
   if (!path) path = said.path;
   STEIF_CHECK(
     path, ctx, STEIF_BAD_INPUT,

@@ -56,8 +56,9 @@ const char *steif_model_parameter(const steif_problem *p, size_t which, sunrealt
 int steif_model_data_find(steif_context *ctx, const steif_problem *p, steif_model_data *data)
 {
   const stf_model *m = model_of(p);
-  STEIF_CHECK(m && data, ctx, STEIF_BAD_INPUT, "problem '%s' was not made from a text",
-              p && p->name ? p->name : "NULL");
+  STEIF_CHECK(data, ctx, STEIF_BAD_INPUT, "no place for what the model says: it is NULL");
+  *data = (steif_model_data){0};
+  if (!m) return STEIF_OK;
   const stf_measured *d = &m->measured;
   *data = (steif_model_data){.path = d->path,
                              .columns = d->columns,

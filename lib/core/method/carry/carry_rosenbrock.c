@@ -137,7 +137,8 @@ static int solve(stf_carry *T, int i)
 static int carry(stf_carry *T, sunrealtype h)
 {
   stf_step *s = T->step;
-  const stf_rodas *r = ((const state *)s->state)->r;
+  const state *e = s->state;
+  const stf_rodas *r = e->r;
   const stf_space *space = &s->system.space;
   stf_zero(space, T->Yp);
   for (int i = 0; i < r->s; i++) {
@@ -154,7 +155,7 @@ static int carry(stf_carry *T, sunrealtype h)
     N_Vector last = T->trial[k][r->s - 1];
     stf_axpy(space, 1, last, T->next[k]);
     stf_copy(space, last, T->error[k]);
-    T->tolerance[k] = stf_carry_allowed(s, s->control.tolerance, s->control.order, r->order);
+    T->tolerance[k] = stf_carry_allowed(s, e->wanted, s->control.order, r->order);
   }
   return STEIF_OK;
 }

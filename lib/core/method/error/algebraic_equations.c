@@ -9,9 +9,6 @@
 #include "step_error.h"
 #include <stdint.h>
 
-/* So many rejected steps have not cured what is no error of theirs. */
-enum { STUBBORN = 2 };
-
 void stf_row_probe(const stf_space *space, N_Vector v)
 {
   sunrealtype *p = STF_ARRAY(v);
@@ -39,7 +36,7 @@ static bool has_rows(const stf_step *s)
 
 bool stf_residuals_remain(const stf_step *s)
 {
-  return has_rows(s) && s->tries >= STUBBORN && s->count > 0;
+  return has_rows(s) && s->tries >= STF_STUBBORN && s->count > 0;
 }
 
 int stf_without_residuals(stf_step *s, N_Vector probe, N_Vector Ep, N_Vector residual)
@@ -53,7 +50,7 @@ int stf_without_residuals(stf_step *s, N_Vector probe, N_Vector Ep, N_Vector res
 static bool grown(const stf_step *s, sunrealtype h)
 {
   const sunrealtype much = 1.5;
-  return has_rows(s) && !s->system.linear && h > much * s->h;
+  return has_rows(s) && !s->system.linear && s->count > 0 && h > much * s->h;
 }
 
 /* Rows of E that are 0 do not depend on y'. */
@@ -74,8 +71,7 @@ int stf_look_between(stf_step *s, sunrealtype h, const stf_look *look)
   const sunrealtype most = 0.03;
   if (!grown(s, h)) return STEIF_OK;
   stf_row_probe(space, look->y);
-  STEIF_TRY(look->product ? look->product(s, look->y, look->Ep)
-                          : steif_pencil_product(s->system.pencil, 'E', look->y, look->Ep));
+  STEIF_TRY((look->product ? look->product : stf_product_by_pencil)(s, look->y, look->Ep));
   for (int k = 0; k < look->points; k++) {
     STEIF_TRY(off_at(s, h, look->x[k], look));
     if (stf_norm(space, look->off, s->weights) * s->options->rtol <= most) continue;

@@ -67,17 +67,6 @@ static sunrealtype largest(stf_step *s, const stf_carried *c, N_Vector x)
   return most;
 }
 
-static int by_pencil(stf_step *s, N_Vector v, N_Vector out)
-{
-  return steif_pencil_product(s->system.pencil, 'E', v, out);
-}
-
-static int solve_by_pencil(stf_step *s, sunrealtype h, N_Vector v)
-{
-  (void)h;
-  return steif_pencil_solve(s->system.pencil, 0, 1, &v, NULL);
-}
-
 /* e <- R e for tau <= LONGEST, and its norm. Iterative solvers know what is small by Newton's tolerance: solutions have many
  * times its length. */
 static int apply(stf_step *s, stf_carried *c, sunrealtype sigma, sunrealtype tau,
@@ -88,8 +77,8 @@ static int apply(stf_step *s, stf_carried *c, sunrealtype sigma, sunrealtype tau
   const sunrealtype slow = 0.05; /* what is slow must not seem to be forgotten */
   if (!(before > 0)) return STEIF_OK;
   const sunrealtype unit = before / (many * (c->solve ? 1 : s->newton.tolerance)), h = s->h_try;
-  int (*product)(stf_step *, N_Vector, N_Vector) = c->product ? c->product : by_pencil;
-  int (*solve)(stf_step *, sunrealtype, N_Vector) = c->solve ? c->solve : solve_by_pencil;
+  stf_by_E *product = c->product ? c->product : stf_product_by_pencil;
+  stf_by_shift *solve = c->solve ? c->solve : stf_solve_by_pencil;
   if (!c->solve) stf_pencil_force(s->system.pencil, slow, true);
   stf_scale(space, sigma / unit, c->e, c->e);
   STEIF_TRY(product(s, c->e, c->work));

@@ -128,12 +128,15 @@ void stf_estimate_none(stf_step *s, const stf_estimate *e)
   s->control.order = e->s;
 }
 
-/* So many refusals have not cured what is rounding, or no smooth solution. */
-enum { STUBBORN = 2 };
-
-static int by_pencil(stf_step *s, N_Vector v, N_Vector out)
+int stf_product_by_pencil(stf_step *s, N_Vector v, N_Vector out)
 {
   return steif_pencil_product(s->system.pencil, 'E', v, out);
+}
+
+int stf_solve_by_pencil(stf_step *s, sunrealtype h, N_Vector v)
+{
+  (void)h;
+  return steif_pencil_solve(s->system.pencil, 0, 1, &v, NULL);
 }
 
 void stf_of_index_one(const stf_step *s, N_Vector v)
@@ -153,31 +156,41 @@ static sunrealtype norm_of_index_one(const stf_step *s, N_Vector v, N_Vector wor
   return stf_norm(&s->system.space, work, s->weights);
 }
 
+static sunrealtype stiff_bound(const stf_step *s)
+{
+  const sunrealtype bound = 3, rounding = 5e-11;
+  return bound + rounding / s->options->rtol;
+}
+
+sunrealtype stf_raise_stiff(stf_step *s, sunrealtype size)
+{
+  const sunrealtype times = size / stiff_bound(s) * s->control.tolerance / s->error_norm;
+  if (!(times > 1) || s->tries >= STF_STUBBORN) return 1;
+  stf_scale(&s->system.space, times, s->error, s->error);
+  s->error_norm *= times;
+  return times;
+}
+
 /* The part that each of the solves has left, q = gamma_0 z / (1 + gamma_0 z), grows with h^(1 - q). */
-int stf_estimate_stiff(stf_step *s, const stf_estimate *e, sunrealtype h,
-                       int (*product)(stf_step *s, N_Vector v, N_Vector out),
-                       int (*filter)(stf_step *s, sunrealtype h, N_Vector v), N_Vector rest,
-                       N_Vector work)
+int stf_estimate_stiff(stf_step *s, const stf_estimate *e, sunrealtype h, stf_by_E *product,
+                       stf_by_shift *filter, N_Vector rest, N_Vector work)
 {
   const stf_space *space = &s->system.space;
-  const sunrealtype rounding = 5e-11, bound = 3 + rounding / s->options->rtol, small = 0.1;
-  if (s->tries >= STUBBORN || s->problem->dae_index > 2) return STEIF_OK;
+  const sunrealtype bound = stiff_bound(s), small = 0.1;
+  if (s->tries >= STF_STUBBORN || s->problem->dae_index > 2) return STEIF_OK;
   const sunrealtype whole = s->error_norm = stf_norm(space, s->error, s->weights);
   if (!(whole <= s->control.tolerance)) return STEIF_OK;
   int k = 1;
   sunrealtype size = e->s * whole;
   stf_copy(space, s->error, rest);
   for (; k < e->s && size > small * bound; k++) {
-    STEIF_TRY((product ? product : by_pencil)(s, rest, work));
+    STEIF_TRY((product ? product : stf_product_by_pencil)(s, rest, work));
     STEIF_TRY(filter(s, h, work));
     stf_axpy(space, -1 / (e->weight * h), work, rest);
     size = e->s * norm_of_index_one(s, rest, work);
   }
-  const sunrealtype times = size / bound * s->control.tolerance / whole;
-  if (k == 1 || !(times > 1)) return STEIF_OK;
+  if (k == 1 || !(stf_raise_stiff(s, size) > 1)) return STEIF_OK;
   const sunrealtype left = fmin(1, pow(size / (e->s * whole), 1.0 / (k - 1)));
-  stf_scale(space, times, s->error, s->error);
-  s->error_norm = times * whole;
   s->control.order = e->s + (int)((e->s - 1) * (1 - left));
   return STEIF_OK;
 }

@@ -23,6 +23,16 @@ int stf_share_open(stf_step *s, const char *name, int q, int p, sunrealtype leas
 int stf_algebraic_noise(stf_step *s, N_Vector work, N_Vector other, N_Vector third,
                         sunrealtype *noise);
 
+/* out = E v; v = (sigma E - A)^{-1} v of an attempt with step h. */
+typedef int stf_by_E(stf_step *s, N_Vector v, N_Vector out);
+typedef int stf_by_shift(stf_step *s, sunrealtype h, N_Vector v);
+/* By the pencil and its first factors, whose shift is that of the attempt. */
+stf_by_E stf_product_by_pencil;
+stf_by_shift stf_solve_by_pencil;
+
+/* So many refusals have not cured what is rounding, or no smooth solution. */
+enum { STF_STUBBORN = 2 };
+
 /* -- algebraic_equations.c -- */
 
 /* A vector of no particular direction, of components between 1 and 2. Where E times it is 0, a row is algebraic. */
@@ -43,9 +53,9 @@ typedef struct stf_look {
   int points;
   int (*inside)(stf_step *s, sunrealtype x,
                 N_Vector y); /* the solution of this attempt there */
-  int (*product)(stf_step *s, N_Vector v, N_Vector out); /* by E; NULL: by the pencil */
-  int (*solve)(stf_step *s, sunrealtype h, N_Vector v);  /* with sigma E - A of the attempt */
-  N_Vector y, Ep, off;                                   /* room */
+  stf_by_E *product;         /* NULL: by the pencil */
+  stf_by_shift *solve;
+  N_Vector y, Ep, off; /* room */
 } stf_look;
 /* Looked at where h is so much more than the last step; what the solution is off becomes the error of the step where it
  * is as large as that. */
@@ -73,13 +83,13 @@ typedef struct stf_carried {
   sunrealtype seen, added,
     rise; /* norms of e carried on, of estimates since; log of its growth */
   int failure;
-  int first; /* steps before anything is known; 0: as many as multistep methods take */
-  int (*product)(stf_step *s, N_Vector v, N_Vector out); /* by E; NULL: by the pencil, ... */
-  int (*solve)(stf_step *s, sunrealtype h, N_Vector v);  /* ... as is this, with sigma E - A */
-  bool summed;                                           /* e is not carried on */
-  bool rises;                                            /* e has grown by much at some time */
-  bool forgets; /* the errors of few steps were remembered at some time */
-  bool jumped;  /* at an event, e as well, by the derivative of what is done there: not known */
+  int first;         /* steps before anything is known; 0: as many as multistep methods take */
+  stf_by_E *product; /* NULL: by the pencil, ... */
+  stf_by_shift *solve; /* ... as is this */
+  bool summed;         /* e is not carried on */
+  bool rises;          /* e has grown by much at some time */
+  bool forgets;        /* the errors of few steps were remembered at some time */
+  bool jumped; /* at an event, e as well, by the derivative of what is done there: not known */
 } stf_carried;
 /* Estimates below `rounding`, relative to y, are noise; `all`: what those remembered may come to, in
  * tolerances. `exact`: at twice the cost. */
@@ -138,10 +148,11 @@ void stf_estimate_none(stf_step *s, const stf_estimate *e);
  * below s (gamma_0 z / (1 + gamma_0 z))^(s-1) everywhere. The estimate is made larger where that, by as many
  * more solves as it takes to see, is above the tolerance. product: out = E v; NULL: by the pencil; filter: that
  * of the estimate. */
-int stf_estimate_stiff(stf_step *s, const stf_estimate *e, sunrealtype h,
-                       int (*product)(stf_step *s, N_Vector v, N_Vector out),
-                       int (*filter)(stf_step *s, sunrealtype h, N_Vector v), N_Vector rest,
-                       N_Vector work);
+int stf_estimate_stiff(stf_step *s, const stf_estimate *e, sunrealtype h, stf_by_E *product,
+                       stf_by_shift *filter, N_Vector rest, N_Vector work);
+/* The estimate is made larger where the error of stiff components, `size` tolerances, is above three; not after many
+ * refusals. By how much: 1 where it is not. */
+sunrealtype stf_raise_stiff(stf_step *s, sunrealtype size);
 
 /* Velocities and multipliers of index 3 have no more than the order of the estimate: it is made
  * larger for them, as if the tolerance had not been raised, but above rounding; not in the first steps,

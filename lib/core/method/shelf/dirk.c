@@ -58,23 +58,12 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   const int q = table->order_hat < table->order ? table->order_hat : table->order;
   STEIF_TRY(stf_share_open(s, table->name, q, table->order, 0.1));
   e->wanted = s->control.tolerance;
-  STEIF_TRY(stf_carried_by_one_step(s, 6, 0.06, &e->carried));
+  if (e->accurate) STEIF_TRY(stf_carried_by_one_step(s, 6, 0.06, &e->carried));
   return e->old && e->before ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 /* Stiff components have the order of the stages: their error is between the estimate filtered once, `whole`, and twice.
  * That of methods of stage order 1 is small for the sake of the others. */
-static int stiff_error(stf_step *s, sunrealtype whole)
-{
-  enum { STUBBORN = 2 };
-  const sunrealtype most = 3 + 5e-11 / s->options->rtol;
-  const sunrealtype times = whole / most * s->control.tolerance / s->error_norm;
-  if (!(times > 1) || s->tries >= STUBBORN) return STEIF_OK;
-  stf_scale(&s->system.space, times, s->error, s->error);
-  s->error_norm *= times;
-  return STEIF_OK;
-}
-
 static int estimate(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
@@ -91,7 +80,8 @@ static int estimate(stf_step *s, sunrealtype h)
   s->error_norm = stf_norm(space, s->error, s->weights);
   s->control.tolerance =
     s->error_norm < stiff * whole ? e->wanted : stf_carried_share(&e->carried, e->wanted);
-  return e->first ? stiff_error(s, whole) : STEIF_OK;
+  if (e->first) stf_raise_stiff(s, whole);
+  return STEIF_OK;
 }
 
 static int attempt(stf_step *s, sunrealtype h)
@@ -243,8 +233,7 @@ static int carry_estimate(stf_carry *T, sunrealtype h, int k)
     stf_copy(space, T->work, T->error[k]);
     STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, 1, &T->error[k], NULL));
   }
-  T->tolerance[k] =
-    stf_carry_allowed(s, s->control.tolerance, s->control.order, e->table->order);
+  T->tolerance[k] = stf_carry_allowed(s, e->wanted, s->control.order, e->table->order);
   return STEIF_OK;
 }
 

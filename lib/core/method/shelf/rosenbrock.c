@@ -189,12 +189,6 @@ static int inside(stf_step *s, sunrealtype x, N_Vector y)
   return STEIF_OK;
 }
 
-static int solve_pencil(stf_step *s, sunrealtype h, N_Vector v)
-{
-  (void)h;
-  return steif_pencil_solve(s->system.pencil, 0, 1, &v, NULL);
-}
-
 static int look_between(stf_step *s, sunrealtype h)
 {
   const state *e = s->state;
@@ -202,7 +196,7 @@ static int look_between(stf_step *s, sunrealtype h)
   const stf_look look = {.x = x,
                          .points = 5,
                          .inside = inside,
-                         .solve = e->unrolled ? solve_unrolled : solve_pencil,
+                         .solve = e->unrolled ? solve_unrolled : stf_solve_by_pencil,
                          .y = e->between,
                          .Ep = e->Ep,
                          .off = e->off};
