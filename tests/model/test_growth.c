@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
 
-/* In each wave errors grow by exp(k/pi - k/8) = 70 and shrink by 70 exp(k/4) = 17,000; the end is where they are
+/* In each wave errors grow by exp(k/pi - k/8) = 48 and shrink by 48 exp(k/4) = 7,000; the end is where they are
  * largest. y = sin x is exact. */
-static const char waves[] = "param u = 1, k = 22\n"
+static const char waves[] = "param u = 1, k = 20\n"
                             "state y = 0\n"
                             "let x = t/u\n"
                             "let a = -k/4 + k*cos(2*pi*x)\n"
