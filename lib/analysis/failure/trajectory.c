@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "causes.h"
 #include <math.h>
+#include <steif/method.h>
+#include <steif/table.h>
 #include <string.h>
 
 enum { POINTS = 12, LOOKED_AT = 48, RING = 10 };
@@ -256,6 +258,15 @@ static sunrealtype alternation(const stf_search *c, size_t j, sunrealtype *size)
   return (sunrealtype)changes / RING;
 }
 
+/* Methods that damp do not ring: what does is something else. */
+static bool damps(const stf_search *c)
+{
+  steif_method_info info = {0};
+  return c->scene->method &&
+         !steif_method_find(c->point->ctx, c->scene->method, &info) &&
+         (info.claims & STEIF_L_STABLE);
+}
+
 int stf_cause_ringing(stf_search *c)
 {
   const size_t n = c->point->n;
@@ -266,7 +277,7 @@ int stf_cause_ringing(stf_search *c)
     const sunrealtype part = alternation(c, j, &size);
     if (part >= 0.8 && size > most) most = size, share = part, at = j;
   }
-  if (at == n) return STEIF_OK;
+  if (at == n || damps(c)) return STEIF_OK;
   steif_cause *cause = c->cause;
   cause->kind = STEIF_CAUSE_RINGING, cause->unknown = (sunindextype)at;
   cause->value[0] = share, cause->value[1] = most;
