@@ -9,7 +9,7 @@ endif()
 include(ProcessorCount)
 ProcessorCount(jobs)
 
-execute_process(COMMAND ${CMAKE_CTEST_COMMAND} -L room -j ${jobs} WORKING_DIRECTORY ${BUILD}
+execute_process(COMMAND ${CMAKE_CTEST_COMMAND} -L "room|mpi" -j ${jobs} WORKING_DIRECTORY ${BUILD}
                 RESULT_VARIABLE failed)
 if(failed)
   message(WARNING "tests fail: what they do not reach is counted as not run")
