@@ -41,9 +41,10 @@
  *
  * Derivatives along a direction, J v: direction.h; those of the gradient, H v: hessian.h.
  *
- * "auto" takes what it would choose where that is served, else radau:s=5. Served: collocation (gauss, radau, radau1a, lobatto3c), BDF with start=ramp, DIRK; dense, band and sparse
- * matrices, serial vectors, any index that the method integrates. STEIF_UNSUPPORTED: other methods, Krylov
- * storage, events that graze, two at once whose times differ for other y or p, reactions without derivatives, constraints,
+ * "auto" takes what it would choose where that is served, else radau:s=5. Served: collocation (gauss, radau, radau1a,
+ * lobatto3c), BDF with start=ramp, DIRK; dense, band and sparse matrices, serial vectors, any index that the method
+ * integrates. STEIF_UNSUPPORTED: other methods, Krylov storage without jac (transposed products are not known), events
+ * that graze, two at once whose times differ for other y or p, reactions without derivatives, constraints,
  * options.reinitialise, options.sensitivities, starts that had to be repaired, constant steps of BDF that do not end at T.
  *
  * Sources: W. W. Hager, Numer. Math. 87 (2000) 247-282; A. Sandu, Lect. Notes Comput. Sci. 3994 (2006); Y. Cao,

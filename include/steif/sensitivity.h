@@ -27,11 +27,15 @@
  * explicit Runge-Kutta methods, starting procedures too, splittings (verlet), with dense, band and sparse matrices, of the
  * indices that these methods serve; `auto` takes collocation and BDF. Rosenbrock methods hold J = dF/dy in their steps and
  * are served where jac and dFdp are given: the derivative of J is a difference of both along the stages, to about 1e-11.
- * STEIF_UNSUPPORTED: exponential methods, Rosenbrock methods for M(t, y) y' = f; Krylov storage; constraints; options.ewt.
+ * Krylov storage: products with E and A at the stages are those of Ev and Av, else of matrices, else differences of F
+ * along S on both sides, to about 1e-10.
+ * STEIF_UNSUPPORTED: exponential methods, Rosenbrock methods for M(t, y) y' = f; constraints; options.ewt.
  *
- * Starts. dy0/dp is parameters.start, and has to fulfil the derivatives of the constraints: algebraic equations are
- * checked, and hidden constraints of at most STEIF_DIAGNOSE_LARGEST unknowns, by differences of the consistent start
- * next to it (STEIF_UNSUPPORTED with the equation or unknown that is off). Where the start was repaired S begins with such differences, to about 1e-9.
+ * Starts. dy0/dp is parameters.start, and has to fulfil the derivatives of the constraints. Adaptive runs of nonlinear
+ * DAEs of index 1 begin with the nearest S that does, E S held (a start that is consistent for one p alone jumps for
+ * others); else algebraic equations are checked, and hidden constraints of at most STEIF_DIAGNOSE_LARGEST unknowns, by
+ * differences of the consistent start next to it (STEIF_UNSUPPORTED with the equation or unknown that is off). Where the
+ * start was repaired S begins with such differences, to about 1e-9.
  * Components of index 2 and 3 have S of the orders of their y.
  *
  * Differences. Where dF/dy or dF/dp are made by differences, S has their relative error too, about 1e-10: tolerances of one step near

@@ -53,7 +53,13 @@ static void refused(void)
   CHECK(refusal(p, "bdf:p=2", &o, &J, g, "divides") == STEIF_UNSUPPORTED);
   o.h = 0, o.sensitivities = 1;
   CHECK(refusal(p, "radau:s=3", &o, &J, g, "sensitivities") == STEIF_UNSUPPORTED);
-  o.sensitivities = 0, s.p[2] = NAN;
+  o.sensitivities = 0, o.force_storage = 1, o.storage = STEIF_KRYLOV;
+  struct subject products = s;
+  products.problem.jac = NULL, products.problem.user = &products;
+  products.parameters.value = products.p, products.problem.y0 = products.y0;
+  products.problem.parameters = &products.parameters;
+  CHECK(refusal(&products.problem, "radau:s=3", &o, &J, g, "transposed") == STEIF_UNSUPPORTED);
+  o.force_storage = 0, s.p[2] = NAN;
   CHECK(refusal(p, "radau:s=3", &o, &J, g, "parameter 3") == STEIF_NOT_FINITE);
   s.p[2] = 3;
   s.parameters.obstacle = "none of its callbacks tells";

@@ -10,6 +10,7 @@ extern CU_TestInfo tests_of_growth[];
 extern CU_TestInfo tests_of_interface[];
 extern CU_TestInfo tests_of_products[];
 extern CU_TestInfo tests_of_grids[];
+extern CU_TestInfo tests_of_sensitivities[];
 extern CU_TestInfo tests_of_wrong_models[];
 
 SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_examples},
@@ -20,4 +21,5 @@ SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_e
            {.pName = "the interface", .pTests = tests_of_interface},
            {.pName = "grids, and compiled models", .pTests = tests_of_grids},
            {.pName = "products with derivatives", .pTests = tests_of_products},
+           {.pName = "derivatives by parameters", .pTests = tests_of_sensitivities},
            {.pName = "wrong models and their sentences", .pTests = tests_of_wrong_models})

@@ -29,14 +29,20 @@ static int claim_entries(stf_pool *pool, stf_matrices_at *m)
   return STEIF_OK;
 }
 
+static int claim_points(stf_pool *pool, stf_matrices_at *m)
+{
+  const int count = m->system->linear ? 1 : m->count;
+  m->point = stf_pool_array(pool, (size_t)count, sizeof *m->point);
+  if (!m->point) return STEIF_NO_MEMORY;
+  for (int j = 0; j < count; j++)
+    STEIF_TRY(stf_operator_point_open(pool, m->system, m->point + j));
+  return STEIF_OK;
+}
+
 int stf_matrices_at_open(stf_pool *pool, stf_system *s, int count, stf_matrices_at *m)
 {
   *m = (stf_matrices_at){.system = s, .count = count};
-  STEIF_CHECK(
-    s->A && !s->krylov, s->ctx, STEIF_UNSUPPORTED,
-    "derivatives of steps need matrices, Krylov storage of problem '%s' has none: take "
-    "sparse storage",
-    s->problem->name);
+  if (!s->A) return claim_points(pool, m);
   m->E = stf_pool_array(pool, (size_t)count, sizeof *m->E);
   m->A = stf_pool_array(pool, (size_t)count, sizeof *m->A);
   if (!m->E || !m->A) return STEIF_NO_MEMORY;
@@ -53,7 +59,11 @@ int stf_matrices_at_open(stf_pool *pool, stf_system *s, int count, stf_matrices_
 int stf_matrices_at_fill(stf_matrices_at *m, int j, sunrealtype t, N_Vector y, N_Vector yp)
 {
   stf_system *s = m->system, here = *s;
-  if (s->linear) return STEIF_OK;
+  if (m->point && (j == 0 || !s->linear)) {
+    const int code = stf_operator_point_set(s, m->point + j, t, y, yp);
+    if (code) return code;
+  }
+  if (s->linear || m->point) return STEIF_OK;
   here.A = m->A[j], here.E = m->E[j], here.central = true;
   if (m->entries) m->entries[2 * j].known = false;
   if (m->entries && s->form == STEIF_IMPLICIT) m->entries[2 * j + 1].known = false;
@@ -89,9 +99,21 @@ static void by_columns(sunindextype n, const sunindextype *column, const suninde
   }
 }
 
+static int by_point(const stf_matrices_at *m, int j, char which, N_Vector x, N_Vector out)
+{
+  stf_system *s = m->system;
+  if (which == 'E' && s->form == STEIF_ODE) return stf_copy(&s->space, x, out), STEIF_OK;
+  const int answer = stf_operator_product(s, m->point + (s->linear ? 0 : j), which, x, out);
+  if (!answer) return STEIF_OK;
+  return (answer > 0 ? stf_recover : stf_fail)(
+    s->ctx, STEIF_CALLBACK, "the product with %c of problem '%s' returned %d", which,
+    s->problem->name, answer);
+}
+
 int stf_matrices_at_product(const stf_matrices_at *m, int j, char which, N_Vector x,
                             N_Vector out)
 {
+  if (m->point) return by_point(m, j, which, x, out);
   const SUNMatrix M = which == 'E' ? m->E[j] : m->A[j];
   const sunindextype n = m->system->space.n;
   stf_nonzeros *e = m->entries ? m->entries + 2 * j + (which == 'E') : NULL;
@@ -110,6 +132,11 @@ int stf_matrices_at_product(const stf_matrices_at *m, int j, char which, N_Vecto
 
 void stf_matrices_at_exchange(stf_matrices_at *m, int i, int j)
 {
+  if (m->point) {
+    const stf_operator_point point = m->point[i];
+    m->point[i] = m->point[j], m->point[j] = point;
+    return;
+  }
   const SUNMatrix A = m->A[i], E = m->E[i];
   m->A[i] = m->A[j], m->A[j] = A, m->E[i] = m->E[j], m->E[j] = E;
   for (int k = 0; m->entries && k < 2; k++) {
@@ -139,6 +166,6 @@ void stf_matrices_at_add(const stf_matrices_at *m, int j, char which, sunrealtyp
 
 bool stf_matrices_at_adds(const stf_matrices_at *m)
 {
-  return m->system->space.serial &&
+  return m->system->space.serial && !m->point &&
          (m->entries || SUNMatGetID(m->system->A) == SUNMATRIX_SPARSE);
 }

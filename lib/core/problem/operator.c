@@ -5,22 +5,30 @@
 #include "problem.h"
 #include <math.h>
 
-int stf_operator_remember(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+int stf_operator_point_open(stf_pool *pool, const stf_system *s, stf_operator_point *point)
+{
+  N_Vector *const all[] = {&point->y, &point->yp, &point->f};
+  for (int i = 0; i < 3; i++)
+    if (!(*all[i] = stf_pool_vector(pool, s->space.like))) return STEIF_NO_MEMORY;
+  return STEIF_OK;
+}
+
+int stf_operator_point_set(stf_system *s, stf_operator_point *at, sunrealtype t, N_Vector y,
+                           N_Vector yp)
 {
   const steif_problem *p = s->problem;
-  s->at_t = t, s->size = -1;
-  stf_copy(&s->space, y, s->at_y);
-  stf_copy(&s->space, yp, s->at_yp);
-  return p->Av && !p->precsolve ? STEIF_OK : stf_system_residual(s, t, y, yp, s->at_f);
+  at->t = t, at->size = -1;
+  stf_copy(&s->space, y, at->y);
+  stf_copy(&s->space, yp, at->yp);
+  return p->Av && !p->precsolve ? STEIF_OK : stf_system_residual(s, t, y, yp, at->f);
+}
+
+int stf_operator_remember(stf_system *s, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  return stf_operator_point_set(s, &s->at, t, y, yp);
 }
 
 /* -- products by callbacks --------------------------------------------------------------------- */
-
-static int product_E(N_Vector x, N_Vector out, void *user)
-{
-  stf_system *s = user;
-  return s->problem->Ev(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
-}
 
 static sunrealtype length(const stf_system *s, N_Vector x)
 {
@@ -28,29 +36,50 @@ static sunrealtype length(const stf_system *s, N_Vector x)
   return sqrt(N_VDotProd(x, x));
 }
 
-/* A x = -F_y x by one difference along x, of any length where F is linear; the residual at the point is
- * at_f. */
-static int difference_A(stf_system *s, N_Vector x, N_Vector out)
+/* A x = -F_y x by one difference along x, of any length where F is linear; by one on both sides where it is more than
+ * a preconditioner. */
+static int difference_A(stf_system *s, stf_operator_point *at, N_Vector x, N_Vector out)
 {
   const sunrealtype size = length(s, x);
   if (!(size > 0)) {
     stf_zero(&s->space, out);
     return 0;
   }
-  if (s->size < 0) s->size = length(s, s->at_y);
-  const sunrealtype part = s->linear ? 1 : sqrt(STF_EPS);
-  const sunrealtype step = part * (s->scale + s->size) / size;
-  stf_sum(&s->space, 1, s->at_y, step, x, s->work[4]);
-  const int code = stf_system_residual(s, s->at_t, s->work[4], s->at_yp, s->work[5]);
-  stf_sum(&s->space, 1 / step, s->at_f, -1 / step, s->work[5], out);
+  if (at->size < 0) at->size = length(s, at->y);
+  const bool both = at != &s->at && !s->linear;
+  const sunrealtype part = s->linear ? 1 : both ? cbrt(STF_EPS) : sqrt(STF_EPS);
+  const sunrealtype step = part * (s->scale + at->size) / size;
+  N_Vector before = at->f;
+  int code = 0;
+  if (both) {
+    stf_sum(&s->space, 1, at->y, -step, x, s->work[4]);
+    code = stf_system_residual(s, at->t, s->work[4], at->yp, before = s->work[3]);
+  }
+  stf_sum(&s->space, 1, at->y, step, x, s->work[4]);
+  if (!code) code = stf_system_residual(s, at->t, s->work[4], at->yp, s->work[5]);
+  const sunrealtype apart = both ? 2 * step : step;
+  stf_sum(&s->space, 1 / apart, before, -1 / apart, s->work[5], out);
   return code;
+}
+
+int stf_operator_product(stf_system *s, stf_operator_point *at, char which, N_Vector x,
+                         N_Vector out)
+{
+  const steif_problem *p = s->problem;
+  if (which == 'A' && !p->Av) return difference_A(s, at, x, out);
+  return (which == 'E' ? p->Ev : p->Av)(at->t, at->y, at->yp, x, out, p->user);
+}
+
+static int product_E(N_Vector x, N_Vector out, void *user)
+{
+  stf_system *s = user;
+  return stf_operator_product(s, &s->at, 'E', x, out);
 }
 
 static int product_A(N_Vector x, N_Vector out, void *user)
 {
   stf_system *s = user;
-  if (!s->problem->Av) return difference_A(s, x, out);
-  return s->problem->Av(s->at_t, s->at_y, s->at_yp, x, out, s->problem->user);
+  return stf_operator_product(s, &s->at, 'A', x, out);
 }
 
 static int prepare_again(sunrealtype shift, void *user)
@@ -58,16 +87,16 @@ static int prepare_again(sunrealtype shift, void *user)
   stf_system *s = user;
   const steif_problem *p = s->problem;
   if (!p->precsetup) return 0;
-  return p->precsetup(s->made_t, s->made_y, s->made_yp, s->made_f, shift, p->user);
+  return p->precsetup(s->made.t, s->made.y, s->made.yp, s->made.f, shift, p->user);
 }
 
 static int prepare(sunrealtype shift, void *user)
 {
   stf_system *s = user;
-  s->made_t = s->at_t;
-  stf_copy(&s->space, s->at_y, s->made_y);
-  stf_copy(&s->space, s->at_yp, s->made_yp);
-  stf_copy(&s->space, s->at_f, s->made_f);
+  s->made.t = s->at.t;
+  stf_copy(&s->space, s->at.y, s->made.y);
+  stf_copy(&s->space, s->at.yp, s->made.yp);
+  stf_copy(&s->space, s->at.f, s->made.f);
   return prepare_again(shift, user);
 }
 
@@ -77,23 +106,15 @@ static int precondition(sunrealtype shift, N_Vector r, N_Vector z, sunrealtype t
   stf_system *s = user;
   const steif_problem *p = s->problem;
   (void)tolerance;
-  return p->precsolve(s->made_t, s->made_y, s->made_yp, s->made_f, r, z, shift, 0, p->user);
+  return p->precsolve(s->made.t, s->made.y, s->made.yp, s->made.f, r, z, shift, 0, p->user);
 }
 
 static int precondition_pair(steif_shift c, N_Vector *r, N_Vector *z, void *user)
 {
   stf_system *s = user;
   const steif_problem *p = s->problem;
-  return p->precsolve_pair(s->made_t, s->made_y, s->made_yp, s->made_f, r, z, c.re, c.im, 0,
+  return p->precsolve_pair(s->made.t, s->made.y, s->made.yp, s->made.f, r, z, c.re, c.im, 0,
                            p->user);
-}
-
-static int open_made(stf_pool *pool, stf_system *s)
-{
-  N_Vector *const made[] = {&s->made_y, &s->made_yp, &s->made_f};
-  for (int i = 0; i < 3; i++)
-    if (!(*made[i] = stf_pool_vector(pool, s->space.like))) return STEIF_NO_MEMORY;
-  return STEIF_OK;
 }
 
 static int claim(stf_pool *pool, stf_system *s, const steif_operator *op)
@@ -113,10 +134,7 @@ int stf_operator_open(stf_pool *pool, stf_system *s)
   STEIF_CHECK(s->form != STEIF_DESCRIPTOR || p->Av, s->ctx, STEIF_UNSUPPORTED,
               "problem '%s' of form descriptor needs the product .Av for Krylov storage",
               p->name);
-  if (!(s->at_y = stf_pool_vector(pool, s->space.like)) ||
-      !(s->at_yp = stf_pool_vector(pool, s->space.like)) ||
-      !(s->at_f = stf_pool_vector(pool, s->space.like)))
-    return STEIF_NO_MEMORY;
+  STEIF_TRY(stf_operator_point_open(pool, s, &s->at));
   STEIF_TRY(claim(pool, s,
                   &(steif_operator){.E = has_E ? product_E : NULL,
                                     .A = product_A,
@@ -126,7 +144,7 @@ int stf_operator_open(stf_pool *pool, stf_system *s)
   if (!p->precsolve) return STEIF_OK;
   if (p->precsetup) s->pencil->prepare_again = prepare_again;
   if (p->precsolve_pair) s->pencil->precondition_pair = precondition_pair;
-  return open_made(pool, s);
+  return stf_operator_point_open(pool, s, &s->made);
 }
 
 void stf_operator_defer(stf_system *s, stf_deferred *deferred)

@@ -19,6 +19,13 @@
 
 typedef struct stf_groups stf_groups;
 
+/* Where operators are applied. f: the residual there, for differences without .Av and for preconditioners. */
+typedef struct stf_operator_point {
+  sunrealtype t;
+  N_Vector y, yp, f;
+  sunrealtype size; /* of y, for differences along vectors; < 0: not known */
+} stf_operator_point;
+
 typedef struct stf_system {
   steif_context *ctx;
   const steif_problem *problem;
@@ -34,16 +41,12 @@ typedef struct stf_system {
   const sunrealtype *floors; /* ... or that of each component; NULL: scale for all */
   stf_groups *groups;        /* columns that may be moved together */
   N_Vector work[6];
-  N_Vector at_y, at_yp, at_f; /* point of the last linearisation (operators only) ... */
-  sunrealtype at_t;
-  N_Vector made_y, made_yp,
-    made_f; /* ... and of the last setup of the caller's preconditioner */
-  sunrealtype made_t;
+  stf_operator_point at,
+    made; /* operators only: of the last linearisation, of the last setup of the preconditioner */
   bool filled;
   bool central; /* differences on both sides, for matrices that are more than preconditioners */
   bool doubted; /* Newton's iteration has failed: the next Jacobian is probed */
   sunrealtype weight; /* of g in the residual of the descriptor form, 1 */
-  sunrealtype size;   /* of at_y, for differences along vectors; < 0: not known */
   long nfe, nje;
   long sums; /* see stf_space */
 } stf_system;
@@ -120,6 +123,13 @@ const steif_problem *stf_with_name(const steif_problem *problem, steif_problem *
 sunindextype stf_not_finite(N_Vector v);
 
 /* operator.c: pencils known by products. Operators are applied at a point: remember it. */
+int stf_operator_point_open(stf_pool *pool, const stf_system *system,
+                            stf_operator_point *point);
+int stf_operator_point_set(stf_system *system, stf_operator_point *point, sunrealtype t,
+                           N_Vector y, N_Vector yp);
+/* out = E x or A x there; what a callback returned. */
+int stf_operator_product(stf_system *system, stf_operator_point *point, char which, N_Vector x,
+                         N_Vector out);
 int stf_operator_remember(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
 /* Of the callbacks; or of the matrices filled in, with their ILU(0) as preconditioner. */
 int stf_operator_open(stf_pool *pool, stf_system *system);
@@ -160,8 +170,8 @@ sunrealtype stf_slopes_increment(const steif_parameters *q, int k);
 /* How many times the size of the terms of F the rounding of a difference is, 0 where a callback gives dF/dp. */
 sunrealtype stf_slopes_noise(const stf_slopes *slopes, int k);
 
-/* matrices_at.c: E and A at several points, beside those of the pencil; a linear system has one pair. Needs
- * matrices. */
+/* matrices_at.c: E and A at several points, beside those of the pencil; a linear system has one pair. Operators have
+ * products only. */
 typedef struct stf_nonzeros {
   sunindextype *column, *row;
   sunrealtype *value;
@@ -170,8 +180,9 @@ typedef struct stf_nonzeros {
 typedef struct stf_matrices_at {
   stf_system *system;
   int count;
-  SUNMatrix *E, *A;      /* of each point; E NULL: identity */
-  stf_nonzeros *entries; /* of dense ones: A and E of each point */
+  SUNMatrix *E, *A;          /* of each point; E NULL: identity; operators: A NULL */
+  stf_operator_point *point; /* operators */
+  stf_nonzeros *entries;     /* of dense ones: A and E of each point */
   long made;
 } stf_matrices_at;
 int stf_matrices_at_open(stf_pool *pool, stf_system *system, int count, stf_matrices_at *m);

@@ -40,17 +40,17 @@ void stf_matrices_keep(stf_system *s, stf_image *m)
 /* Operators are applied at the point of the last linearisation. */
 static void keep_point(stf_system *s, stf_image *m)
 {
-  if (!s->at_y) return;
-  STF_KEEP(m, s->at_t);
-  stf_keep_vector(m, s->at_y);
-  stf_keep_vector(m, s->at_yp);
-  stf_keep_vector(m, s->at_f);
-  STF_KEEP(m, s->size);
-  if (!s->made_y) return;
-  STF_KEEP(m, s->made_t);
-  stf_keep_vector(m, s->made_y);
-  stf_keep_vector(m, s->made_yp);
-  stf_keep_vector(m, s->made_f);
+  if (!s->at.y) return;
+  STF_KEEP(m, s->at.t);
+  stf_keep_vector(m, s->at.y);
+  stf_keep_vector(m, s->at.yp);
+  stf_keep_vector(m, s->at.f);
+  STF_KEEP(m, s->at.size);
+  if (!s->made.y) return;
+  STF_KEEP(m, s->made.t);
+  stf_keep_vector(m, s->made.y);
+  stf_keep_vector(m, s->made.yp);
+  stf_keep_vector(m, s->made.f);
 }
 
 void stf_system_keep(stf_system *s, stf_image *m)

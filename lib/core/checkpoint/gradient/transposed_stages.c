@@ -59,6 +59,10 @@ int stf_adjoint_open(stf_pool *pool, stf_system *system, int m, const steif_tabl
   *a = (stf_adjoint){.ctx = system->ctx, .pool = pool, .space = &system->space, .m = m};
   a->channels = channels;
   a->n = system->space.n, a->middle = m / 2;
+  STEIF_CHECK(system->A, a->ctx, STEIF_UNSUPPORTED,
+              "gradients go back with transposed matrices, and Krylov storage of problem '%s' "
+              "has products only: take sparse storage, or sensitivities",
+              system->problem->name);
   STEIF_TRY(stf_matrices_at_open(pool, system, m, &a->at));
   if (m > 1) STEIF_TRY(open_transform(a, table));
   STEIF_TRY(claim(a, system->space.like));

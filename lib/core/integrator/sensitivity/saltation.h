@@ -52,6 +52,8 @@ int stf_saltation_remember(steif_solver *s, const char *who);
 
 /* start_derivatives.c: T->S of a start that was repaired; or of one with hidden constraints, checked. */
 int stf_start_derivatives(steif_solver *s, stf_carry *T);
+/* Adaptive runs of nonlinear DAEs of index 1: T->S jumps to what the equations differentiated ask for. */
+int stf_start_jumps(steif_solver *s, stf_carry *T);
 /* probe_slopes.c: STEIF_BAD_INPUT where dF/dp is not that of F. */
 int stf_probe_slopes(steif_solver *s, stf_carry *T);
 /* sensitivity.c: the place of parameter k in the list of columns. */

@@ -141,6 +141,7 @@ int stf_sensitivity_open(steif_solver *s)
   }
   STEIF_TRY(stf_probe_slopes(s, T));
   STEIF_TRY(stf_start_derivatives(s, T));
+  STEIF_TRY(stf_start_jumps(s, T));
   STEIF_TRY(check_start(s, T));
   s->step.carry = T;
   return stf_saltation_open(s);

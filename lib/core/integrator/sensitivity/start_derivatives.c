@@ -4,9 +4,14 @@
  * constraints differentiated, hidden ones too, and else what the start of a run has: it is found by central differences
  * of two lengths, extrapolated.
  *
+ * Of index 1 the start may be consistent for one value of p alone, and the solution jumps for others: so does S, to
+ * what the equations differentiated ask for, E S held. With (E/h - A) d(h) = A S0 - F_p, a step of backward Euler,
+ * d(h) = jump + c h + O(h^2): the jump is 2 d(h/2) - d(h) of a short h. Two lengths have to agree.
+ *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "saltation.h"
 #include <math.h>
+#include <steif/pencil.h>
 #include <string.h>
 
 static const sunrealtype exact = 1e-13; /* tolerance of C: what would move by less stays */
@@ -69,6 +74,80 @@ static int compare(steif_solver *s, int k, N_Vector S0, N_Vector found)
       k + 1, p->name, stf_unknown(p, i, name), a[i], b[i]);
   return STEIF_OK;
 }
+
+/* ---- jumps of index 1 ------------------------------------------------------------------------ */
+
+/* out_k += weight d_k(h), h = 1/shift. STEIF_RETRY: singular there. */
+static int add_step(stf_carry *T, sunrealtype shift, sunrealtype weight, N_Vector *out)
+{
+  steif_pencil *p = T->step->system.pencil;
+  const int code = steif_pencil_factor(p, 1, &(steif_shift){shift, 0});
+  if (code) return code == STEIF_SINGULAR ? STEIF_RETRY : code;
+  for (int k = 0; k < T->count; k++) {
+    STEIF_TRY(stf_carry_residual(T, 0, k, T->S[k], NULL, T->work));
+    STEIF_TRY(steif_pencil_solve(p, 0, 1, &T->work, NULL));
+    N_VLinearSum(1, out[k], weight, T->work, out[k]);
+  }
+  return STEIF_OK;
+}
+
+/* How far `found` is from `before`, in parts of S, of itself, and of y over p. */
+static sunrealtype apart(const stf_carry *T, int k, N_Vector found, N_Vector before)
+{
+  const sunrealtype least = N_VMaxNorm(T->step->y) / T->scale[k];
+  const sunrealtype size = fmax(least, fmax(N_VMaxNorm(T->S[k]), N_VMaxNorm(found)));
+  N_VLinearSum(1, found, -1, before, T->work);
+  return size > 0 ? N_VMaxNorm(T->work) / size : 0;
+}
+
+static int extrapolate(stf_carry *T, sunrealtype shift, N_Vector *found)
+{
+  for (int k = 0; k < T->count; k++) N_VConst(0, found[k]);
+  STEIF_TRY(add_step(T, shift, -1, found));
+  return add_step(T, 2 * shift, 2, found);
+}
+
+static void follow(stf_carry *T, N_Vector *jump)
+{
+  for (int k = 0; k < T->count; k++) N_VLinearSum(1, T->S[k], 1, jump[k], T->S[k]);
+}
+
+/* Lengths are 64 apart, their errors 4096; a second time for what rounding has left of the first. */
+static int jump(steif_solver *s, stf_carry *T)
+{
+  const stf_step *step = &s->step;
+  N_Vector *found = T->next, *before = T->before;
+  sunrealtype shift = 1e3 / (s->problem->t1 - step->t);
+  STEIF_TRY(stf_carry_point(T, 0, step->t, step->y, step->yp));
+  STEIF_TRY(extrapolate(T, shift, before));
+  for (int attempt = 0; attempt < 7; attempt++) {
+    sunrealtype most = 0;
+    shift *= 64;
+    STEIF_TRY(extrapolate(T, shift, found));
+    for (int k = 0; k < T->count; k++) {
+      most = fmax(most, apart(T, k, found[k], before[k]));
+      N_VScale(1, found[k], before[k]);
+    }
+    if (most > 1e-6) continue;
+    follow(T, found);
+    STEIF_TRY(extrapolate(T, shift, found));
+    follow(T, found);
+    return STEIF_OK;
+  }
+  return STEIF_OK;
+}
+
+int stf_start_jumps(steif_solver *s, stf_carry *T)
+{
+  const stf_system *system = &s->step.system;
+  if (system->form == STEIF_ODE || system->linear || system->krylov || !s->step.adaptive ||
+      s->problem->dae_index != 1 || s->options.initial == STEIF_AS_GIVEN)
+    return STEIF_OK;
+  const int code = jump(s, T);
+  return code == STEIF_RETRY ? STEIF_OK : code;
+}
+
+/* ---- starts that were repaired, and hidden constraints ---------------------------------------- */
 
 int stf_start_derivatives(steif_solver *s, stf_carry *T)
 {

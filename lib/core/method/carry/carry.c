@@ -1,6 +1,7 @@
 /* carry.c: the equations of a step, differentiated and solved with the factors at hand.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "carry.h"
+#include "pencil.h"
 #include <math.h>
 #include <steif/parameters.h>
 
@@ -26,7 +27,8 @@ static int claim_columns(stf_step *s, stf_carry *T)
   T->tolerance = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->tolerance);
   T->column = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->column);
   T->moved = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->moved);
-  if (!T->column || !T->moved) return STEIF_NO_MEMORY;
+  T->from = stf_pool_array(s->pool, (size_t)T->count, sizeof *T->from);
+  if (!T->column || !T->moved || !T->from) return STEIF_NO_MEMORY;
   return T->kept && T->trial && T->misses && T->r && T->other && T->slope && T->tolerance
            ? STEIF_OK
            : STEIF_NO_MEMORY;
@@ -194,7 +196,7 @@ int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
     STEIF_TRY(sweep(T, g));
     norm = largest(T);
     if (!(norm <= 1e300)) return refuse(T, g, norm, rate);
-    if (s->system.linear || norm == 0) return STEIF_OK;
+    if ((s->system.linear && !s->system.krylov) || norm == 0) return STEIF_OK;
     first = fmax(first, norm);
     if (m == 1 && !anew) settle(T, tolerance / known);
     if (m > 1) {
@@ -263,10 +265,21 @@ static void allow_noise(stf_carry *T, sunrealtype h, int k)
   T->tolerance[k] = fmax(T->tolerance[k], least);
 }
 
+/* GMRES leaves a part of each right-hand side: sweeps see it, methods without take what they get. */
+static void aim(stf_carry *T)
+{
+  stf_step *s = T->step;
+  const sunrealtype left = T->carrier->apply ? 0.01 : 1e-10;
+  if (!s->system.krylov) return;
+  stf_pencil_aim(s->system.pencil, s->newton.weights, 0);
+  stf_pencil_force(s->system.pencil, left, true);
+}
+
 int stf_carry_carry(stf_carry *T, sunrealtype h)
 {
   stf_step *s = T->step;
   weigh(T, h);
+  aim(T);
   STEIF_TRY(T->carrier->carry(T, h));
   T->relative = 0;
   for (int k = 0; k < T->count; k++) {

@@ -26,6 +26,7 @@ typedef struct stf_carry {
   const int *parameter;     /* of each, from 0 */
   const sunrealtype *scale; /* of each */
   N_Vector *S, *next, *before;
+  N_Vector *from;            /* BDF: where its steps begin */
   N_Vector *error, *weights; /* of each column */
   sunrealtype *tolerance;    /* of the norm of each error */
   N_Vector **kept, **trial;  /* what the method keeps of each column, and of the attempt */
