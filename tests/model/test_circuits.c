@@ -81,6 +81,24 @@ static void constraints_without_damping(void)
   fixture_close(&s);
 }
 
+/* transamp, whose algebraic equations are sums of rows of E, not rows without entries; sparse factors of one shift for
+ * all stages. IVP Test Set 2.4 (2008): u8(0.2). */
+static void capacitors_share_nodes(void)
+{
+  static const char *const methods[] = {"radau:s=5", "radau:s=7", "gauss:s=3", "auto"};
+  static const double rtols[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+  const double u8 = 1.23699586809;
+  fixture s;
+  double y[8];
+  CU_ASSERT_FATAL(fixture_example(&s, "transamp.steif") == STEIF_OK);
+  for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+    for (size_t k = 0; k < sizeof rtols / sizeof *rtols; k++) {
+      CHECK(run(&s, methods[m], rtols[k], true, y) == STEIF_OK);
+      CLOSE_FLOOR(y[7], u8, 10 * rtols[k], u8);
+    }
+  fixture_close(&s);
+}
+
 /* Between stages smooth algebraic unknowns are off by the polynomial alone, also where they pass 0. */
 static void smooth_constraints_cost_no_steps(void)
 {
@@ -106,5 +124,6 @@ static void smooth_constraints_cost_no_steps(void)
 CU_TestInfo tests_of_circuits[] = {
   {"capacitors behind diodes", capacitors_are_charged},
   {"constraints by methods that do not damp", constraints_without_damping},
+  {"capacitors share nodes", capacitors_share_nodes},
   {"smooth constraints cost no steps", smooth_constraints_cost_no_steps},
   CU_TEST_INFO_NULL};

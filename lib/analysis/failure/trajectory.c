@@ -262,8 +262,7 @@ static sunrealtype alternation(const stf_search *c, size_t j, sunrealtype *size)
 static bool damps(const stf_search *c)
 {
   steif_method_info info = {0};
-  return c->scene->method &&
-         !steif_method_find(c->point->ctx, c->scene->method, &info) &&
+  return c->scene->method && !steif_method_find(c->point->ctx, c->scene->method, &info) &&
          (info.claims & STEIF_L_STABLE);
 }
 

@@ -120,6 +120,7 @@ static void clear_step(steif_solver *s)
   step->h = step->h_try = step->h_equal = 0;
   step->count = 0;
   step->tries = step->undamped = 0;
+  step->undamped_start = step->undamped_end = 0;
   step->factors = step->solves = 0;
   step->rejected = step->restart = step->end_slope_known = false;
 }

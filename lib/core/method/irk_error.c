@@ -21,11 +21,17 @@ static int solve_shift(stf_step *s, sunrealtype h, N_Vector v)
   return steif_pencil_solve(s->system.pencil, 0, 1, &v, pair ? &e->imaginary : NULL);
 }
 
+/* What the filter keeps of the deviation of an algebraic component. */
+static sunrealtype kept(const stf_step *s, sunrealtype h)
+{
+  const state *e = s->state;
+  return s->newton.gamma > 0 ? e->filter * s->newton.shift * h : 1;
+}
+
 int stf_irk_filter(stf_step *s, sunrealtype h, N_Vector v)
 {
-  state *e = s->state;
   STEIF_TRY(solve_shift(s, h, v));
-  if (s->newton.gamma > 0) stf_scale(&s->system.space, e->filter * s->newton.shift * h, v, v);
+  if (s->newton.gamma > 0) stf_scale(&s->system.space, kept(s, h), v, v);
   return STEIF_OK;
 }
 
@@ -42,16 +48,18 @@ static int estimate_end(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
+  const sunrealtype whole = 1 / kept(s, h);
   N_Vector first = e->X[0];
   STEIF_TRY(filtered(s, h, s->t + h, s->next));
   const int rounds = stf_filter_rounds(s);
   N_VConst(0, first);
   for (int k = 0; k < rounds; k++) {
-    stf_axpy(space, 1, s->error, first);
+    stf_axpy(space, whole, s->error, first);
     stf_sum(space, 1, s->next, 1, first, s->newton.Y);
     STEIF_TRY(filtered(s, h, s->t + h, s->newton.Y));
   }
-  return stf_test_undamped(s, first, rounds, s->newton.fails > e->fails, s->newton.gamma > 0);
+  return stf_test_undamped(s, first, rounds * whole, s->newton.fails > e->fails,
+                           s->newton.gamma > 0);
 }
 
 /* Of the components of index 1: others begin at the error of the last step. */
@@ -91,7 +99,7 @@ static int estimate(stf_step *s, sunrealtype h)
   if (!e->u.accurate) return estimate_end(s, h);
   STEIF_TRY(filtered(s, h, s->t, s->y));
   if (stf_filters_twice(s) && stf_norm(space, s->error, s->weights) > s->control.tolerance) {
-    stf_sum(space, 1, s->y, 1, s->error, s->newton.Y);
+    stf_sum(space, 1, s->y, 1 / kept(s, h), s->error, s->newton.Y);
     STEIF_TRY(filtered(s, h, s->t, s->newton.Y));
   }
   return stf_estimate_stiff(s, &e->higher_order, h, NULL, stf_irk_filter, e->X[0], e->work);

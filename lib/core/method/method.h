@@ -168,6 +168,7 @@ struct stf_step {
   long factors, solves;    /* made by a family without the pencil */
   struct stf_carry *carry; /* derivatives by parameters; NULL: none */
   int undamped;            /* attempts of this step rejected for undamped components */
+  sunrealtype undamped_start, undamped_end; /* their deviations there, in tolerances */
 };
 
 typedef struct stf_method_entry {

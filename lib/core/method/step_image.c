@@ -20,6 +20,8 @@ static void keep_scalars(stf_step *s, stf_image *m)
   STF_KEEP(m, s->factors);
   STF_KEEP(m, s->solves);
   STF_KEEP(m, s->undamped);
+  STF_KEEP(m, s->undamped_start);
+  STF_KEEP(m, s->undamped_end);
 }
 
 void stf_step_keep(stf_step *s, stf_image *m)

@@ -304,9 +304,16 @@ static int solve_linear(stf_newton *newton, const stf_stages *g)
 static int solve_predicted(stf_newton *newton, const stf_stages *g)
 {
   sunrealtype norm;
-  newton->count = 1;
-  STEIF_TRY(sweep(newton, g, 1, &norm));
+  STEIF_TRY(sweep(newton, g, newton->count = 1, &norm));
   return norm <= 1e300 ? STEIF_OK : refuse(newton, g, 1, norm, 0);
+}
+
+/* What corrections leave, theta / (1 - theta). The blended iteration is far from normal: a correction of a thousandth of
+ * the last, which took smooth errors of the predictor away, may be followed by one as large. */
+static sunrealtype left_at(const stf_newton *newton, sunrealtype theta)
+{
+  const bool blended = newton->gamma > 0 && newton->system->problem->dae_index < 2;
+  return fmax(theta / (1 - theta), blended ? 0.7 : 0);
 }
 
 /* What is expected of the first sweep, theta / (1 - theta), with uncentred factors of another shift: a component of
@@ -322,10 +329,9 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
 {
   const bool starts = g->predicted && newton->system->krylov;
   if (newton->system->linear) return (starts ? solve_predicted : solve_linear)(newton, g);
-  sunrealtype norm, last = 0, theta = 0, first = 0;
-  newton->theta = 0;
+  sunrealtype norm, last = 0, theta = newton->theta = 0, first = 0;
   newton->eta = fmax(newton->eta_least, sqrt(newton->eta * sqrt(newton->eta))); /* eta^(3/4) */
-  newton->eta = fmax(newton->eta, expected(newton));
+  newton->eta = fmax(newton->eta, fmax(left_at(newton, 0), expected(newton)));
   for (int m = 1;; m++) {
     STEIF_TRY(sweep(newton, g, m, &norm));
     newton->count = m;
@@ -339,7 +345,7 @@ int stf_newton_solve(stf_newton *newton, const stf_stages *g)
         break;
       }
       if (theta >= 1 || m >= newton->iterations) return refuse(newton, g, m, norm, theta);
-      newton->eta = theta / (1 - theta);
+      newton->eta = left_at(newton, theta);
       if (m == 2) first = newton->eta, newton->eta_of = last;
     }
     const sunrealtype larger = m == 1 ? fmax(1, norm / newton->eta_of) : 1;

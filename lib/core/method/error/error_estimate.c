@@ -245,17 +245,23 @@ int stf_filter_rounds(const stf_step *s)
   return s->rejected && s->undamped > PATIENCE ? 3 : 1;
 }
 
-int stf_test_undamped(stf_step *s, N_Vector first, int rounds, bool diverged, bool blended)
+/* What a step began with is more than half of what it ends with: no shorter step would end with less. */
+static bool inherited(const stf_step *s) { return s->undamped_start > s->undamped_end / 2; }
+
+int stf_test_undamped(stf_step *s, N_Vector first, sunrealtype times, bool diverged,
+                      bool blended)
 {
   const stf_space *space = &s->system.space;
   const sunrealtype bound = 0.1;
-  stf_axpy(space, -rounds, s->error, first);
-  const sunrealtype part = stf_norm(space, first, s->weights);
-  if (!s->rejected && (!blended || part <= bound)) s->undamped = 0;
-  if (part > bound) s->undamped++;
-  if (s->undamped > PATIENCE || diverged)
+  stf_axpy(space, -times, s->error, first);
+  if (!s->rejected) s->undamped = 0, s->undamped_start = s->undamped_end;
+  s->undamped_end = stf_norm(space, first, s->weights);
+  const bool large = s->undamped_end > bound, old = large && blended && inherited(s);
+  if (large) s->undamped++;
+  if (s->undamped > PATIENCE || diverged || old) {
     stf_axpy(space, 1, first, s->next);
-  else if (s->undamped)
+    s->undamped_end = 0;
+  } else if (s->undamped)
     stf_scale(space, s->control.tolerance / bound, first, s->error);
   return STEIF_OK;
 }

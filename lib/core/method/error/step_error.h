@@ -167,11 +167,12 @@ bool stf_filters_twice(const stf_step *s);
 
 /* Error test of methods that do not damp, at the end of a step: what the second filter took from the
  * first estimate is the deviation of stiff and algebraic components, which later steps will return
- * with the same size; it must be small against the tolerance itself. Where shorter steps do not make it
- * so, or Newton diverged in this step, it is taken from s->next. s->error is the estimate after the
- * filters, `first` the sum of the `rounds` before it and is overwritten. blended: the deviations of the last step
- * count, too, since looser stages leave one in each, which would be halved in ever shorter steps. */
-int stf_test_undamped(stf_step *s, N_Vector first, int rounds, bool diverged, bool blended);
+ * with the same size; it must be small against the tolerance itself. Where shorter steps do not make it small, Newton
+ * diverged in this step, or, blended, those before have left most of it, it is taken from s->next. s->error is the
+ * estimate after the filters, `first` the sum of those before it, `times` as large in components that are damped, and is
+ * overwritten. */
+int stf_test_undamped(stf_step *s, N_Vector first, sunrealtype times, bool diverged,
+                      bool blended);
 /* How many estimates are taken off before the one that counts: 1, more where refusals do not help, since
  * each leaves a part of a deviation that a nonlinear f or an old matrix keeps. */
 int stf_filter_rounds(const stf_step *s);
