@@ -198,6 +198,13 @@ void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector er
   c->loose = share(s, c);
 }
 
+void stf_carried_newton(stf_step *s, const stf_carried *c)
+{
+  const sunrealtype all = 0.01, least = 0.1 * STF_EPS / s->options->rtol;
+  if (!s->adaptive || !c->e || s->options->newton > 0) return;
+  s->newton.tolerance = fmin(s->newton.tolerance, fmax(least, all / c->remembered));
+}
+
 int stf_carried_retry(const stf_step *s, stf_carried *c)
 {
   enum { MANY = 6, MORE = 2 };

@@ -100,6 +100,8 @@ int stf_carried_by_one_step(stf_step *s, int first, sunrealtype most, stf_carrie
 /* After a step of this error, with the shift sigma in the factors. */
 void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector error,
                      sunrealtype norm);
+/* What Newton's iteration leaves has the same sign in many steps, and adds up over those remembered: its tolerance. */
+void stf_carried_newton(stf_step *s, const stf_carried *c);
 /* At an attempt: where shorter steps do not help, rounding is larger than thought. STEIF_CALLBACK: a
  * callback stopped the solves after the last step. */
 int stf_carried_retry(const stf_step *s, stf_carried *c);

@@ -113,6 +113,7 @@ static void commit(stf_step *s)
   const sunrealtype own = 1 / (e->chain.gamma * s->h_try); /* which operators follow */
   stf_carried_add(s, &e->carried, s->system.krylov ? own : s->newton.shift, s->error,
                   s->error_norm);
+  stf_carried_newton(s, &e->carried);
   e->old = e->chain.K, e->chain.K = K;
   e->before = s->y, s->y = s->next, s->next = y;
   e->stepped = true;
