@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "saved_note.h"
 #include "saved_run.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -109,6 +110,31 @@ char **saved_run_arguments(const struct call *call, const void *note, size_t byt
   return argv;
 }
 
+/* -- files ------------------------------------------------------------------------------------ */
+
+/* FNV-1a over the bytes of a file; of none where there is no such file. */
+static uint64_t read_into(uint64_t sum, const char *path)
+{
+  FILE *file = fopen(path, "rb");
+  for (int c; file && (c = getc(file)) != EOF;) sum = (sum ^ (uint64_t)c) * 0x100000001b3u;
+  if (file) fclose(file);
+  return sum;
+}
+
+uint64_t note_files(const struct call *call)
+{
+  uint64_t sum = 0xcbf29ce484222325u;
+  char path[4096];
+  for (int i = 0; i < call->words; i++) {
+    const char *word = call->word[i], *end = strstr(word, ".steif");
+    const size_t length = end ? (size_t)(end - word) + strlen(".steif") : strlen(word);
+    if (length >= sizeof path) continue;
+    memcpy(path, word, length), path[length] = 0;
+    sum = read_into(sum, path);
+  }
+  return sum;
+}
+
 /* -- rows ------------------------------------------------------------------------------------- */
 
 static void put_rows(tape *t, const trajectory *tr)
@@ -126,6 +152,7 @@ static void put_rows(tape *t, const trajectory *tr)
 static void put_note(tape *t, const trajectory *tr)
 {
   put_call(t, tr->call);
+  put(t, &tr->files, sizeof tr->files);
   put_rows(t, tr);
 }
 
@@ -143,10 +170,13 @@ int note_read(trajectory *tr, const void *note, size_t bytes)
 {
   tape t = {.from = note, .size = bytes};
   int words = 0;
+  uint64_t files = 0;
   size_t count[4] = {0};
   take(&t, &words, sizeof words);
   for (int i = 0; i < words; i++)
     if (!next_text(&t)) return -1;
+  take(&t, &files, sizeof files);
+  if (!t.short_of_bytes && files != tr->files) return 1;
   take(&t, count, sizeof count);
   if (t.short_of_bytes || trajectory_room(tr, count[0], count[2])) return -1;
   tr->count = count[0], tr->next = count[1], tr->events = count[2], tr->happened = count[3];

@@ -1,4 +1,5 @@
-/* saved_note.h: the program's own part of a checkpoint: the call as arguments, then the rows of the trajectory.
+/* saved_note.h: the program's own part of a checkpoint: the call as arguments, a sum of the files that its words
+ * name, then the rows of the trajectory.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SAVED_NOTE_H
 #define SAVED_NOTE_H
@@ -7,7 +8,10 @@
 
 /* One block; NULL when memory is short. */
 char *note_write(const trajectory *tr, size_t *bytes);
-/* Rows and events into a trajectory just opened; nonzero when memory is short or this is no note. */
+/* What the files of a call, models and matrices, have in them, as a number. */
+uint64_t note_files(const struct call *call);
+/* Rows and events into a trajectory just opened; 1 when its files are others, -1 when memory is short or this is no
+ * note. */
 int note_read(trajectory *tr, const void *note, size_t bytes);
 
 #endif

@@ -54,6 +54,15 @@ static int extend(struct call *call, steif_solver *s, double t1, double before)
   return steif_solver_extend(s, t1) ? fail(call) : EXIT_OK;
 }
 
+static int changed(const struct call *call)
+{
+  say(call,
+      "\"%s\" was saved before %s changed: bring the file of that run back, or solve anew "
+      "[STEIF_BAD_INPUT]",
+      call->continues, call->word[0]);
+  return EXIT_FILE;
+}
+
 int saved_run_load(struct call *call, const steif_problem *p, const steif_options *options,
                    trajectory *tr, steif_solver **s)
 {
@@ -65,6 +74,7 @@ int saved_run_load(struct call *call, const steif_problem *p, const steif_option
         c->method, c->steps, c->t, c->cpu_s);
   const int code = note_read(tr, c->note, c->note_bytes);
   steif_checkpoint_free(call->ctx, &c);
+  if (code > 0) return changed(call);
   if (code) return no_memory(call, "the rows of the run", "give the process more");
   *s = steif_checkpoint_load(call->ctx, call->continues, p, options);
   tr->saved = true;

@@ -1,5 +1,6 @@
 /* trajectory.c: the accepted steps of a run, or its solution at times asked for, and its events.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "saved_note.h"
 #include "trajectory.h"
 #include "saved_run.h"
 #include <nvector/nvector_serial.h>
@@ -175,6 +176,7 @@ int trajectory_open(struct call *call, const steif_problem *problem, steif_optio
   if (given(call, "--checkpoint")) {
     tr->checkpoint = word_of(call, "--checkpoint");
     tr->every = real_of(call, "--every");
+    tr->files = note_files(call);
   }
   while (steif_model_output(problem, tr->outputs)) tr->outputs++;
   options->observe = observe;

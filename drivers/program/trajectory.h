@@ -4,6 +4,7 @@
 #ifndef TRAJECTORY_H
 #define TRAJECTORY_H
 
+#include <stdint.h>
 #include "attributes.h"
 #include "program.h"
 
@@ -42,6 +43,7 @@ typedef struct trajectory {
   double *line;               /* one of its rows */
   size_t written, shown_rows; /* rows in it, and on the terminal */
   const char *checkpoint;     /* NULL: none */
+  uint64_t files;             /* of the call when it began (saved_note.h) */
   double every, saved_at;     /* seconds between two, time of the last */
   bool saved;                 /* there is one */
 } trajectory;
