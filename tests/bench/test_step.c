@@ -17,8 +17,8 @@ static void costs_are_accounted_for(void)
   steif_context_free(&ctx);
 }
 
-/* Through steif as many steps as in a direct program, else the price is STEIF_NOT_CERTIFIED. Clocks may tick slowly: a time of
- * 0 is one. */
+/* Through steif as many steps as in a direct program, else the price is STEIF_NOT_CERTIFIED. A clock may tick too
+ * slowly for a time above 0. */
 static void a_baseline_does_what_a_direct_program_does(void)
 {
   static const char *const problem[] = {"vdpol", "hires", "bruss2d:n=8"};
