@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Bytes that are counted, then written; or read. */
 typedef struct tape {
@@ -112,10 +113,12 @@ char **saved_run_arguments(const struct call *call, const void *note, size_t byt
 
 /* -- files ------------------------------------------------------------------------------------ */
 
-/* FNV-1a over the bytes of a file; of none where there is no such file. */
+/* FNV-1a over the bytes of a file (G. Fowler, L. C. Noll, K.-P. Vo); of none where there is no such file, or a pipe, which
+ * cannot be read again. */
 static uint64_t read_into(uint64_t sum, const char *path)
 {
-  FILE *file = fopen(path, "rb");
+  struct stat is;
+  FILE *file = !stat(path, &is) && S_ISREG(is.st_mode) ? fopen(path, "rb") : NULL;
   for (int c; file && (c = getc(file)) != EOF;) sum = (sum ^ (uint64_t)c) * 0x100000001b3u;
   if (file) fclose(file);
   return sum;

@@ -1,7 +1,7 @@
 /* trajectory.c: the accepted steps of a run, or its solution at times asked for, and its events.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "saved_note.h"
 #include "trajectory.h"
+#include "saved_note.h"
 #include "saved_run.h"
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>

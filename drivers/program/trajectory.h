@@ -4,9 +4,9 @@
 #ifndef TRAJECTORY_H
 #define TRAJECTORY_H
 
-#include <stdint.h>
 #include "attributes.h"
 #include "program.h"
+#include <stdint.h>
 
 /* The first components and outputs as a picture shows them, between the steps, too. */
 enum { DRAWN = 8 };

@@ -53,6 +53,27 @@ static void derivatives_of_starts_follow_the_equations(void)
   fixture_close(&s);
 }
 
+/* a + b = s is held by the jump of the start, 0 = b - p a behind it: b = p s / (1 + p) exp(-t / (1 + p)), in closed form. No
+ * row of E is without entries. */
+static void a_jump_of_the_start_in_closed_form(void)
+{
+  static const char *const methods[] = {"radau:s=3", "bdf", "rodas4p", "dirk:hw43",
+                                        "gauss:s=3"};
+  static const char text[] = "param p = 2\nstate a = 1, b = 2\nlet r = b - p*a\n"
+                             "a' + b' = -a\na' + b' = -a + r + r^2\ntime 0 to 1\n";
+  const double p = 2, s0 = 3, e = exp(-1 / (1 + p)), d = 1 / (1 + p);
+  const sunrealtype exact = s0 * e * d * d * (1 + p * d);
+  fixture s;
+  CU_ASSERT_FATAL(fixture_text(&s, text, "") == STEIF_OK);
+  for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+    for (int sparse = 0; sparse < 2; sparse++) {
+      sunrealtype S = 0;
+      CHECK(derivatives(&s, methods[m], sparse ? STEIF_SPARSE : STEIF_DENSE, 1e-8, 1, &S));
+      closely(methods[m], &S, &exact, 1, 1e-6);
+    }
+  fixture_close(&s);
+}
+
 /* Factors of ILU(0) beside exact matrices, and nothing but differences of f along vectors. */
 static void without_factors(void)
 {
@@ -77,5 +98,6 @@ static void without_factors(void)
 
 CU_TestInfo tests_of_sensitivities[] = {
   {"derivatives of starts follow the equations", derivatives_of_starts_follow_the_equations},
+  {"a jump of the start in closed form", a_jump_of_the_start_in_closed_form},
   {"without factors", without_factors},
   CU_TEST_INFO_NULL};

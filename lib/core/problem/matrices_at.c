@@ -130,21 +130,6 @@ int stf_matrices_at_product(const stf_matrices_at *m, int j, char which, N_Vecto
   return STEIF_OK;
 }
 
-void stf_matrices_at_exchange(stf_matrices_at *m, int i, int j)
-{
-  if (m->point) {
-    const stf_operator_point point = m->point[i];
-    m->point[i] = m->point[j], m->point[j] = point;
-    return;
-  }
-  const SUNMatrix A = m->A[i], E = m->E[i];
-  m->A[i] = m->A[j], m->A[j] = A, m->E[i] = m->E[j], m->E[j] = E;
-  for (int k = 0; m->entries && k < 2; k++) {
-    const stf_nonzeros e = m->entries[2 * i + k];
-    m->entries[2 * i + k] = m->entries[2 * j + k], m->entries[2 * j + k] = e;
-  }
-}
-
 /* ---- a dense matrix of stages ------------------------------------------------------------------ */
 
 void stf_matrices_at_add(const stf_matrices_at *m, int j, char which, sunrealtype factor,

@@ -190,8 +190,6 @@ int stf_matrices_at_open(stf_pool *pool, stf_system *system, int count, stf_matr
 void stf_matrices_at_add(const stf_matrices_at *m, int j, char which, sunrealtype factor,
                          sunrealtype *block, size_t width);
 bool stf_matrices_at_adds(const stf_matrices_at *m);
-/* Points i and j change places. */
-void stf_matrices_at_exchange(stf_matrices_at *m, int i, int j);
 int stf_matrices_at_fill(stf_matrices_at *m, int point, sunrealtype t, N_Vector y, N_Vector yp);
 /* out = E x or A x at a point. */
 int stf_matrices_at_product(const stf_matrices_at *m, int point, char which, N_Vector x,

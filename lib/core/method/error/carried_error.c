@@ -198,6 +198,8 @@ void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector er
   c->loose = share(s, c);
 }
 
+/* The bound `all` is on corrections: what a stage leaves enters the next ones ten times, by the coefficients. No correction
+ * is smaller than rounding. */
 void stf_carried_newton(stf_step *s, const stf_carried *c)
 {
   const sunrealtype all = 0.01, least = 0.1 * STF_EPS / s->options->rtol;
