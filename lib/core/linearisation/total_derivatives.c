@@ -34,36 +34,82 @@ static sunrealtype error(const stf_total_derivatives *l, const sunrealtype *scal
   return worst < 0 ? -1 : (worst + STF_EPS) / pow(delta, p);
 }
 
+/* Do the nodes follow how the equations of this order vary? Where they do not, the fit has a small slope that says
+ * nothing: what oscillates often between two nodes differs by as much as over all of them. */
+static bool resolved(const stf_total_derivatives *l, const sunrealtype *scale, const int *order,
+                     int p)
+{
+  static const sunrealtype followed = 1e-2;
+  const size_t n = l->point->n;
+  for (size_t i = 0; i < n; i++) {
+    if (order && order[i] != p) continue;
+    sunrealtype low = l->values[i], high = low;
+    for (size_t k = 1; k < NODES; k++) {
+      low = fmin(low, l->values[k * n + i]);
+      high = fmax(high, l->values[k * n + i]);
+    }
+    if (l->tail[i] > followed * (high - low) + 64 * STF_EPS * scale[i]) return false;
+  }
+  return true;
+}
+
+/* The best nodes of an order so far. */
+typedef struct choice {
+  sunrealtype error;
+  bool resolved;
+} choice;
+
 /* Nearer nodes have rounding only: what interpolants miss was small, and errors have grown since. */
-static bool past_best(const stf_total_derivatives *l, const sunrealtype *best,
+static bool past_best(const stf_total_derivatives *l, const choice *best,
                       const sunrealtype *now)
 {
   static const sunrealtype small = 1e-9, grown = 1e3;
   for (int p = 1; p <= l->order; p++)
-    if (now[p] >= 0 && !(best[p] * pow(l->delta[p], p) < small && now[p] > grown * best[p]))
+    if (now[p] >= 0 && !(best[p].resolved && best[p].error * pow(l->delta[p], p) < small &&
+                         now[p] > grown * best[p].error))
       return false;
   return true;
+}
+
+/* E and B do not show how fast F changes with t alone: thousands of periods may fit into the interval. */
+static sunrealtype fastest_change(const stf_total_derivatives *l)
+{
+  static const sunrealtype periods = 1e4;
+  const sunrealtype length = l->point->problem.t1 - l->point->t;
+  return length > 0 ? fmax(l->fastest, periods / length) : l->fastest;
+}
+
+static void compare(stf_total_derivatives *l, const sunrealtype *scale, const int *order,
+                    sunrealtype delta, choice *best, sunrealtype *now)
+{
+  for (int p = 1; p <= l->order; p++) {
+    now[p] = error(l, scale, order, p, delta);
+    if (now[p] < 0) continue;
+    const choice new = {now[p], resolved(l, scale, order, p)};
+    if (new.resolved < best[p].resolved) continue;
+    if (new.resolved > best[p].resolved || new.error < best[p].error)
+      best[p] = new, l->delta[p] = delta;
+  }
 }
 
 int stf_total_derivatives_choose(stf_total_derivatives *l, const stf_curve *c,
                                  const sunrealtype *scale, const int *order)
 {
-  sunrealtype best[STF_DEEPEST + 2], now[STF_DEEPEST + 2];
+  choice best[STF_DEEPEST + 2];
+  sunrealtype now[STF_DEEPEST + 2];
   bool found = false;
   if (l->order == 0) return STEIF_OK;
   const sunrealtype longest = 100 / (l->slowest * c->tau);
-  const sunrealtype shortest = 1e-5 / (l->fastest * c->tau);
-  for (int p = 1; p <= l->order; p++) l->delta[p] = 0, best[p] = INFINITY;
+  const sunrealtype shortest = 1e-5 / (fastest_change(l) * c->tau);
+  for (int p = 1; p <= l->order; p++) l->delta[p] = 0, best[p] = (choice){INFINITY, false};
   for (sunrealtype delta = longest; delta >= shortest; delta *= 0.6) {
     const int code =
       stf_curve_residual(l->point, c, &l->rule, delta, l->values, l->rows, l->tail);
     if (code < 0) return code;
-    for (int p = 1; p <= l->order && !code; p++) {
-      now[p] = error(l, scale, order, p, delta);
-      if (now[p] >= 0 && now[p] < best[p]) best[p] = now[p], l->delta[p] = delta;
-      found = true;
-    }
-    if (!code && past_best(l, best, now)) break;
+    if (code) continue;
+    found = true;
+    compare(l, scale, order, delta, best, now);
+    if (past_best(l, best, now)) break;
   }
   return found ? STEIF_OK : STEIF_RETRY;
 }
