@@ -207,7 +207,9 @@ static int from_start(stf_search *c, sunrealtype *allowed, steif_start *start)
     weight[j] = 1 / allowed[j];
   }
   const steif_request request = {.weight = weight};
-  const int code = steif_consistent(c->point->ctx, &c->point->problem, &q, &request, start);
+  steif_problem from = c->point->problem; /* from there on */
+  from.t0 = q.t;
+  const int code = steif_consistent(c->point->ctx, &from, &q, &request, start);
   stf_release(c->point->ctx, weight);
   return code;
 }

@@ -174,6 +174,10 @@ void stf_rounding_keep(steif_solver *s, stf_image *m);
 /* output/recomputed.c: are unknowns of index 2 and 3 recomputed for output; that of the solution shown. */
 bool stf_recomputes(const steif_solver *s);
 int stf_recompute_shown(steif_solver *s);
+/* y at t, and y', on the constraints of the mode behind an event: dense output is off them by a tolerance, which short
+ * steps would divide by h, and unknowns of index 2 and 3 without a derivative belong to the mode before. *known: they
+ * are found, and all others stay within some tolerances; else y is left alone. */
+int stf_recompute_mode(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool *known);
 /* What y_j may err by. */
 sunrealtype stf_allowed(const steif_solver *s, const sunrealtype *y, size_t j);
 

@@ -43,11 +43,10 @@ int stf_event_open(steif_solver *s)
   w->last = -INFINITY;
   w->y = stf_pool_vector(s->pool, s->shown);
   w->after = stf_pool_vector(s->pool, s->shown);
-  if (s->options.reinitialise) w->slope = stf_pool_vector(s->pool, s->shown);
+  w->slope = stf_pool_vector(s->pool, s->shown);
   w->low = stf_pool_array(s->pool, m * (5 + STF_NODES + STF_FINE + 1), sizeof *w->low);
   w->sign = stf_pool_array(s->pool, 3 * m, sizeof *w->sign);
-  if (!w->y || !w->after || (s->options.reinitialise && !w->slope) || !w->low || !w->sign)
-    return STEIF_NO_MEMORY;
+  if (!w->y || !w->after || !w->slope || !w->low || !w->sign) return STEIF_NO_MEMORY;
   w->high = w->low + m, w->mid = w->high + m, w->next = w->mid + m, w->noise = w->next + m;
   w->node = w->noise + m, w->fine = w->node + m * STF_NODES;
   w->fired = w->sign + m;

@@ -76,7 +76,8 @@ static void cut(steif_solver *s, sunrealtype t)
 static int settle(steif_solver *s, sunrealtype t)
 {
   stf_detector *w = s->events;
-  if (!s->options.reinitialise) return STEIF_OK;
+  if (!s->options.reinitialise)
+    return stf_recompute_mode(s, t, w->after, w->slope, &w->settled);
   N_VConst(0, w->slope);
   STEIF_TRY(
     s->options.reinitialise(s->ctx, s->problem, t, s->options.rtol, w->after, w->slope));

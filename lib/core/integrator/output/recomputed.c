@@ -28,6 +28,37 @@ static void measure(const steif_solver *s, const sunrealtype *y, const steif_sta
   if (corrected) *corrected = most[1];
 }
 
+/* Do components with a derivative, and those of index 1, stay where they are? */
+static bool stays(const steif_solver *s, const sunrealtype *y, const steif_start *start)
+{
+  const int *index = s->problem->index;
+  for (size_t j = 0; j < (size_t)s->problem->n; j++)
+    if ((index[j] < 2 || !s->repair.algebraic[j]) &&
+        !(fabs(start->moved[j]) <= furthest * stf_allowed(s, y, j)))
+      return false;
+  return true;
+}
+
+int stf_recompute_mode(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool *known)
+{
+  steif_start start;
+  *known = false;
+  if (!stf_recomputes(s) || !s->repair.algebraic || s->saltation) return STEIF_OK;
+  const steif_point at = {.y = stf_array(y), .t = t};
+  const bool before = stf_silence(s->ctx, true);
+  const int code = stf_start_beside(s->ctx, s->problem, &at, NULL, &start);
+  stf_silence(s->ctx, before);
+  if (code == STEIF_NO_MEMORY) return code;
+  *known = !code && stays(s, at.y, &start);
+  if (*known) {
+    memcpy(stf_array(y), start.y, (size_t)s->problem->n * sizeof *start.y);
+    memcpy(stf_array(yp), start.yp, (size_t)s->problem->n * sizeof *start.yp);
+  }
+  steif_start_clear(&start);
+  if (code) steif_forget(s->ctx);
+  return STEIF_OK;
+}
+
 int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift, sunrealtype *corrected)
 {
   if (!s) return STEIF_BAD_INPUT;
@@ -48,8 +79,8 @@ bool stf_recomputes(const steif_solver *s)
 {
   const steif_problem *p = s->problem;
   return !s->engine && s->step.adaptive && s->step.count > 0 && p->index && p->dae_index > 1 &&
-         p->dae_index <= 3 && p->n <= STEIF_DIAGNOSE_LARGEST && !p->linear &&
-         s->step.system.form != STEIF_DESCRIPTOR && s->step.system.space.serial &&
+         p->dae_index <= 3 && p->n <= STEIF_DIAGNOSE_LARGEST &&
+         s->step.system.space.serial &&
          s->step.system.storage != STEIF_KRYLOV && !s->step.system.krylov;
 }
 

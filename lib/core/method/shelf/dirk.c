@@ -62,6 +62,18 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   return e->old && e->before ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
+/* The estimate filtered once, which base still has, where the second filter leaves nothing of it: unknowns of index 2. */
+static void raise(stf_step *s, sunrealtype h, sunrealtype whole)
+{
+  const state *e = s->state;
+  const sunrealtype nothing = 1e-6;
+  if (s->error_norm < nothing * whole) {
+    stf_scale(&s->system.space, nothing * e->chain.gamma * h, e->chain.base, s->error);
+    s->error_norm = nothing * whole;
+  }
+  stf_raise_stiff(s, whole);
+}
+
 /* Stiff components have the order of the stages: their error is between the estimate filtered once, `whole`, and twice.
  * That of methods of stage order 1 is small for the sake of the others. */
 static int estimate(stf_step *s, sunrealtype h)
@@ -80,7 +92,7 @@ static int estimate(stf_step *s, sunrealtype h)
   s->error_norm = stf_norm(space, s->error, s->weights);
   s->control.tolerance =
     s->error_norm < stiff * whole ? e->wanted : stf_carried_share(&e->carried, e->wanted);
-  if (e->first) stf_raise_stiff(s, whole);
+  if (e->first) raise(s, h, whole);
   return STEIF_OK;
 }
 
