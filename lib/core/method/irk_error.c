@@ -79,11 +79,13 @@ static int set_tolerance(stf_step *s, sunrealtype h)
     stf_sum(&s->system.space, 1, s->next, -1, s->y, e->work);
     STEIF_TRY(stf_oscillation(s, e->work, e->X[0], e->imaginary, &e->omega));
   }
-  N_Vector d[] = {e->work, e->imaginary};
-  sunrealtype size[2];
+  N_Vector d[] = {e->work, e->imaginary, e->X[0]};
+  sunrealtype size[3];
   difference(s, e->higher_order.top, d[0]), difference(s, e->higher_order.below, d[1]);
-  stf_norm_each(&s->system.space, 2, d, s->weights, size);
+  difference(s, e->higher_order.lower, d[2]);
+  stf_norm_each(&s->system.space, 3, d, s->weights, size);
   stf_estimate_set(s, &e->higher_order, size[0], size[1]);
+  stf_estimate_between(s, &e->higher_order, size[0], size[1], size[2]);
   if (e->omega * h > 1) stf_estimate_none(s, &e->higher_order);
   return STEIF_OK;
 }

@@ -53,6 +53,7 @@ typedef struct stf_control {
   sunrealtype keep;  /* ... and h where the factor lies in 1 .. keep: matrices stay factored */
   sunrealtype bias;  /* > 1: of the error after a rejection, instead of safety */
   sunrealtype next;  /* > 0: factor of h for the next step, instead of all these */
+  sunrealtype between; /* estimated error between the ends of the step over what it may be there; 0: not known */
   sunrealtype retry; /* > 0: factor of h after STEIF_RETRY, for one attempt */
   sunrealtype
     accumulated; /* what is remembered of the errors of all steps, growth taken out, in tolerances; 0: not known */

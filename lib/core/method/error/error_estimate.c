@@ -68,6 +68,7 @@ void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transfor
   difference(s, node, weight);
   for (int i = 0; i < s; i++) e->top[i] = weight[i + 1];
   difference(s - 1, node + 1, e->below);
+  if (s > 2) difference(s - 2, node + 2, e->lower + 1);
   e->s = s, e->beyond = T->order - s;
   e->gain = re + im * im / re;
   e->weight = 1 / e->gain;
@@ -111,6 +112,19 @@ void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunre
   const bool less = ratio * e->loosest > wanted && e->loosest > wanted;
   s->control.tolerance = !less ? e->loosest : ratio < 1 ? wanted / ratio : wanted;
   s->control.order = e->s + (less && ratio < 1 ? e->beyond : 0);
+}
+
+void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype top,
+                          sunrealtype below, sunrealtype lower)
+{
+  const sunrealtype allowed = 3, k = e->s;
+  const sunrealtype less = e->legendre * 2 * (2 * k - 1) / k, /* legendre of s - 1, s - 2 */
+    least = less * 2 * (2 * k - 3) / (k - 1);
+  const sunrealtype a = e->s > 2 ? least * lower : 0, b = less * below, c = e->legendre * top;
+  const sunrealtype r = e->s > 2 ? sqrt(fmin(1, c / a)) : fmin(1, c / b);
+  s->control.between = e->s > 1 && s->tries < STF_STUBBORN && c > 0
+                         ? r * fmax(c, r * b) / allowed
+                         : 0;
 }
 
 void stf_estimate_share(stf_step *s, const stf_estimate *e, sunrealtype ratio,

@@ -129,11 +129,18 @@ typedef struct stf_estimate {
   sunrealtype weight;   /* gamma_0 */
   sunrealtype legendre; /* size of x^s + ... orthogonal to lower powers on [0, 1] */
   sunrealtype top[STEIF_STAGES], below[STEIF_STAGES]; /* weights of Z_j */
+  sunrealtype lower[STEIF_STAGES];                    /* and of the difference of order s - 2 */
 } stf_estimate;
 void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transform *transform,
                        sunrealtype rtol);
 /* s->control.tolerance and s->control.order of this attempt, from the norms of the two differences. */
 void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunrealtype below);
+/* s->control.between of this attempt. Filters take from the estimate what stiff and algebraic components do between
+ * the ends, which a long step follows as little as the polynomial of collocation does. Its next term is r max(c, r b), r =
+ * sqrt(c/a), where a, b, c are the last three terms, orthogonal to lower powers: y = sin(omega t + phi) has it for every
+ * phi. lower: the norm of the difference of order s - 2. */
+void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype top,
+                          sunrealtype below, sunrealtype lower);
 /* Is the difference of order s above what Newton's iteration leaves? */
 bool stf_estimate_sees(const stf_estimate *e, sunrealtype top);
 /* Of the error to the estimate, from the two differences; 1 where it is no less. */

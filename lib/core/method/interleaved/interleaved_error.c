@@ -169,23 +169,24 @@ void stf_irk_interleaved_tolerance(stf_step *s)
 {
   state *e = s->state;
   const double *w = STF_ARRAY(s->weights);
-  double top = 0, below = 0;
+  const stf_estimate *o = &e->higher_order;
+  double top = 0, below = 0, lower = 0;
   const int *index = s->problem->index;
   for (int i = 0; i < e->n; i++) {
     const double *z = e->L->Z + i * e->L->wide;
-    double high = 0, low = 0;
+    double high = 0, low = 0, lowest = 0;
     if (e->own) e->ratio[i] = 1;
     if (index && index[i] > 1) continue;
     for (int j = 0; j < e->s; j++)
-      high += e->higher_order.top[j] * z[j], low += e->higher_order.below[j] * z[j];
-    if (e->own) e->ratio[i] = stf_estimate_ratio(&e->higher_order, fabs(high), fabs(low));
+      high += o->top[j] * z[j], low += o->below[j] * z[j], lowest += o->lower[j] * z[j];
+    if (e->own) e->ratio[i] = stf_estimate_ratio(o, fabs(high), fabs(low));
     top += w[i] * w[i] * high * high, below += w[i] * w[i] * low * low;
+    lower += w[i] * w[i] * lowest * lowest;
   }
   top = e->rounding_limited ? 0 : sqrt(top), below = sqrt(below);
-  stf_estimate_set(s, &e->higher_order, top, below);
-  e->least = stf_estimate_sees(&e->higher_order, top)
-               ? stf_estimate_ratio(&e->higher_order, top, below)
-               : 1;
+  stf_estimate_set(s, o, top, below);
+  stf_estimate_between(s, o, top, below, sqrt(lower));
+  e->least = stf_estimate_sees(o, top) ? stf_estimate_ratio(o, top, below) : 1;
 }
 
 int stf_irk_interleaved_estimate(stf_step *s, double h)
