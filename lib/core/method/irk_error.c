@@ -85,7 +85,7 @@ static int set_tolerance(stf_step *s, sunrealtype h)
   difference(s, e->higher_order.lower, d[2]);
   stf_norm_each(&s->system.space, 3, d, s->weights, size);
   stf_estimate_set(s, &e->higher_order, size[0], size[1]);
-  stf_estimate_between(s, &e->higher_order, size[0], size[1], size[2]);
+  stf_estimate_between(s, &e->higher_order, size[2], size[1], size[0]);
   if (e->omega * h > 1) stf_estimate_none(s, &e->higher_order);
   return STEIF_OK;
 }

@@ -114,19 +114,6 @@ void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunre
   s->control.order = e->s + (less && ratio < 1 ? e->beyond : 0);
 }
 
-void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype top,
-                          sunrealtype below, sunrealtype lower)
-{
-  const sunrealtype allowed = 3, k = e->s;
-  const sunrealtype less = e->legendre * 2 * (2 * k - 1) / k, /* legendre of s - 1, s - 2 */
-    least = less * 2 * (2 * k - 3) / (k - 1);
-  const sunrealtype a = e->s > 2 ? least * lower : 0, b = less * below, c = e->legendre * top;
-  const sunrealtype r = e->s > 2 ? sqrt(fmin(1, c / a)) : fmin(1, c / b);
-  s->control.between = e->s > 1 && s->tries < STF_STUBBORN && c > 0
-                         ? r * fmax(c, r * b) / allowed
-                         : 0;
-}
-
 void stf_estimate_share(stf_step *s, const stf_estimate *e, sunrealtype ratio,
                         sunrealtype share)
 {

@@ -136,11 +136,15 @@ void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transfor
 /* s->control.tolerance and s->control.order of this attempt, from the norms of the two differences. */
 void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunrealtype below);
 /* s->control.between of this attempt. Filters take from the estimate what stiff and algebraic components do between
- * the ends, which a long step follows as little as the polynomial of collocation does. Its next term is r max(c, r b), r =
- * sqrt(c/a), where a, b, c are the last three terms, orthogonal to lower powers: y = sin(omega t + phi) has it for every
- * phi. lower: the norm of the difference of order s - 2. */
-void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype top,
-                          sunrealtype below, sunrealtype lower);
+ * the ends, which a long step follows as little as its polynomial does. a, b, c: the last three terms of that, orthogonal to
+ * lower powers, in tolerances. The next one is r max(c, r b), r = sqrt(c/a), which sin(omega t + phi) has for every phi;
+ * a = 0: not known, r = c/b. */
+void stf_between(stf_step *s, sunrealtype a, sunrealtype b, sunrealtype c);
+/* The same of c_0 + c_1 x + ... + c_k x^k, k = 2 or 3, from its coefficients above c_0, which are spent. */
+void stf_between_powers(stf_step *s, int k, N_Vector const *coefficient);
+/* The same of collocation, from its differences of orders s - 2 to s. */
+void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype lower,
+                          sunrealtype below, sunrealtype top);
 /* Is the difference of order s above what Newton's iteration leaves? */
 bool stf_estimate_sees(const stf_estimate *e, sunrealtype top);
 /* Of the error to the estimate, from the two differences; 1 where it is no less. */

@@ -185,7 +185,7 @@ void stf_irk_interleaved_tolerance(stf_step *s)
   }
   top = e->rounding_limited ? 0 : sqrt(top), below = sqrt(below);
   stf_estimate_set(s, o, top, below);
-  stf_estimate_between(s, o, top, below, sqrt(lower));
+  stf_estimate_between(s, o, sqrt(lower), below, top);
   e->least = stf_estimate_sees(o, top) ? stf_estimate_ratio(o, top, below) : 1;
 }
 

@@ -195,6 +195,21 @@ static int look_between(stf_step *s, sunrealtype h)
   return stf_look_between(s, h, &look);
 }
 
+/* y_n + x (d + p) + x^2 (q - p) - x^3 q is what `combine` has, d = y_{n+1} - y_n. */
+static void between(stf_step *s)
+{
+  const state *e = s->state;
+  const stf_rodas *r = e->r;
+  const stf_space *space = &s->system.space;
+  N_Vector c[] = {e->between, e->Ep, e->off};
+  stf_combine(space, r->s, r->d, e->u, c[0]);
+  stf_combine(space, r->s, r->d + r->s, e->u, c[2]);
+  stf_sum(space, 1, c[2], -1, c[0], c[1]);
+  stf_axpy(space, 1, s->next, c[0]);
+  stf_axpy(space, -1, s->y, c[0]);
+  stf_between_powers(s, 3, c);
+}
+
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
@@ -210,6 +225,7 @@ static int attempt(stf_step *s, sunrealtype h)
                          "the step of problem '%s' from t = %.12g with h = %.6g is not finite: "
                          "f gave NaN or infinity, or the step is too large",
                          s->problem->name, s->t, h);
+  if (s->adaptive) between(s);
   return look_between(s, h);
 }
 
