@@ -331,6 +331,7 @@ static int start(stf_repair *r)
   STEIF_TRY(look(r));
   if (!declared_higher(r)) STEIF_TRY(stf_index_one(r, &regular));
   if (!regular) return higher_index(r);
+  if (r->count && r->problem.dae_index < 1) r->problem.dae_index = 1;
   return r->count ? index_one(r) : STEIF_OK;
 }
 

@@ -21,17 +21,43 @@ void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype lower,
   stf_between(s, k > 2 ? least * lower : 0, less * below, e->legendre * top);
 }
 
-/* Powers by the polynomials 2^-1, 6^-1 and 20^-1 of degrees 1 to 3, orthogonal on [0, 1] and at most as large:
- * x^2 has x, x^3 has 3/2 x^2 and 9/10 x of the ones below. */
+/* Legendre's polynomials on [0, 1] with x^k as their leading term are at most this large. */
+static sunrealtype size_of(int k)
+{
+  sunrealtype size = 1;
+  for (int i = 1; i <= k; i++) size *= (sunrealtype)i / (k + i);
+  return size;
+}
+
+/* x^k has k/2 of the one of degree k - 1, and of that of degree k - 2 */
+static sunrealtype second(int k) { return k * k * (k - 1.0) / (4 * (2.0 * k - 1)); }
+
+/* Norms of the last three, or two where k = 2. */
+static void norms(const stf_step *s, int k, N_Vector const *c, sunrealtype *term)
+{
+  const int from = k == 2;
+  term[0] = 0;
+  for (int i = from; i < 3; i++) stf_of_index_one(s, c[i]);
+  stf_norm_each(&s->system.space, 3 - from, c + from, s->weights, term + from);
+}
+
 void stf_between_powers(stf_step *s, int k, N_Vector const *c)
 {
-  static const sunrealtype size[] = {1.0 / 2, 1.0 / 6, 1.0 / 20};
   const stf_space *space = &s->system.space;
   sunrealtype term[3];
-  stf_axpy(space, 1, c[1], c[0]);
-  if (k > 2) stf_axpy(space, 0.9, c[2], c[0]), stf_axpy(space, 1.5, c[2], c[1]);
-  for (int i = 0; i < k; i++) stf_of_index_one(s, c[i]);
-  stf_norm_each(space, k, c, s->weights, term);
-  for (int i = 0; i < k; i++) term[i] *= size[i];
-  stf_between(s, k > 2 ? term[0] : 0, term[k - 2], term[k - 1]);
+  if (k > 2) {
+    stf_axpy(space, (k - 1) / 2.0, c[1], c[0]);
+    stf_axpy(space, second(k), c[2], c[0]);
+  }
+  stf_axpy(space, k / 2.0, c[2], c[1]);
+  norms(s, k, c, term);
+  for (int i = 0; i < 3; i++) term[i] *= size_of(k - 2 + i);
+  stf_between(s, term[0], term[1], term[2]);
+}
+
+void stf_between_taylor(stf_step *s, int k, N_Vector const *c)
+{
+  sunrealtype term[3];
+  norms(s, k, c, term);
+  stf_between(s, term[0], term[1], term[2]);
 }

@@ -140,8 +140,11 @@ void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunre
  * lower powers, in tolerances. The next one is r max(c, r b), r = sqrt(c/a), which sin(omega t + phi) has for every phi;
  * a = 0: not known, r = c/b. */
 void stf_between(stf_step *s, sunrealtype a, sunrealtype b, sunrealtype c);
-/* The same of c_0 + c_1 x + ... + c_k x^k, k = 2 or 3, from its coefficients above c_0, which are spent. */
+/* The same of a polynomial on [0, 1] of degree k > 1 from its last three coefficients (k - 2, not looked at where k = 2,
+ * k - 1 and k), which are spent. */
 void stf_between_powers(stf_step *s, int k, N_Vector const *coefficient);
+/* Of a Taylor polynomial of degree k on [-1, 0], which is worst at -1, where terms are as large as coefficients. */
+void stf_between_taylor(stf_step *s, int k, N_Vector const *coefficient);
 /* The same of collocation, from its differences of orders s - 2 to s. */
 void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype lower,
                           sunrealtype below, sunrealtype top);

@@ -20,6 +20,7 @@ typedef struct stf_glm_state {
   N_Vector *from, *to;          /* trial: X_n for another h, X_{n+1} */
   N_Vector *x;                  /* X_n of the trial: at or from */
   N_Vector before;
+  N_Vector *power; /* the last coefficients of a polynomial */
   stf_carried carried;
   sunrealtype wanted, explicit_share; /* what the error may be where nothing is forgotten */
   sunrealtype scale;                  /* h that belongs to at */
@@ -49,6 +50,9 @@ void stf_glm_error(const stf_step *s, const stf_glm_step *now, const stf_glm_ste
 /* At t inside the last step, from y at its beginning and its end. */
 void stf_glm_dense(const stf_step *s, sunrealtype t, const stf_glm_step *last, N_Vector before,
                    N_Vector y, N_Vector out);
+
+/* at_infinity.c: by how much a step multiplies errors of algebraic unknowns in the long run; infinite: without bound. */
+int stf_glm_at_infinity(steif_context *ctx, const steif_glm *glm, sunrealtype *radius);
 
 /* carry_glm.c. */
 extern const stf_carrier stf_glm_carrier;

@@ -116,14 +116,16 @@ static void between(stf_step *s, sunrealtype h)
   N_Vector *c = e->power, d = c[3], g = e->chain.K[e->s - 1], f = slope_at_start(s);
   if (!e->accurate) return;
   stf_sum(space, 1, s->next, -1, s->y, d);
-  stf_sum(space, f ? 3 : -1, d, f ? -h : h, g, c[1]);
   if (f) {
+    stf_scale(space, h, f, c[0]);
+    stf_sum(space, 3, d, -h, g, c[1]);
     stf_axpy(space, -2 * h, f, c[1]);
     stf_sum(space, h, f, h, g, c[2]);
     stf_axpy(space, -2, d, c[2]);
-    stf_scale(space, h, f, c[0]);
-  } else
-    stf_sum(space, 2, d, -h, g, c[0]);
+  } else {
+    stf_sum(space, 2, d, -h, g, c[1]);
+    stf_sum(space, -1, d, h, g, c[2]);
+  }
   stf_between_powers(s, f ? 3 : 2, c);
 }
 

@@ -75,6 +75,37 @@ static int check(stf_step *s, const steif_glm *g)
   return STEIF_OK;
 }
 
+/* With algebraic unknowns errors must not grow where |z| is infinite. */
+static int check_infinity(stf_step *s, const steif_glm *g)
+{
+  const sunrealtype bounded = 1 + 1e-3;
+  sunrealtype radius;
+  if (!s->adaptive || s->problem->dae_index < 1) return STEIF_OK;
+  STEIF_TRY(stf_glm_at_infinity(s->ctx, g, &radius));
+  STEIF_CHECK(
+    !(radius > bounded), s->ctx, STEIF_UNSUPPORTED,
+    "'%s' multiplies errors of algebraic unknowns by %.3g in each step, and problem "
+    "'%s' has some: take bdf, radau:s=3 or another method that is bounded at infinity",
+    g->name, radius, s->problem->name);
+  return STEIF_OK;
+}
+
+/* The last terms of the Taylor polynomial at the end, whose x is 0 there and -1 at the start. */
+static void between(stf_step *s, sunrealtype h)
+{
+  const state *e = s->state;
+  const stf_glm_step now = trial_step(e, h);
+  sunrealtype d[DATA], factorial = 1;
+  if (!e->dense || e->p < 2) return;
+  for (int j = 1; j <= e->p; j++) {
+    factorial *= j;
+    if (j < e->p - 2) continue;
+    for (int m = 0; m < e->data; m++) d[m] = e->z[j * e->data + m] / factorial;
+    stf_glm_combine(s, d, &now, e->power[j - e->p + 2]);
+  }
+  stf_between_taylor(s, e->p, e->power);
+}
+
 /* Explicit methods refuse what is below rounding. Implicit ones carry their errors along, and are believed
  * where order 2, or rounding, leaves no room for what problems make of them. */
 static int open_share(stf_step *s)
@@ -102,6 +133,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->chain = (stf_chain){.s = g->r, .k = g->k, .A = g->C, .c = g->xi, .U = g->U};
   STEIF_TRY(check(s, g));
   STEIF_TRY(stf_check_index(s, g->name));
+  STEIF_TRY(check_infinity(s, g));
   STEIF_TRY(rows(s, e));
   const int powers = stf_glm_powers(g), count = powers || e->estimates ? powers : 1;
   const bool explicit_ = stf_glm_shape(g) == STEIF_EXPLICIT;
@@ -117,9 +149,11 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   e->to = stf_pool_vectors(s->pool, e->k, s->y);
   e->slopes = stf_pool_vectors(s->pool, e->r, s->y);
   e->before = stf_pool_vector(s->pool, s->y);
+  e->power = stf_pool_vectors(s->pool, 3, s->y);
   s->control.grow = 2; /* history of a much shorter step is of little use */
-  return e->at && e->past && e->from && e->to && e->slopes && e->before ? STEIF_OK
-                                                                        : STEIF_NO_MEMORY;
+  return e->at && e->past && e->from && e->to && e->slopes && e->before && e->power
+           ? STEIF_OK
+           : STEIF_NO_MEMORY;
 }
 
 /* ---- a step ---- */
@@ -209,7 +243,9 @@ static int attempt(stf_step *s, sunrealtype h)
   e->chain.guess = s->count > 0 && !s->restart ? e->slopes[e->r - 1] : NULL;
   STEIF_TRY(stf_chain_run(s, &e->chain, 0, e->x, h));
   STEIF_TRY(advance(s, h));
-  return s->adaptive ? estimate(s, h) : STEIF_OK;
+  if (!s->adaptive) return STEIF_OK;
+  if (e->chain.gamma > 0) between(s, h);
+  return estimate(s, h);
 }
 
 static void commit(stf_step *s)
