@@ -9,7 +9,7 @@ extern CU_TestInfo tests_of_steps[], tests_of_run[], tests_of_options[], tests_o
   tests_of_success[], tests_of_references[], tests_of_krylov[], tests_of_bad_input[],
   tests_of_clock[], tests_of_corners[], tests_of_varying_mass[], tests_of_algebraic_noise[],
   tests_of_history[], tests_of_cubes[], tests_of_index_three[], tests_of_inexact[],
-  tests_of_hidden[], tests_of_extended[];
+  tests_of_hidden[], tests_of_extended[], tests_of_between[];
 
 SUITE_MAIN(
   {.pName = "steps", .pTests = tests_of_steps},
@@ -17,6 +17,7 @@ SUITE_MAIN(
   {.pName = "options", .pTests = tests_of_options},
   {.pName = "bad input", .pTests = tests_of_bad_input},
   {.pName = "dense output", .pTests = tests_of_dense},
+  {.pName = "between", .pTests = tests_of_between},
   {.pName = "digits", .pTests = tests_of_digits},
   {.pName = "counts", .pTests = tests_of_counts},
   {.pName = "breaks", .pTests = tests_of_breaks},

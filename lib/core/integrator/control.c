@@ -262,7 +262,8 @@ static int attempt(steif_solver *s, sunrealtype h, int tries, sunrealtype *e)
   STEIF_TRY(attempt_silently(s, h));
   if (!(step->error_norm >= 0))
     step->error_norm = stf_norm(&step->system.space, step->error, step->weights);
-  *e = fmax(step->error_norm / step->control.tolerance, step->control.between);
+  *e = step->error_norm / step->control.tolerance;
+  if (step->control.between > *e) *e = step->control.between;
   if (*e <= 1 && step->carry) STEIF_TRY(carry(s, h, e));
   if (*e <= 1 && s->options.test_quadratures) STEIF_TRY(stf_quadrature_test(s, h, e));
   if (!(*e <= 1) || !s->problem->constraint) return STEIF_OK;

@@ -50,10 +50,12 @@ typedef struct stf_control {
   int order;                /* q: s->error = O(h^(q + 1)) */
   sunrealtype safety;       /* h_next = safety (tolerance / error)^(1/(q + 1)) h ... */
   sunrealtype shrink, grow; /* ... within these factors of h ... */
-  sunrealtype keep;  /* ... and h where the factor lies in 1 .. keep: matrices stay factored */
-  sunrealtype bias;  /* > 1: of the error after a rejection, instead of safety */
-  sunrealtype next;  /* > 0: factor of h for the next step, instead of all these */
-  sunrealtype between; /* estimated error between the ends of the step over what it may be there; 0: not known */
+  sunrealtype keep; /* ... and h where the factor lies in 1 .. keep: matrices stay factored */
+  sunrealtype bias; /* > 1: of the error after a rejection, instead of safety */
+  sunrealtype next; /* > 0: factor of h for the next step, instead of all these */
+  sunrealtype
+    between; /* estimated error between the ends of the step over what it may be there; 0: not known */
+  sunrealtype rate;  /* of what is between, where one step does not show it (between.c) */
   sunrealtype retry; /* > 0: factor of h after STEIF_RETRY, for one attempt */
   sunrealtype
     accumulated; /* what is remembered of the errors of all steps, growth taken out, in tolerances; 0: not known */

@@ -79,8 +79,7 @@ bool stf_recomputes(const steif_solver *s)
 {
   const steif_problem *p = s->problem;
   return !s->engine && s->step.adaptive && s->step.count > 0 && p->index && p->dae_index > 1 &&
-         p->dae_index <= 3 && p->n <= STEIF_DIAGNOSE_LARGEST &&
-         s->step.system.space.serial &&
+         p->dae_index <= 3 && p->n <= STEIF_DIAGNOSE_LARGEST && s->step.system.space.serial &&
          s->step.system.storage != STEIF_KRYLOV && !s->step.system.krylov;
 }
 

@@ -75,7 +75,7 @@ static int compare(steif_solver *s, int k, N_Vector S0, N_Vector found)
   return STEIF_OK;
 }
 
-/* ---- jumps of index 1 ------------------------------------------------------------------------ */
+/* ---- jumps of index 1, of starts that were not repaired ----------------------------------------  */
 
 /* out_k += weight d_k(h), h = 1/shift. STEIF_RETRY: singular there. */
 static int add_step(stf_carry *T, sunrealtype shift, sunrealtype weight, N_Vector *out)
@@ -141,7 +141,8 @@ int stf_start_jumps(steif_solver *s, stf_carry *T)
 {
   const stf_system *system = &s->step.system;
   if (system->form == STEIF_ODE || system->linear || system->krylov || !s->step.adaptive ||
-      s->problem->dae_index != 1 || s->options.initial == STEIF_AS_GIVEN)
+      s->problem->dae_index != 1 || s->options.initial == STEIF_AS_GIVEN ||
+      s->repair.report.moved > 0)
     return STEIF_OK;
   const int code = jump(s, T);
   return code == STEIF_RETRY ? STEIF_OK : code;

@@ -3,11 +3,21 @@
 #include "step_error.h"
 #include <math.h>
 
-void stf_between(stf_step *s, sunrealtype a, sunrealtype b, sunrealtype c)
+enum { ALLOWED = 5 }; /* tolerances */
+
+static void set(stf_step *s, sunrealtype r, sunrealtype b, sunrealtype c)
 {
-  const sunrealtype allowed = 3;
-  const sunrealtype r = a > 0 ? sqrt(fmin(1, c / a)) : fmin(1, c / b);
-  s->control.between = c > 0 && s->tries < STF_STUBBORN ? r * fmax(c, r * b) / allowed : 0;
+  const bool known = c > 0 && s->tries < STF_STUBBORN;
+  s->control.between = known ? fmin(1, r) * fmax(c, fmin(1, r) * b) / ALLOWED : 0;
+}
+
+/* Of two terms: c/b is 0 where the solution bends to the other side, and may not fall at once. */
+static sunrealtype remembered(stf_step *s, sunrealtype b, sunrealtype c)
+{
+  const sunrealtype forgotten = 0.8;
+  const sunrealtype r = fmin(1, fmax(c / b, forgotten * s->control.rate * s->h_try));
+  s->control.rate = r / s->h_try;
+  return r;
 }
 
 void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype lower,
@@ -18,7 +28,8 @@ void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype lower,
   if (k < 2) return;
   const sunrealtype less = e->legendre * 2 * (2 * k - 1) / k, /* legendre of k - 1 and k - 2 */
     least = less * 2 * (2 * k - 3) / (k - 1);
-  stf_between(s, k > 2 ? least * lower : 0, less * below, e->legendre * top);
+  const sunrealtype a = least * lower, b = less * below, c = e->legendre * top;
+  set(s, k > 2 ? sqrt(c / a) : remembered(s, b, c), b, c);
 }
 
 /* Legendre's polynomials on [0, 1] with x^k as their leading term are at most this large. */
@@ -52,12 +63,12 @@ void stf_between_powers(stf_step *s, int k, N_Vector const *c)
   stf_axpy(space, k / 2.0, c[2], c[1]);
   norms(s, k, c, term);
   for (int i = 0; i < 3; i++) term[i] *= size_of(k - 2 + i);
-  stf_between(s, term[0], term[1], term[2]);
+  set(s, k > 2 ? sqrt(term[2] / term[0]) : term[2] / term[1], term[1], term[2]);
 }
 
 void stf_between_taylor(stf_step *s, int k, N_Vector const *c)
 {
   sunrealtype term[3];
   norms(s, k, c, term);
-  stf_between(s, term[0], term[1], term[2]);
+  set(s, k > 2 ? sqrt(term[2] / term[0]) : remembered(s, term[1], term[2]), term[1], term[2]);
 }

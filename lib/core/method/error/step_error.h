@@ -136,18 +136,17 @@ void stf_estimate_open(stf_estimate *e, const steif_table *T, const stf_transfor
 /* s->control.tolerance and s->control.order of this attempt, from the norms of the two differences. */
 void stf_estimate_set(stf_step *s, const stf_estimate *e, sunrealtype top, sunrealtype below);
 /* s->control.between of this attempt. Filters take from the estimate what stiff and algebraic components do between
- * the ends, which a long step follows as little as its polynomial does. a, b, c: the last three terms of that, orthogonal to
- * lower powers, in tolerances. The next one is r max(c, r b), r = sqrt(c/a), which sin(omega t + phi) has for every phi;
- * a = 0: not known, r = c/b. */
-void stf_between(stf_step *s, sunrealtype a, sunrealtype b, sunrealtype c);
-/* The same of a polynomial on [0, 1] of degree k > 1 from its last three coefficients (k - 2, not looked at where k = 2,
- * k - 1 and k), which are spent. */
+ * the ends, which a long step follows as little as its polynomial does. Let a, b, c be the last three terms of that,
+ * orthogonal to lower powers, in tolerances: the next one is r max(c, r b), r = sqrt(c/a), which sin(omega t + phi) has
+ * for every phi; of two terms r = c/b. Components of index 1 only.
+ * Here of collocation, from its differences of orders s - 2 to s. */
+void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype lower,
+                          sunrealtype below, sunrealtype top);
+/* Of a polynomial on [0, 1] of degree k > 1 from its last three coefficients (k - 2, not looked at where k = 2, k - 1
+ * and k), which are spent. */
 void stf_between_powers(stf_step *s, int k, N_Vector const *coefficient);
 /* Of a Taylor polynomial of degree k on [-1, 0], which is worst at -1, where terms are as large as coefficients. */
 void stf_between_taylor(stf_step *s, int k, N_Vector const *coefficient);
-/* The same of collocation, from its differences of orders s - 2 to s. */
-void stf_estimate_between(stf_step *s, const stf_estimate *e, sunrealtype lower,
-                          sunrealtype below, sunrealtype top);
 /* Is the difference of order s above what Newton's iteration leaves? */
 bool stf_estimate_sees(const stf_estimate *e, sunrealtype top);
 /* Of the error to the estimate, from the two differences; 1 where it is no less. */

@@ -12,10 +12,9 @@
 typedef struct state {
   const steif_table *table;
   stf_chain chain;
-  int s, first;           /* first implicit stage, 0 or 1 */
-  N_Vector *old;          /* slopes of the last step */
-  N_Vector before, begun; /* y at the start of the last step, and its slope there */
-  bool begun_known;
+  int s, first;  /* first implicit stage, 0 or 1 */
+  N_Vector *old; /* slopes of the last step */
+  N_Vector before;
   N_Vector *power; /* coefficients of the solution between the ends, and one more */
   bool accurate;   /* stiffly accurate */
   bool stepped;
@@ -57,13 +56,12 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   STEIF_TRY(stf_chain_open(s, table->name, &e->chain));
   e->old = stf_pool_vectors(s->pool, e->s, s->y);
   e->before = stf_pool_vector(s->pool, s->y);
-  e->begun = stf_pool_vector(s->pool, s->y);
   e->power = stf_pool_vectors(s->pool, 4, s->y);
   const int q = table->order_hat < table->order ? table->order_hat : table->order;
   STEIF_TRY(stf_share_open(s, table->name, q, table->order, 0.1));
   e->wanted = s->control.tolerance;
   if (e->accurate) STEIF_TRY(stf_carried_by_one_step(s, 6, 0.06, &e->carried));
-  return e->old && e->before && e->begun && e->power ? STEIF_OK : STEIF_NO_MEMORY;
+  return e->old && e->before && e->power ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 /* The estimate filtered once, which base still has, where the second filter leaves nothing of it: unknowns of index 2. */
@@ -100,20 +98,14 @@ static int estimate(stf_step *s, sunrealtype h)
   return STEIF_OK;
 }
 
-/* Known where the last step has left it, or the first stage is it. */
-static N_Vector slope_at_start(const stf_step *s)
-{
-  const state *e = s->state;
-  return e->first ? e->chain.K[0] : e->stepped && !s->restart ? e->old[e->s - 1] : NULL;
-}
-
 /* The coefficients of `polynomial` with d = y_{n+1} - y_n and slopes f, g at the ends: x (2 d - h g) + x^2 (h g - d), or
  * x h f + x^2 (3 d - 2 h f - h g) + x^3 (h f + h g - 2 d). */
 static void between(stf_step *s, sunrealtype h)
 {
   const state *e = s->state;
   const stf_space *space = &s->system.space;
-  N_Vector *c = e->power, d = c[3], g = e->chain.K[e->s - 1], f = slope_at_start(s);
+  N_Vector *c = e->power, d = c[3], g = e->chain.K[e->s - 1],
+           f = e->first ? e->chain.K[0] : NULL;
   if (!e->accurate) return;
   stf_sum(space, 1, s->next, -1, s->y, d);
   if (f) {
@@ -161,32 +153,29 @@ static void commit(stf_step *s)
   stf_carried_add(s, &e->carried, s->system.krylov ? own : s->newton.shift, s->error,
                   s->error_norm);
   stf_carried_newton(s, &e->carried);
-  N_Vector begun = slope_at_start(s);
-  e->begun_known = begun != NULL;
-  if (begun) stf_copy(&s->system.space, begun, e->begun);
   e->old = e->chain.K, e->chain.K = K;
   e->before = s->y, s->y = s->next, s->next = y;
   e->stepped = true;
   if (s->system.form == STEIF_IMPLICIT) stf_copy(&s->system.space, e->old[e->s - 1], s->yp);
 }
 
-/* Both end values, the slope at the end (last stage of a stiffly accurate method) and that at the start, f, or NULL
- * where it is not known: of degree 1 to 3, as many as the method gives. */
-static int polynomial(const stf_step *s, sunrealtype t, N_Vector before, N_Vector y, N_Vector f,
-                      N_Vector g, N_Vector out)
+/* Both end values, the slope at the end (last stage of a stiffly accurate method) and the slope
+ * at the start (explicit first stage): of degree 1 to 3, as many as the method gives. */
+static int polynomial(const stf_step *s, sunrealtype t, N_Vector before, N_Vector y,
+                      N_Vector *K, N_Vector out)
 {
   const state *e = s->state;
   const sunrealtype x = (t - (s->t - s->h)) / s->h, u = 1 - x;
-  if (!e->accurate || !f) {
+  if (!e->accurate || !e->first) {
     const sunrealtype end = e->accurate ? 1 : 0,
                       c[] = {u * (1 - end * x), x * (1 + end * u), -s->h * x * u * end};
-    N_Vector v[] = {before, y, g};
+    N_Vector v[] = {before, y, K[e->s - 1]};
     stf_combine(&s->system.space, 3, c, v, out);
     return STEIF_OK;
   }
   const sunrealtype c[] = {u * u * (1 + 2 * x), x * x * (1 + 2 * u), s->h * x * u * u,
                            -s->h * x * x * u};
-  N_Vector v[] = {before, y, f, g};
+  N_Vector v[] = {before, y, K[0], K[e->s - 1]};
   stf_combine(&s->system.space, 4, c, v, out);
   return STEIF_OK;
 }
@@ -194,8 +183,7 @@ static int polynomial(const stf_step *s, sunrealtype t, N_Vector before, N_Vecto
 static int dense(const stf_step *s, sunrealtype t, N_Vector y)
 {
   const state *e = s->state;
-  return polynomial(s, t, e->before, s->y, e->begun_known ? e->begun : NULL, e->old[e->s - 1],
-                    y);
+  return polynomial(s, t, e->before, s->y, e->old, y);
 }
 
 static int stages(const stf_step *s, int *count, const sunrealtype **c, const sunrealtype **b,
@@ -212,8 +200,6 @@ static void keep(stf_step *s, stf_image *m)
   stf_keep_vectors(m, e->s, e->old);
   stf_keep_vectors(m, e->s, e->chain.X);
   stf_keep_vector(m, e->before);
-  stf_keep_vector(m, e->begun);
-  STF_KEEP(m, e->begun_known);
   STF_KEEP(m, e->stepped);
   stf_carried_keep(&e->carried, m);
 }
@@ -309,9 +295,7 @@ static int carry(stf_carry *T, sunrealtype h)
 
 static int carried_dense(stf_carry *T, int k, sunrealtype t, N_Vector S)
 {
-  const state *e = T->step->state;
-  N_Vector *K = T->kept[k];
-  return polynomial(T->step, t, T->before[k], T->S[k], e->first ? K[0] : NULL, K[e->s - 1], S);
+  return polynomial(T->step, t, T->before[k], T->S[k], T->kept[k], S);
 }
 
 static int check_carry(const stf_step *s)
