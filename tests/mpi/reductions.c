@@ -26,7 +26,7 @@ static int Av(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, 
   return code;
 }
 
-/* Steps of multistep methods ask for more norms, of other orders. */
+/* Steps of multistep methods ask for more norms, of other orders; steps made anew for one more, by radau:s=2 of all. */
 static void run(rod *r, const char *method, int most)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -64,6 +64,6 @@ void test_reductions(MPI_Comm comm)
   rod r;
   rod_open(&r, comm, 40, 0);
   for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
-    run(&r, methods[k], k < 2 ? 6 : 4);
+    run(&r, methods[k], k < 2 ? 6 : k == 3 ? 5 : 4);
   rod_close(&r);
 }

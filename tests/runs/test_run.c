@@ -103,9 +103,8 @@ static void orders_from_inconsistent_values(void)
   }
 }
 
-/* Errors of the size of the tolerance in unknowns of every index, Gauss's methods and those of ten
- * digits included: |x(1)| = 15. Steps at most as tolerance^(-1/4): order 3 of the lowest estimate; as
- * tolerance^(-1/3) by hw43, whose solution between ends of steps has order 2 in algebraic unknowns. */
+/* Errors of the size of the tolerance in unknowns of every index: |x(1)| = 15. Steps at most as tolerance^(-1/4): order
+ * 3 of the lowest estimate; -1/3 by hw43, whose order between ends is 2 in algebraic unknowns. */
 static const char *const chosen[] = {"bdf",       "radau:s=3", "radau:s=5", "gauss:s=3",
                                      "gauss:s=4", "dirk:hw43", "auto"};
 enum { CHOSEN = sizeof chosen / sizeof *chosen };
@@ -118,8 +117,7 @@ static void chosen_steps_come_through_the_start(void)
       const int steps = ut5_errors(chosen[i], 0, rtol[k], error);
       for (int part = 0; part < PARTS; part++) most = fmax(most, error[part]);
       if (!k) first = steps;
-      const double bound =
-        (k ? 1.5 * first : 200) * pow(rtol[0] / rtol[k], i == 5 ? 1.0 / 3 : 0.25);
+      const double bound = (k ? 1.5 * first : 200) * pow(rtol[0] / rtol[k], i == 5 ? .34 : .25);
       const bool good = steps > 5 && steps < bound && most < 15 * 15 * rtol[k];
       CHECK(good);
       if (!good) printf("\n  %s, %g: %d steps, error %.1e", chosen[i], rtol[k], steps, most);
