@@ -88,8 +88,10 @@ typedef struct steif_options {
   void *observer; /* user of these */
   /* Called before the integration restarts after problem.handle_event, and after a break of the problem
    * where steps of our own methods are adaptive, with rtol: make y(t+) of y and find its slope (yp holds 0
-   * and may stay so); returns a code. steif_reinitialise (jump.h) fits. NULL: y stays; algebraic
-   * components that are then wrong may stop the run. */
+   * and may stay so); returns a code. steif_reinitialise (jump.h) fits. NULL: behind an event
+   * of a DAE of index 2 or 3 whose start may be repaired, y is put on its constraints where that moves components of
+   * index 1 by some tolerances at most; else y stays, and algebraic components that are then wrong may stop the
+   * run. */
   int (*reinitialise)(steif_context *ctx, const steif_problem *problem, sunrealtype t,
                       sunrealtype rtol, N_Vector y, N_Vector yp);
   enum steif_initial
@@ -178,7 +180,10 @@ STEIF_EXPORT const steif_stats *steif_statistics(steif_solver *s);
  * begin is set and the problem has no save, nor where the second run would take more than four times the steps. */
 STEIF_EXPORT int steif_hidden_error(steif_solver *s, sunrealtype *error);
 
-/* The solution inside the last step. STEIF_BAD_INPUT outside of it. */
+/* The solution inside the last step. STEIF_BAD_INPUT outside of it. Steps chosen by the tolerance are no longer than the
+ * next term of its polynomial allows, 5 tolerances, which filtered estimates of stiff and algebraic unknowns do not
+ * see: these are known in between within some tens of tolerances (BDF: within one; dirk:hw43, to order 2 only; components of
+ * index 2 and 3: see steif_recompute). */
 STEIF_EXPORT int steif_dense(steif_solver *s, sunrealtype t, N_Vector y);
 
 /* drift[k] = I_k at the solution shown - I_k at the start, of the problem's first *count invariants;
@@ -195,7 +200,7 @@ STEIF_EXPORT int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift
                                  sunrealtype *corrected);
 
 /* The same without the diagnosis, at a tenth of its cost, is done with what steif_output shows, and with
- * options.recompute steif_solve_to (the program asks for both): of nonlinear DAEs of index 2 and 3 with at most
+ * options.recompute steif_solve_to (the program asks for both): of DAEs of index 2 and 3 with at most
  * STEIF_DIAGNOSE_LARGEST unknowns and a regular structure, by steif's own methods with adaptive steps. Some hundred
  * evaluations and decompositions of matrices of order n a point. Steps, observers and steif_dense have y as the
  * method has it. *drift and *corrected are those of the solution last shown; *corrected is how far the method was off in

@@ -3,6 +3,7 @@
 #include "fixture.h"
 #include <steif/consistent.h>
 #include <steif/failure.h>
+#include <steif/index.h>
 #include <string.h>
 
 #define DIODE(v) "Is*(exp((" v ")/Vt) - 1) + gmin*(" v ")"
@@ -145,6 +146,28 @@ static void a_charge_pump_has_its_slopes(void)
   fixture_close(&s);
 }
 
+/* Nodes that closed diodes hold are determined, by however little: where rounding does not hide it the index is 1, and
+ * nothing is sure where it does. */
+static void closed_diodes_hold_their_nodes(void)
+{
+  static const struct {
+    const char *gmin;
+    int index;
+  } rows[] = {
+    {":gmin=1e-6", 1}, {":gmin=1e-9", 1}, {":gmin=1e-12", 1}, {":gmin=0,Is=1e-16", -1}};
+  for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+    fixture s;
+    steif_diagnosis d;
+    CU_ASSERT_FATAL(fixture_text(&s, bridge, rows[k].gmin) == STEIF_OK);
+    CHECK(steif_diagnose(s.ctx, &s.p, NULL, &d) == STEIF_OK);
+    CHECK(d.index == rows[k].index);
+    CHECK(d.index == 1 || d.confidence != STEIF_SURE);
+    if (d.rcond < 1e-9) CHECK(strstr(d.message, "small entries") != NULL);
+    steif_diagnosis_clear(&d);
+    fixture_close(&s);
+  }
+}
+
 /* Linear runs are asked for inconsistent starts long after them: q = sin t was told to be off at its start by what it
  * had become since. */
 static void a_start_is_not_blamed_for_what_came_later(void)
@@ -163,6 +186,7 @@ static void a_start_is_not_blamed_for_what_came_later(void)
 
 CU_TestInfo tests_of_circuits[] = {
   {"a charge pump has its slopes", a_charge_pump_has_its_slopes},
+  {"closed diodes hold their nodes", closed_diodes_hold_their_nodes},
   {"a start is not blamed", a_start_is_not_blamed_for_what_came_later},
   {"capacitors behind diodes", capacitors_are_charged},
   {"constraints by methods that do not damp", constraints_without_damping},

@@ -21,7 +21,7 @@ static int find_structure(stf_repair *r, stf_view *all, stf_offsets *with)
   if (!code) code = stf_factor_rcond(f, &rcond);
   stf_factor_free(&f);
   if (code == STEIF_NO_MEMORY) return code;
-  return code || rcond < STF_REGULAR_RCOND ? STEIF_RETRY : STEIF_OK;
+  return code || rcond < stf_evidence_regular_rcond(s) ? STEIF_RETRY : STEIF_OK;
 }
 
 /* Entries taken as rounding may become large as the run goes on, as the conductance of a diode. Where the structure with

@@ -73,6 +73,9 @@ int stf_evidence_consistent(stf_evidence *evidence);
 int stf_evidence_arrays(stf_evidence *evidence);
 /* Is the system Jacobian regular at all points? */
 bool stf_evidence_certified(const stf_evidence *evidence);
+/* The reciprocal condition of the system Jacobian that certifies it at this point; the smallest of all points. */
+sunrealtype stf_evidence_regular_rcond(const stf_point *point);
+sunrealtype stf_evidence_rcond(const stf_evidence *evidence);
 /* Is it, and has test G the index of the structure at all of them? */
 bool stf_evidence_agrees(const stf_evidence *evidence);
 

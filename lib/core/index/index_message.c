@@ -1,6 +1,7 @@
 /* index_message.c: the sentence on the index.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "evidence.h"
+#include "index_thresholds.h"
 
 static bool any(const int *flag, size_t n, int least)
 {
@@ -34,11 +35,23 @@ static void say_index(const stf_summary *s, steif_diagnosis *d)
     stf_point_say(m, ", for example ");
     stf_point_list(point, m, false, d->prescribe, 1, false);
   }
+  if (stf_evidence_certified(s->e) && d->rcond < STF_REGULAR_RCOND)
+    stf_point_say(m, "; an unknown hangs on small entries (rcond %.1e of the system Jacobian)",
+                  d->rcond);
   if (d->structural >= 0 && !stf_evidence_certified(s->e))
     stf_point_say(m, "; structure says %d, but its Jacobian is singular (cancellation)",
                   d->structural);
   else if (d->structural > d->index)
     stf_point_say(m, "; structure over-estimates: %d", d->structural);
+}
+
+static void say_small_entries(steif_diagnosis *d)
+{
+  if (d->confidence != STEIF_SURE && d->rcond > 0)
+    stf_point_say(d->message,
+                  ", unless small entries are meant as they stand: the system Jacobian "
+                  "is regular with rcond %.1e",
+                  d->rcond);
 }
 
 static void say_singular(const stf_summary *s, steif_diagnosis *d)
@@ -52,6 +65,7 @@ static void say_singular(const stf_summary *s, steif_diagnosis *d)
                   "differentiations up to %d determines y'; look for equations that repeat "
                   "each other and unknowns that none of them fixes",
                   s->e->at[0].growth.rcond, STF_DEEPEST);
+    say_small_entries(d);
     return;
   }
   stf_point_say(m, "singular: equations {");
@@ -74,11 +88,7 @@ void stf_index_message(const stf_summary *s, steif_diagnosis *d)
       "of differentiations up to %d determines y': solutions through one start "
       "differ, a computed one means nothing",
       s->high[0], STF_DEEPEST);
-    if (d->confidence != STEIF_SURE && d->rcond > 0)
-      stf_point_say(d->message,
-                    ", unless small entries are meant as they stand: the system Jacobian "
-                    "is regular with rcond %.1e",
-                    d->rcond);
+    say_small_entries(d);
     break;
   default:
     stf_point_say(

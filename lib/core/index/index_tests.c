@@ -124,7 +124,7 @@ static int measure(stf_evidence *e, int k)
   const stf_offsets *S = &e->offsets;
   STEIF_TRY(measure_jacobian(e, k));
   if (s->n > STEIF_DIAGNOSE_LARGEST && k > 0) return STEIF_OK;
-  const bool good = S->matched && e->at[k].rcond >= STF_REGULAR_RCOND;
+  const bool good = S->matched && e->at[k].rcond >= stf_evidence_regular_rcond(s);
   return stf_resolvent_growth_find(s, &e->view, e->factor, good ? S->component_index : NULL,
                                    &e->at[k].growth);
 }
@@ -139,11 +139,22 @@ int stf_evidence_growth(stf_evidence *e)
   return STEIF_OK;
 }
 
+sunrealtype stf_evidence_regular_rcond(const stf_point *s)
+{
+  return s->analytic ? STF_REGULAR_EXACT : STF_REGULAR_RCOND;
+}
+
+sunrealtype stf_evidence_rcond(const stf_evidence *e)
+{
+  sunrealtype rcond = e->points ? INFINITY : 0;
+  for (int k = 0; k < e->points; k++) rcond = fmin(rcond, e->at[k].rcond);
+  return rcond;
+}
+
 bool stf_evidence_certified(const stf_evidence *e)
 {
-  bool good = e->offsets.matched;
-  for (int k = 0; k < e->points; k++) good = good && e->at[k].rcond >= STF_REGULAR_RCOND;
-  return good;
+  return e->offsets.matched &&
+         (!e->points || stf_evidence_rcond(e) >= stf_evidence_regular_rcond(e->point));
 }
 
 /* Of constant matrices all points are alike; where the structure is not certified there are no stages.

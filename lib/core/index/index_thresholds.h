@@ -9,6 +9,9 @@
 /* Its reciprocal condition, equilibrated, that certifies the structure: entries that cancel leave the
  * error of differences, 1e-9 of their row. */
 #define STF_REGULAR_RCOND 1e-9
+/* The same of exact entries, of callbacks: they leave rounding alone. Between the two an unknown hangs on small entries,
+ * as a node between diodes that are closed: the structure holds, and tells it. */
+#define STF_REGULAR_EXACT 1e-13
 
 /* -- test G: growth of the resolvent --------------------------------------------------------------- */
 

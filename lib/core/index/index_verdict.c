@@ -128,21 +128,16 @@ static void decide_certified(const stf_summary *s, steif_diagnosis *d)
     set(d, STEIF_VARIES, STEIF_PROBABLE, s->high[0] > S ? S : s->high[0]);
   else
     set(d, STEIF_REGULAR, STEIF_PROBABLE, S);
-}
-
-static sunrealtype worst_rcond(const stf_evidence *e)
-{
-  sunrealtype rcond = e->points ? INFINITY : 0;
-  for (int k = 0; k < e->points; k++) rcond = fmin(rcond, e->at[k].rcond);
-  return rcond;
+  if (!closed && stf_evidence_rcond(s->e) < STF_REGULAR_RCOND && d->confidence == STEIF_SURE)
+    d->confidence = STEIF_PROBABLE;
 }
 
 /* Is a system Jacobian of callbacks regular beyond rounding, if only just? Then what the array takes for a null vector may be
  * none. */
 static bool hardly_regular(const stf_evidence *e)
 {
-  const sunrealtype rounding = 1e-14;
-  return e->offsets.matched && e->point->analytic && worst_rcond(e) >= rounding;
+  const sunrealtype rounding = 4 * (sunrealtype)e->point->n * STF_EPS;
+  return e->offsets.matched && e->point->analytic && stf_evidence_rcond(e) >= rounding;
 }
 
 static void decide_by_array(const stf_summary *s, steif_diagnosis *d)
@@ -185,7 +180,7 @@ void stf_verdict(const stf_summary *s, steif_diagnosis *d)
   d->growth = s->high[0];
   d->array = s->high[1];
   d->gap = isfinite(s->gap) ? s->gap : 0;
-  d->rcond = worst_rcond(s->e);
+  d->rcond = stf_evidence_rcond(s->e);
   decide(s, d);
   fill_lists(s, d);
   bound_lists(s, d);
