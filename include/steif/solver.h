@@ -88,7 +88,7 @@ typedef struct steif_options {
   void *observer; /* user of these */
   /* Called before the integration restarts after problem.handle_event, and after a break of the problem
    * where steps of our own methods are adaptive, with rtol: make y(t+) of y and find its slope (yp holds 0
-   * and may stay so); returns a code. steif_reinitialise (jump.h) fits. NULL: behind an event
+   * and may stay so); returns a code. steif_reinitialise (jump.h) fits. NULL: after an event
    * of a DAE of index 2 or 3 whose start may be repaired, y is put on its constraints where that moves components of
    * index 1 by some tolerances at most; else y stays, and algebraic components that are then wrong may stop the
    * run. */

@@ -51,132 +51,17 @@ static bool any_fixed(const stf_repair *r)
 
 /* -- what was done ----------------------------------------------------------------------- */
 
-/* In tolerances. */
-static sunrealtype movement(const stf_repair *r, const sunrealtype *y, size_t j)
-{
-  return fabs(y[j] - r->point.y0[j]) / r->weight[j];
-}
-
-/* Those of `count` moved components without, or with, a derivative that moved most. */
-static void list_moved(stf_repair *r, const sunrealtype *y, bool algebraic, int count)
-{
-  enum { SHOWN = 4 };
-  char room[STEIF_SPEC_WORD], *text = r->report.message;
-  sunrealtype below = INFINITY;
-  for (int shown = 0; shown < SHOWN && shown < count; shown++) {
-    size_t at = 0;
-    sunrealtype most = -1;
-    for (size_t j = 0; j < r->point.n; j++) {
-      const sunrealtype part = movement(r, y, j);
-      if (r->algebraic[j] == algebraic && part < below && part > most) most = part, at = j;
-    }
-    below = most;
-    stf_point_say(text, "%s%s by %.3g",
-                  shown     ? ", "
-                  : text[0] ? ", and without a derivative "
-                            : "start: moved ",
-                  stf_point_unknown(&r->point, at, room), y[at] - r->point.y0[at]);
-  }
-  if (count > SHOWN) stf_point_say(text, " and %d more", count - SHOWN);
-}
-
-/* Count what moved, and name it: jumps of velocities and charges before the forces that follow from them. */
-static void report_moved(stf_repair *r, const sunrealtype *y)
-{
-  int count[2] = {0, 0};
-  for (size_t j = 0; j < r->point.n; j++) {
-    const sunrealtype part = movement(r, y, j);
-    count[r->algebraic[j]] += part > 1;
-    r->report.largest = fmax(r->report.largest, part);
-  }
-  r->report.moved = count[0] + count[1];
-  for (int k = 0; k < 2; k++) list_moved(r, y, k, count[k]);
-}
-
-/* F_i = 0 where equation i has derivatives, or where tolerances of its unknowns, allowed_i in all, make as
- * much of it. */
-static void keep_violations(const stf_repair *r, sunrealtype *F, sunrealtype *allowed)
-{
-  const stf_view *v = &r->view;
-  for (size_t j = 0; j < v->n; j++)
-    for (sunindextype k = v->column[j]; k < v->column[j + 1]; k++) {
-      if (v->has[k] & 1) F[v->row[k]] = 0;
-      allowed[v->row[k]] += fabs(v->b[k]) * r->weight[j];
-    }
-  for (size_t i = 0; i < v->n; i++)
-    if (fabs(F[i]) <= 0.1 * allowed[i]) F[i] = 0;
-}
-
-/* The equations without derivatives that the given start violates most. */
-static int list_violated(stf_repair *r)
-{
-  enum { SHOWN = 3 };
-  stf_point *s = &r->point;
-  char room[STEIF_SPEC_WORD];
-  sunrealtype *F = stf_allocate(r->ctx, 2 * s->n, sizeof *F), below = INFINITY;
-  if (!F) return STEIF_NO_MEMORY;
-  int code = stf_point_residual(s, s->t, s->y0, s->yp0, F);
-  if (!code) keep_violations(r, F, F + s->n);
-  for (int shown = 0; shown < SHOWN && !code; shown++) {
-    size_t at = 0;
-    sunrealtype most = 0;
-    for (size_t i = 0; i < s->n; i++)
-      if (fabs(F[i]) < below && fabs(F[i]) > most) most = fabs(F[i]), at = i;
-    if (!(most > 0)) break;
-    below = most;
-    stf_point_say(r->report.message, "%s%s (off by %.2g)", shown ? ", " : " to fulfil ",
-                  stf_point_equation(s, at, room), most);
-  }
-  stf_release(r->ctx, F);
-  return code < 0 ? code : STEIF_OK;
-}
-
-/* Hidden constraints: those whose derivatives the stages have enforced. */
-static void list_enforced(stf_repair *r, const int *enforced)
-{
-  enum { SHOWN = 3 };
-  char room[STEIF_SPEC_WORD];
-  int shown = 0, most = 0;
-  for (size_t i = 0; i < r->point.n; i++) most = enforced[i] > most ? enforced[i] : most;
-  for (size_t i = 0; i < r->point.n && most > 0; i++) {
-    if (enforced[i] < most) continue;
-    if (shown++ < SHOWN)
-      stf_point_say(r->report.message, "%s%s",
-                    shown > 1 ? ", " : "; kept with their derivatives: ",
-                    stf_point_equation(&r->point, i, room));
-  }
-  if (shown > SHOWN) stf_point_say(r->report.message, " and %d more", shown - SHOWN);
-}
-
-/* Energy and other invariants that the movement has changed. */
-static int list_invariants(stf_repair *r, const sunrealtype *y)
-{
-  const steif_problem *p = r->given;
-  if (p->invariants <= 0 || !p->invariant) return STEIF_OK;
-  const size_t count = (size_t)p->invariants;
-  sunrealtype *a = stf_allocate(r->ctx, 2 * count, sizeof *a);
-  if (!a) return STEIF_NO_MEMORY;
-  memcpy(stf_array(r->point.y), r->point.y0, r->point.n * sizeof *y);
-  int code = p->invariant(r->point.t, r->point.y, a, p->user);
-  memcpy(stf_array(r->point.y), y, r->point.n * sizeof *y);
-  if (!code) code = p->invariant(r->point.t, r->point.y, a + count, p->user);
-  for (size_t k = 0; k < count && !code; k++)
-    if (fabs(a[count + k] - a[k]) > r->rtol * (fabs(a[k]) + 1))
-      stf_point_say(r->report.message, "; invariant %zu changes by %.3g", k + 1,
-                    a[count + k] - a[k]);
-  stf_release(r->ctx, a);
-  return STEIF_OK;
-}
-
 /* Take y as the start: of the copy of the problem, or as an error where only a check is wanted. enforced: of
- * each equation, its derivatives kept by stages; NULL: none. */
-static int use(stf_repair *r, const sunrealtype *y, const sunrealtype *yp, const int *enforced)
+ * each equation, its derivatives kept by stages; d, enforced NULL: there are none. */
+static int use(stf_repair *r, const sunrealtype *y, const sunrealtype *yp,
+               const steif_diagnosis *d, const int *enforced)
 {
-  report_moved(r, y);
+  stf_report_moved(r, y);
   if (!r->report.moved) return STEIF_OK;
-  STEIF_TRY(list_violated(r));
-  if (enforced) list_enforced(r, enforced);
-  STEIF_TRY(list_invariants(r, y));
+  STEIF_TRY(stf_report_violated(r));
+  if (enforced) stf_report_enforced(r, enforced);
+  if (d) STEIF_TRY(stf_report_impulses(r, d, y));
+  STEIF_TRY(stf_report_invariants(r, y));
   STEIF_CHECK(
     r->policy == STEIF_REPAIR, r->ctx, STEIF_BAD_INPUT,
     "the start of '%s' is not consistent; a repair would have %s: give this start, or "
@@ -231,7 +116,7 @@ static int by_stages(stf_repair *r, stf_evidence *e, const steif_diagnosis *d)
   STEIF_TRY(stf_start_with(e, d, &request, &nodes, &start));
   int code = check_positions(r, d, &start);
   if (!code) code = stf_keep_momenta(r, e, d, &request, &start);
-  if (!code) code = use(r, start.y, start.yp, start.enforced);
+  if (!code) code = use(r, start.y, start.yp, d, start.enforced);
   steif_start_clear(&start);
   return code;
 }
@@ -239,13 +124,15 @@ static int by_stages(stf_repair *r, stf_evidence *e, const steif_diagnosis *d)
 /* A start that violates hidden constraints and stays as it is: said, or an error where a check is wanted. */
 static int leave(stf_repair *r, const char *why)
 {
-  STEIF_CHECK(r->policy == STEIF_REPAIR, r->ctx, STEIF_UNSUPPORTED,
+  STEIF_CHECK(r->policy != STEIF_CHECK, r->ctx, STEIF_UNSUPPORTED,
               "hidden constraints of '%s' do not hold at its start, and it is not repaired: %s",
               r->given->name, why);
   stf_point_say(r->report.message,
                 "start: hidden constraints do not hold, and nothing was moved: %s", why);
   return STEIF_OK;
 }
+
+static const char as_given[] = "it stays as given, and the first step jumps";
 
 static int diagnosed(stf_repair *r, bool wanted)
 {
@@ -259,7 +146,9 @@ static int diagnosed(stf_repair *r, bool wanted)
   if (!code) code = stf_first_jump(r, &jump);
   const bool ordered =
     r->point.n <= STEIF_DIAGNOSE_LARGEST || stf_evidence_certified(&evidence);
-  if (!code && (jump > 1 || any_fixed(r)) && ordered && d.index >= 0)
+  if (!code && r->policy == STEIF_AS_GIVEN)
+    code = jump > 1 ? leave(r, as_given) : STEIF_OK;
+  else if (!code && (jump > 1 || any_fixed(r)) && ordered && d.index >= 0)
     code = by_stages(r, &evidence, &d);
   else if (!code && jump > 1)
     code = leave(r, d.index < 0 ? "its index is not decided"
@@ -275,6 +164,7 @@ static int higher_index(stf_repair *r)
   const bool declared = r->given->index || r->given->dae_index == 1;
   sunrealtype jump = INFINITY;
   if (declared) STEIF_TRY(stf_first_jump(r, &jump));
+  if (declared && r->policy == STEIF_AS_GIVEN) return jump > 1 ? leave(r, as_given) : STEIF_OK;
   return jump > 1 ? diagnosed(r, !declared) : STEIF_OK;
 }
 
@@ -296,7 +186,7 @@ static int check_fixed(stf_repair *r)
 
 static int unsolved(stf_repair *r)
 {
-  STEIF_TRY(list_violated(r));
+  STEIF_TRY(stf_report_violated(r));
   return STEIF_FAIL(
     r->ctx, STEIF_NO_CONVERGENCE,
     "the start of '%s' is not consistent, and Newton's iteration finds no values "
@@ -313,7 +203,7 @@ static int index_one(stf_repair *r)
   if (first <= 1) return STEIF_OK;
   STEIF_TRY(stf_nearest_branch(r, first));
   STEIF_TRY(check_fixed(r));
-  return use(r, r->y, r->yp, NULL);
+  return use(r, r->y, r->yp, NULL, NULL);
 }
 
 /* Components of index 2 or 3 are declared: no factors are needed to see that. */
@@ -332,7 +222,7 @@ static int start(stf_repair *r)
   if (!declared_higher(r)) STEIF_TRY(stf_index_one(r, &regular));
   if (!regular) return higher_index(r);
   if (r->count && r->problem.dae_index < 1) r->problem.dae_index = 1;
-  return r->count ? index_one(r) : STEIF_OK;
+  return r->count && r->policy != STEIF_AS_GIVEN ? index_one(r) : STEIF_OK;
 }
 
 /* What a look cannot evaluate, the run meets itself and tells better. A start without a repair near it may

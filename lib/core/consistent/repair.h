@@ -39,6 +39,17 @@ typedef struct stf_repair {
  * lives: a run may take its system over. */
 int stf_repair_start(stf_repair *repair);
 
+/* repair_report.c, appended to the report's sentence. What moved to y, counted too; the equations that the start violates most;
+ * those whose derivatives the stages have kept, and how often; momenta and charges that velocities of a jump have changed;
+ * invariants that change. */
+struct steif_diagnosis;
+void stf_report_moved(stf_repair *repair, const sunrealtype *y);
+int stf_report_violated(stf_repair *repair);
+void stf_report_enforced(stf_repair *repair, const int *enforced);
+int stf_report_impulses(stf_repair *repair, const struct steif_diagnosis *d,
+                        const sunrealtype *y);
+int stf_report_invariants(stf_repair *repair, const sunrealtype *y);
+
 /* algebraic_newton.c: C = (columns of F_y' with entries | columns of F_y of the others), by which F = 0
  * is solved for y_d' and y_a. *regular: the DAE has index 1 (0 without algebraic components). */
 int stf_index_one(stf_repair *repair, bool *regular);

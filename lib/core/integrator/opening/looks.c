@@ -46,8 +46,8 @@ int stf_look_at_start(steif_solver *s, int form)
   const steif_problem *p = s->problem;
   const bool dae = form == STEIF_MASS || form == STEIF_IMPLICIT;
   const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
-  if (!dae || o->initial == STEIF_AS_GIVEN || o->h > 0 || o->mesh || o->like || p->start ||
-      storage == STEIF_KRYLOV || p->storage == STEIF_KRYLOV)
+  if (!dae || o->h > 0 || o->mesh || o->like || p->start || storage == STEIF_KRYLOV ||
+      p->storage == STEIF_KRYLOV)
     return STEIF_OK;
   s->repair = (stf_repair){.ctx = s->ctx,
                            .pool = s->pool,

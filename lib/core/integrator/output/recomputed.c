@@ -43,7 +43,9 @@ int stf_recompute_mode(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, 
 {
   steif_start start;
   *known = false;
-  if (!stf_recomputes(s) || !s->repair.algebraic || s->saltation) return STEIF_OK;
+  if (!stf_recomputes(s) || !s->repair.algebraic || s->repair.policy != STEIF_REPAIR ||
+      s->saltation)
+    return STEIF_OK;
   const steif_point at = {.y = stf_array(y), .t = t};
   const bool before = stf_silence(s->ctx, true);
   const int code = stf_start_beside(s->ctx, s->problem, &at, NULL, &start);
