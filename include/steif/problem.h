@@ -158,7 +158,8 @@ struct steif_problem {
   sunindextype nnz_E;
   /* Of dF/dy (+ dF/dy'): differences by groups of columns. The 1st, 2nd, 4th ... Jacobian of a run, of
    * baselines too, and those after failures of Newton's iteration are probed: entries that the pattern misses
-   * join a copy of it. */
+   * join a copy of it. NULL: with STEIF_SPARSE, no Jacobian, nnz = 0 and n <= 20000 a solver finds it, by
+   * steif_pattern_find, and says so in steif_method_used. */
   const steif_pattern *pattern;
 
   const int *index;      /* n entries 1, 2, 3: index of each component as in RADAU5; norms

@@ -66,15 +66,21 @@ static int diffusion(sunrealtype t, N_Vector y, N_Vector out, void *user)
   return 0;
 }
 
-static bool diffuses_by(int m, double rtol, const char *method)
+static double *bulge(int m)
 {
-  steif_context *ctx = steif_context_new(NULL);
-  steif_pattern *pattern = NULL;
   const double pi = 3.14159265358979;
   double *y0 = malloc((size_t)(m * m) * sizeof *y0);
   side = m;
   for (int k = 0; k < m * m; k++)
     y0[k] = sin(pi * (k / m + 1.0) / (m + 1)) * sin(pi * (k % m + 1.0) / (m + 1));
+  return y0;
+}
+
+static bool diffuses_by(int m, double rtol, const char *method)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_pattern *pattern = NULL;
+  double *y0 = bulge(m);
   steif_problem p = {.name = "diffusion", .n = m * m, .t1 = 0.1, .y0 = y0, .f = diffusion};
   CU_ASSERT_FATAL(y0 && !steif_pattern_find(ctx, &p, &pattern));
   p.pattern = pattern, p.storage = STEIF_SPARSE;
@@ -88,6 +94,35 @@ static bool diffuses_by(int m, double rtol, const char *method)
   free(y0);
   steif_context_free(&ctx);
   return good;
+}
+
+/* Nobody has given it: it is found, 5 m^2 - 4 m entries, and the run is that with it. */
+static void patterns_are_found_where_none_is_given(void)
+{
+  static const char *const methods[] = {"auto", "radau:s=3", "bdf", "dirk:hw43", "cvode"};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_pattern *pattern = NULL;
+  double *y0 = bulge(10), end[2];
+  side = 10;
+  steif_problem p = {.name = "diffusion", .n = 100, .t1 = 0.1, .y0 = y0, .f = diffusion};
+  CU_ASSERT_FATAL(y0 && !steif_pattern_find(ctx, &p, &pattern));
+  p.storage = STEIF_SPARSE;
+  for (int m = 0; m < 5; m++)
+    for (int given = 0; given < 2; given++) {
+      p.pattern = given ? pattern : NULL;
+      steif_solver *s = steif_solver_new(ctx, &p, methods[m], NULL);
+      CU_ASSERT_FATAL(s && !steif_solve_to(s, 0.1));
+      const char *told = strstr(steif_method_used(s), "[pattern found: 460 entries]");
+      CHECK(m == 0 || (told != NULL) == !given); /* auto may have turned to dopri87 */
+      end[given] = NV_Ith_S(steif_solution(s), 55);
+      steif_solver_free(&s);
+      CHECK(!given || end[1] == end[0]);
+    }
+  p.pattern = NULL, p.n = 30000; /* too many evaluations to do that unasked */
+  CHECK(!steif_solver_new(ctx, &p, "auto", NULL) && steif_status(ctx) == STEIF_BAD_INPUT);
+  steif_pattern_free(ctx, &pattern);
+  free(y0);
+  steif_context_free(&ctx);
 }
 
 /* Explicit steps take 150 and 570 steps by stability, radau:s=5 7 to 12 by accuracy: measured side by side,
@@ -142,6 +177,7 @@ static void medium_dense_systems_take_collocation(void)
 }
 
 CU_TestInfo tests_of_auto[] = {
+  {"patterns are found", patterns_are_found_where_none_is_given},
   {"diffusion takes what is cheapest", diffusion_takes_what_is_cheapest},
   {"chains take Rosenbrock", chains_take_rosenbrock},
   {"grids keep one matrix", grids_keep_one_matrix},

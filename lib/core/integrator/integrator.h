@@ -34,9 +34,11 @@ struct steif_solver {
   steif_context *ctx;
   stf_pool *pool;
   const steif_problem *problem, *given; /* given: before the start was repaired */
-  steif_problem whole;                  /* the caller's, where his header had a shorter one */
-  const char *spec;                     /* as the caller wrote it */
-  sunrealtype t1_opened;                /* t1 at first: it may have been extended */
+  steif_problem
+    whole; /* the caller's, where his header had a shorter one, or with what was found */
+  bool pattern_found;
+  const char *spec;           /* as the caller wrote it */
+  sunrealtype t1_opened;      /* t1 at first: it may have been extended */
   steif_spec parsed;          /* that of the method in use; of auto its first choice ... */
   const char *chosen;         /* ... which is this; NULL: not auto */
   const steif_method *family; /* before a variant of it took over, and its state */
@@ -109,6 +111,11 @@ int stf_whole_problem(steif_context *ctx, const steif_problem *given, size_t byt
 int stf_reserved_check(steif_context *ctx, const char *name, size_t count,
                        void *const *reserved);
 #define STF_COUNT(array) (sizeof(array) / sizeof *(array))
+
+/* opening/pattern.c: a pattern for a sparse problem without Jacobian and pattern, by steif_pattern_find; and in the
+ * method's name. */
+int stf_look_at_pattern(steif_solver *s);
+void stf_tell_pattern(steif_solver *s);
 
 /* opening/looks.c, before a method is opened. Without .dae_index the highest of .index is it. */
 int stf_look_at_index(steif_solver *s);

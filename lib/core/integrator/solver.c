@@ -301,6 +301,7 @@ static int open(steif_solver *s, const char *method)
   if (automatic || !s->engine) STEIF_TRY(stf_look_at_start(s, form));
   if (automatic)
     s->chosen = method = stf_choose(s->problem, &s->options, form, s->method, sizeof s->method);
+  stf_tell_pattern(s);
   STEIF_TRY(steif_spec_parse(s->ctx, method, spec));
   s->engine = stf_engine_find(spec->name);
   STEIF_TRY(s->engine ? open_engine(s, form, spec, y, yp) : open_step(s, form, spec, y, yp));
@@ -345,9 +346,10 @@ static int take_given(steif_solver *s, const steif_problem *problem, size_t prob
                         &s->options));
   STEIF_TRY(stf_reserved_check(s->ctx, "steif_options", STF_COUNT(s->options.reserved),
                                s->options.reserved));
-  return s->problem ? stf_reserved_check(s->ctx, "steif_problem",
-                                         STF_COUNT(s->problem->reserved), s->problem->reserved)
-                    : STEIF_OK;
+  if (s->problem)
+    STEIF_TRY(stf_reserved_check(s->ctx, "steif_problem", STF_COUNT(s->problem->reserved),
+                                 s->problem->reserved));
+  return stf_look_at_pattern(s);
 }
 
 static N_Vector like_of(const steif_options *o, size_t bytes)
@@ -392,9 +394,4 @@ void steif_solver_free(steif_solver **s)
   stf_pool_free(&(*s)->pool);
   stf_release(ctx, *s);
   *s = NULL;
-}
-
-const steif_repair *steif_initial_used(const steif_solver *s)
-{
-  return s ? &s->repair.report : NULL;
 }

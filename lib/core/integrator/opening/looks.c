@@ -61,3 +61,8 @@ int stf_look_at_start(steif_solver *s, int form)
   s->problem = &s->repair.problem;
   return STEIF_OK;
 }
+
+const steif_repair *steif_initial_used(const steif_solver *s)
+{
+  return s ? &s->repair.report : NULL;
+}
