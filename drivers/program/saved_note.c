@@ -124,16 +124,46 @@ static uint64_t read_into(uint64_t sum, const char *path)
   return sum;
 }
 
+/* Files that a model names in quotes, tables and includes, relative to its own folder. */
+static uint64_t read_named(uint64_t sum, const char *model)
+{
+  char path[4096], *name;
+  const char *slash = strrchr(model, '/');
+  const size_t folder = slash ? (size_t)(slash - model) + 1 : 0;
+  FILE *file = folder < sizeof path ? fopen(model, "r") : NULL;
+  if (!file) return sum;
+  memcpy(path, model, folder);
+  for (int c; (c = getc(file)) != EOF;) {
+    if (c != '"') continue;
+    for (name = path + folder; (c = getc(file)) != EOF && c != '"' && c != '\n';)
+      if (name < path + sizeof path - 1) *name++ = (char)c;
+    *name = 0;
+    if (name > path + folder) sum = read_into(sum, path[folder] == '/' ? path + folder : path);
+  }
+  fclose(file);
+  return sum;
+}
+
+static uint64_t read_word(uint64_t sum, const char *word)
+{
+  char path[4096];
+  const char *end = strstr(word, ".steif");
+  const size_t length = end ? (size_t)(end - word) + strlen(".steif") : strlen(word);
+  if (length >= sizeof path) return sum;
+  memcpy(path, word, length), path[length] = 0;
+  sum = read_into(sum, path);
+  return end ? read_named(sum, path) : sum;
+}
+
+/* Of words and of options that are read: --forcing, --x0, --input. */
 uint64_t note_files(const struct call *call)
 {
   uint64_t sum = 0xcbf29ce484222325u;
-  char path[4096];
-  for (int i = 0; i < call->words; i++) {
-    const char *word = call->word[i], *end = strstr(word, ".steif");
-    const size_t length = end ? (size_t)(end - word) + strlen(".steif") : strlen(word);
-    if (length >= sizeof path) continue;
-    memcpy(path, word, length), path[length] = 0;
-    sum = read_into(sum, path);
+  for (int i = 0; i < call->words; i++) sum = read_word(sum, call->word[i]);
+  for (int i = 0; i < call->options; i++) {
+    const struct option *o = call->given[i].option;
+    if (o->kind != FLAG && o->kind != OUTPUT && strcmp(o->name, "--checkpoint"))
+      sum = read_into(sum, call->given[i].text);
   }
   return sum;
 }

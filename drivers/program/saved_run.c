@@ -56,10 +56,12 @@ static int extend(struct call *call, steif_solver *s, double t1, double before)
 
 static int changed(const struct call *call)
 {
-  say(call,
-      "\"%s\" was saved before %s changed: bring the file of that run back, or solve anew "
-      "[STEIF_BAD_INPUT]",
-      call->continues, call->word[0]);
+  say(
+    call,
+    "\"%s\" was saved before %s, or a file that it reads, changed: bring the files of that run "
+    "back, or solve anew "
+    "[STEIF_BAD_INPUT]",
+    call->continues, call->word[0]);
   return EXIT_FILE;
 }
 

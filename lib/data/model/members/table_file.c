@@ -129,6 +129,7 @@ static bool number(const char *line, long k, double *value)
   return end == at + length && isfinite(*value);
 }
 
+/* A column by its number needs no names: a first line of numbers is a row. */
 static int rows(stf_model *m, const stf_statement *s, const stf_statement *column,
                 stf_lines *lines, const char *file, columns *c)
 {
@@ -136,9 +137,10 @@ static int rows(stf_model *m, const stf_statement *s, const stf_statement *colum
   long x, y;
   STEIF_TRY(stf_line_next(lines, &more));
   STEIF_TRY(header(m, s, column, lines->text, file, &x, &y));
-  for (;;) {
-    double a, b;
-    STEIF_TRY(stf_line_next(lines, &more));
+  double a, b;
+  bool here = !column->strlength && number(lines->text, x, &a) && number(lines->text, y, &b);
+  for (;; here = false) {
+    if (!here) STEIF_TRY(stf_line_next(lines, &more));
     if (!more) return STEIF_OK;
     if (!lines->text[strspn(lines->text, " \t\r")]) continue;
     if (!number(lines->text, x, &a) || !number(lines->text, y, &b))
