@@ -89,9 +89,9 @@ typedef struct steif_options {
   /* Called before the integration restarts after problem.handle_event, and after a break of the problem
    * where steps of our own methods are adaptive, with rtol: make y(t+) of y and find its slope (yp holds 0
    * and may stay so); returns a code. steif_reinitialise (jump.h) fits. NULL: after an event
-   * of a DAE of index 2 or 3 whose start may be repaired, y is put on its constraints where that moves components of
-   * index 1 by some tolerances at most; else y stays, and algebraic components that are then wrong may stop the
-   * run. */
+   * of a DAE whose start may be repaired, algebraic components follow from the others; of index 2 and 3 y is put on its
+   * constraints where that moves components of index 1 by some tolerances at most. Else y stays, and algebraic components
+   * that are then wrong may stop the run. */
   int (*reinitialise)(steif_context *ctx, const steif_problem *problem, sunrealtype t,
                       sunrealtype rtol, N_Vector y, N_Vector yp);
   enum steif_initial

@@ -168,6 +168,53 @@ static void a_corner_of_a_constraint_is_crossed(void)
   fixture_close(&s);
 }
 
+/* A tank whose outlet has a check valve: a state between events is put on the algebraic equations of its mode, else the
+ * valve is found open and closed in turn. radau:s=5, radau:s=7, gauss:s=4 and gauss:s=5 at 1e-12 agree in all digits. */
+static void a_valve_opens_and_closes(void)
+{
+  static const char *const methods[] = {"auto",      "bdf",     "radau:s=3", "radau:s=7",
+                                        "gauss:s=3", "rodas5p", "rodas4p",   "dirk:esdirk43"};
+  static const double rtols[] = {1e-4, 1e-6, 1e-8};
+  fixture s;
+  double y[3];
+  CU_ASSERT_FATAL(!fixture_text(&s,
+                                "state h = 1, q ~ 0, p ~ 1\nh' = -q\n"
+                                "0 = p - h - 0.5*sin(5*t)\n"
+                                "0 = q - (if p > 0.8 then 2*(p - 0.8) else 0)\ntime 0 to 10\n",
+                                ""));
+  for (int m = 0; m < 8; m++)
+    for (int k = 0; k < 3; k++) {
+      CHECK(run(&s, methods[m], rtols[k], y) == STEIF_OK);
+      CLOSE_FLOOR(y[0], 0.332529003414, 10 * rtols[k], 1);
+      CLOSE_FLOOR(y[2], 0.201341576562, 10 * rtols[k], 1);
+      CHECK(fabs(y[1]) < 10 * rtols[k]);
+    }
+  fixture_close(&s);
+}
+
+/* A pendulum of index 3 strikes a wall: x = sin a, y = -cos a, a'' = -g sin a, radau:s=7 and gauss:s=5 at 1e-12. */
+static void a_pendulum_strikes_a_wall(void)
+{
+  static const char *const methods[] = {"auto", "bdf", "radau:s=3", "radau:s=5"};
+  static const double rtols[] = {1e-4, 1e-6, 1e-8};
+  const double a = 0.429682865139, w = 0.446285262301;
+  fixture s;
+  double y[5];
+  CU_ASSERT_FATAL(!fixture_text(&s,
+                                "state x ~ 1, y = 0, u ~ 0, v = 0, lam\nx' = u\ny' = v\n"
+                                "u' = -lam*x\nv' = -lam*y - 9.81\n0 = x^2 + y^2 - 1\n"
+                                "when x < 0.3:\n u = -0.7*u\n v = -0.7*v\nend\ntime 0 to 3\n",
+                                ""));
+  for (int m = 0; m < 4; m++)
+    for (int k = 0; k < 3; k++) {
+      CHECK(run(&s, methods[m], rtols[k], y) == STEIF_OK);
+      CLOSE_FLOOR(y[0], sin(a), 10 * rtols[k], 1);
+      CLOSE_FLOOR(y[1], -cos(a), 10 * rtols[k], 1);
+      CLOSE_FLOOR(y[2], w * cos(a), 20 * rtols[k], 1);
+    }
+  fixture_close(&s);
+}
+
 /* Infinitely many bounces in a finite time, with and without drag: whatever the method and the tolerance, the ball
  * never falls through the ground, and the run ends near the time that the sum of the bounces has. */
 static void a_ball_does_not_sink_into_the_ground(void)
@@ -223,6 +270,8 @@ CU_TestInfo tests_of_events[] = {
   {"a ball does not sink", a_ball_does_not_sink_into_the_ground},
   {"a thousand bounces", a_thousand_bounces_find_the_ground_where_it_is},
   {"a tank runs empty", a_tank_runs_empty},
+  {"a valve", a_valve_opens_and_closes},
+  {"a pendulum strikes a wall", a_pendulum_strikes_a_wall},
   {"a corner of a constraint", a_corner_of_a_constraint_is_crossed},
   {"kinks", kinks_are_events},
   {"conditions of time", conditions_of_time_are_breaks},

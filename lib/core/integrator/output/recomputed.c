@@ -39,10 +39,42 @@ static bool stays(const steif_solver *s, const sunrealtype *y, const steif_start
   return true;
 }
 
+static bool repairs_algebraic(const steif_solver *s)
+{
+  const stf_repair *r = &s->repair;
+  return !s->engine && s->step.adaptive && s->problem->dae_index == 1 && r->count > 0 &&
+         r->policy == STEIF_REPAIR && !s->saltation && s->step.system.space.serial;
+}
+
+/* Of index 1: unknowns with a derivative stay, the others follow, as at a start. */
+static int take_algebraic(steif_solver *s, sunrealtype t, N_Vector y)
+{
+  const steif_options *o = &s->options;
+  steif_problem at = *s->problem;
+  stf_pool *pool = stf_pool_new(s->ctx);
+  at.t0 = t, at.y0 = stf_array(y), at.yp0 = NULL, at.start = NULL;
+  stf_repair repair = {.ctx = s->ctx,
+                       .pool = pool,
+                       .given = &at,
+                       .policy = STEIF_REPAIR,
+                       .rtol = o->rtol,
+                       .atol = o->atol,
+                       .atols = o->atols};
+  const bool before = stf_silence(s->ctx, true);
+  const int code = pool ? stf_repair_start(&repair) : STEIF_NO_MEMORY;
+  stf_silence(s->ctx, before);
+  if (!code && repair.report.y)
+    memcpy(stf_array(y), repair.report.y, (size_t)at.n * sizeof *repair.report.y);
+  stf_pool_free(&pool);
+  if (code && code != STEIF_NO_MEMORY) steif_forget(s->ctx);
+  return code == STEIF_NO_MEMORY ? code : STEIF_OK;
+}
+
 int stf_recompute_mode(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool *known)
 {
   steif_start start;
   *known = false;
+  if (repairs_algebraic(s)) return take_algebraic(s, t, y);
   if (!stf_recomputes(s) || !s->repair.algebraic || s->repair.policy != STEIF_REPAIR ||
       s->saltation)
     return STEIF_OK;
