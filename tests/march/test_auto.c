@@ -118,7 +118,8 @@ static void patterns_are_found_where_none_is_given(void)
       steif_solver_free(&s);
       CHECK(!given || end[1] == end[0]);
     }
-  p.pattern = NULL, p.n = 30000; /* too many evaluations to do that unasked */
+  static double many[30000];
+  p.pattern = NULL, p.n = 30000, p.y0 = many; /* too many evaluations to do that unasked */
   CHECK(!steif_solver_new(ctx, &p, "auto", NULL) && steif_status(ctx) == STEIF_BAD_INPUT);
   steif_pattern_free(ctx, &pattern);
   free(y0);
