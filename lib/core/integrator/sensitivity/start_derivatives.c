@@ -75,7 +75,7 @@ static int compare(steif_solver *s, int k, N_Vector S0, N_Vector found)
   return STEIF_OK;
 }
 
-/* ---- jumps of index 1, of starts that were not repaired ----------------------------------------  */
+/* ---- jumps of index 1, of starts that were not repaired ---------------------------------------- */
 
 /* out_k += weight d_k(h), h = 1/shift. STEIF_RETRY: singular there. */
 static int add_step(stf_carry *T, sunrealtype shift, sunrealtype weight, N_Vector *out)
