@@ -162,14 +162,15 @@ static int follow(stf_search *c, stf_view *v, stf_factor *f, sunrealtype s,
 {
   const steif_history *scene = c->scene;
   const size_t n = c->point->n;
+  const sunindextype entries = v->column[n];
   size_t looked = 0, stride = 1, row = 0;
   for (size_t k = scene->count; k-- > 0 && looked < LOOKED_AT && p->count < POINTS; looked++) {
     sunrealtype N;
     const sunrealtype *y = scene->y + k * n, *yp = scene->yp + k * n;
-    const sunindextype entries = v->column[n];
     const int code = stf_view_take(c->point, scene->t[k], y, yp, v);
     if (code < 0) return code;
-    if (code || v->column[n] != entries) return STEIF_OK;
+    if (code) return STEIF_OK;
+    if (v->column[n] != entries) continue;
     const int singular = inverse(c, v, f, s, unit, &N, &row);
     if (singular && singular != STEIF_SINGULAR) return singular;
     if (singular || !isfinite(N)) continue;
@@ -212,6 +213,24 @@ static void judge_impasse(stf_search *c, const track *p)
                 T, stf_point_unknown(c->point, p->row, room), cause->value[0]);
 }
 
+/* E and B at that of the last points with the most entries: where the run ended, what vanishes may be 0. */
+static int take_fullest(stf_search *c, stf_view *v)
+{
+  enum { LAST = 4 };
+  const steif_history *scene = c->scene;
+  const size_t n = c->point->n;
+  size_t best = scene->count;
+  sunindextype most = 0;
+  for (size_t k = scene->count; k-- > 0 && k + LAST >= scene->count;) {
+    const int code =
+      stf_view_take(c->point, scene->t[k], scene->y + k * n, scene->yp + k * n, v);
+    if (code < 0) return code;
+    if (!code && v->column[n] > most) most = v->column[n], best = k;
+  }
+  if (best == scene->count) return STEIF_RETRY;
+  return stf_view_take(c->point, scene->t[best], scene->y + best * n, scene->yp + best * n, v);
+}
+
 int stf_cause_impasse(stf_search *c)
 {
   stf_point *point = c->point;
@@ -222,7 +241,7 @@ int stf_cause_impasse(stf_search *c)
   if (c->scene->count < 5) return STEIF_OK;
   sunrealtype *unit = stf_allocate(point->ctx, point->n, sizeof *unit);
   int code = unit ? STEIF_OK : STEIF_NO_MEMORY;
-  if (!code) code = stf_view_take(point, point->t, point->y0, point->yp0, &v);
+  if (!code) code = take_fullest(c, &v);
   if (!code) code = stf_factor_open(point, &v, &f);
   if (!code) {
     stf_view_rates(point, &v, &slow, &fast);

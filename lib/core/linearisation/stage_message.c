@@ -120,6 +120,21 @@ static int singular(stf_stage *w, stf_nearest_point *m, size_t worst)
 
 /* -- the verdict ------------------------------------------------------------------------- */
 
+/* What the lower derivatives of an unknown, known from earlier stages, let its next one be where that is 0 by
+ * chance, as every jerk of a body that starts from rest: size (|y^(k)| / size)^(order / k). */
+static sunrealtype expected(const stf_stage *w, size_t j)
+{
+  const int order = stf_stage_order(w, j);
+  const sunrealtype size = fmax(fabs(w->u[j]), w->task->point->floor[j]);
+  sunrealtype most = 0, factorial = 1;
+  for (int k = 1; k < order && size > 0; k++) {
+    factorial *= k;
+    const sunrealtype part = factorial * fabs(w->u[(size_t)k * w->n + j]) / size;
+    most = fmax(most, size * pow(part, (sunrealtype)order / k));
+  }
+  return most;
+}
+
 /* Largest residual against the terms of its equation; *worst names the row. */
 static sunrealtype leftover(const stf_stage *w, const stf_nearest_point *m, size_t *worst)
 {
@@ -128,7 +143,7 @@ static sunrealtype leftover(const stf_stage *w, const stf_nearest_point *m, size
   for (size_t k = 0; k < m->rows; k++) size[k] = w->task->scale[w->equation[k]];
   for (size_t l = 0; l < m->columns; l++) {
     const size_t j = w->unknown[l];
-    const sunrealtype z = fmax(fabs(m->z[l]), m->unit[l]);
+    const sunrealtype z = fmax(fmax(fabs(m->z[l]), m->unit[l]), expected(w, j));
     for (sunindextype k = w->view.column[j]; k < w->view.column[j + 1]; k++) {
       if (!stf_stage_entry(w, j, k, &value)) continue;
       sunrealtype *at = &size[w->row[w->view.row[k]]];
