@@ -4,6 +4,7 @@
 #define STEIF_DATA_H
 
 #include <steif/collection.h>
+#include <steif/forcing.h>
 #include <steif/input.h>
 #include <steif/model.h>
 #include <steif/report.h>

@@ -5,7 +5,7 @@
 #include "suite.h"
 #include <nvector/nvector_serial.h>
 #include <stdbool.h>
-#include <steif/input.h>
+#include <steif/forcing.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -127,7 +127,7 @@ static void defective_matrices_have_logarithms(void)
   steif_context_free(&ctx);
 }
 
-/* A forcing function of steif/input.h as input. */
+/* A forcing function of steif/forcing.h as input. */
 struct text {
   steif_function *f;
   N_Vector g;

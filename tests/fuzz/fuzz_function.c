@@ -3,7 +3,7 @@
  * failure with a sentence, and its breakpoints must ascend.
  *   cmake -DSTEIF_FUZZ=ON -DCMAKE_C_COMPILER=clang ..., then ./fuzz_function -max_total_time=60
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "input.h"
+#include "forcing.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdint.h>

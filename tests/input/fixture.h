@@ -7,6 +7,7 @@
 #include "suite.h"
 #include <nvector/nvector_serial.h>
 #include <stdbool.h>
+#include <steif/forcing.h>
 #include <steif/input.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>

@@ -33,7 +33,12 @@ static void the_count_of_expressions_is_checked(void)
   CHECK(!steif_function_read(ctx, put("many.txt", three), 2, NULL));
   SAYS(ctx, "many.txt, line 5: more than 2 expressions");
   CHECK(!steif_function_read(ctx, put("wrong.txt", "t\n2*t\n\nt +* 4\n"), 3, NULL));
-  SAYS(ctx, "wrong.txt, line 4, position 4: expected");
+  SAYS(ctx, "wrong.txt:4:4: expected");
+  CHECK(
+    !steif_function_read(ctx, put("open.txt", "(t +\n2)\n"), 1, NULL)); /* a line is whole */
+  SAYS(ctx, "open.txt:1:5: expected an expression, found the end of the line");
+  CHECK(!steif_function_parse(ctx, "2 +; t", 1, NULL));
+  SAYS(ctx, "expression 1, position 4: expected an expression");
   CHECK(!steif_function_read(ctx, put("none.txt", ""), 1, NULL));
   SAYS(ctx, "none.txt ends at line 0 after 0 of 1");
   CHECK(!steif_function_parse(ctx, "t; 2*t", 3, NULL));
@@ -137,6 +142,28 @@ static void values_at_breakpoints_are_right_limits(void)
   CHECK(ask(ctx, f, 4, 2, 0.29, 0) == 1 && ask(ctx, f, 4, 2, 0.3, 0) == 0);
   CHECK(ask(ctx, f, 4, 3, 1, 0) == 0.5 && ask(ctx, f, 4, 3, 1, 1) == -2);
   CHECK(ask(ctx, f, 4, 3, 1.25, 1) == 0 && ask(ctx, f, 4, 3, 1.5, 0) == 0);
+  steif_function_free(&f);
+  /* 3 t - 0.3 is rounded to 5.6e-17 at the break of the first, 3 t - 2.1 to -4.4e-16 there: t itself decides. */
+  f = steif_function_parse(ctx,
+                           "step(3*t - 0.3); step(3*t - 2.1); if 3*t < 2.1 then t else 2; "
+                           "sign(7*t - 4.9); abs(3*t - 2.1)",
+                           5, NULL);
+  double at[8];
+  const size_t count = steif_function_breaks(f, 0, 5, 8, at);
+  CHECK(count >= 2);
+  for (size_t k = 0; k < count && count <= 8; k++) {
+    const bool first = at[k] < .5;
+    CHECK(ask(ctx, f, 5, 0, at[k], 0) == 1 && ask(ctx, f, 5, 0, nextafter(at[0], 0), 0) == 0);
+    CHECK(ask(ctx, f, 5, 4, at[k], 1) == (first ? -3 : 3));
+  }
+  for (int k = 1; k < 4;
+       k++) { /* each jumps at one of the breaks, between it and the number before */
+    int jumps = 0;
+    for (size_t i = 0; i < count; i++)
+      jumps += ask(ctx, f, 5, k, at[i], 0) != ask(ctx, f, 5, k, nextafter(at[i], 0), 0) &&
+               fabs(at[i] - .7) < 1e-15;
+    CHECK(jumps >= 1);
+  }
   steif_function_free(&f);
   steif_context_free(&ctx);
 }

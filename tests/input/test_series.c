@@ -199,10 +199,10 @@ static void where_there_is_no_value_it_is_said(void)
                   {"sqrt(t)", "that is not whole", -0.25, -1, 0},
                   {"t^-2", "a negative power of zero", 0, -1, 0},
                   {"t^-0.5", "a negative power of zero", 0, -1, 0},
-                  {"t^t", "the exponent not constant", 0, -1, 0},
-                  {"(-2)^t", "the exponent not constant", 1, -1, 0},
-                  {"abs(sin(t))", "abs at zero", 0, 0, 1},
-                  {"max(sin(t), t^2)", "where both are equal", 0, 0, 1},
+                  {"t^t", "the exponent not constant", 0, 0, 1},
+                  {"(-2)^t", "the exponent not constant", 1, 0, 1},
+                  {"cbrt(t)", "a power of zero whose derivative", 0, 0, 1},
+                  {"asin(t)", "outside its domain", 1.5, -1, 0},
                   {"exp(t)", "not finite", 1e3, -1, 0},
                   {"tan(t)^1000000", "not finite", 1.5707963267948966, -1, 0}};
   steif_context *ctx = steif_context_new(NULL);
@@ -218,6 +218,23 @@ static void where_there_is_no_value_it_is_said(void)
     N_VDestroy(g);
     steif_function_free(&f);
   }
+  steif_context_free(&ctx);
+}
+
+/* |sin t|, max(sin t, t^2), ramp(sin t) and t |t| at 0: what holds to the right. */
+static void kinks_have_the_derivatives_to_the_right(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_function *f = steif_function_parse(
+    ctx, "abs(sin(t)); max(sin(t), t^2); ramp(-sin(t)); min(0, sin(t)); abs(sin(t - pi))", 5,
+    NULL);
+  CHECK(ask(ctx, f, 5, 0, 0, 1) == 1 && ask(ctx, f, 5, 0, 0, 3) == -1);
+  CHECK(ask(ctx, f, 5, 1, 0, 1) == 1 && ask(ctx, f, 5, 1, 0, 2) == 0);
+  CHECK(ask(ctx, f, 5, 2, 0, 1) == 0 && ask(ctx, f, 5, 3, 0, 1) == 0);
+  double where;
+  CHECK(steif_function_smooth(f, 1, 3, &where) == 1);
+  CHECK(steif_function_smooth(f, -1, 1, &where) == 0 && fabs(where) < 0.01);
+  steif_function_free(&f);
   steif_context_free(&ctx);
 }
 
@@ -241,5 +258,6 @@ CU_TestInfo tests_of_series[] = {
   {"identities hold in every derivative", identities_hold_in_every_derivative},
   {"the highest order, 64, is exact", the_highest_order_is_exact},
   {"where there is no value it is said", where_there_is_no_value_it_is_said},
+  {"kinks have the derivatives to the right", kinks_have_the_derivatives_to_the_right},
   {"whole powers are exact at zero", whole_powers_are_exact_at_zero},
   CU_TEST_INFO_NULL};

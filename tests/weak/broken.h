@@ -4,7 +4,7 @@
 #define BROKEN_H
 
 #include "suite.h"
-#include <steif/input.h>
+#include <steif/forcing.h>
 #include <steif/weak.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>

@@ -1,7 +1,7 @@
 /* test_functions.c: other test functions than the usual one: pairings, ends, and what they do not see.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weak/data.h"
-#include <steif/input.h>
+#include <steif/forcing.h>
 
 /* A bump, whose odd derivatives at 0 vanish; what never ends, cut where it is 1e-17; and some g. */
 static const struct {

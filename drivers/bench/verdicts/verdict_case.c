@@ -1,7 +1,7 @@
 /* verdict_case.c: one random question, its answer, and the truth.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "verdict_case.h"
-#include <steif/input.h>
+#include <steif/forcing.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -110,10 +110,23 @@ bool stf_silence(steif_context *ctx, bool silent)
   return before;
 }
 
+/* The length of a text without the codes at its end, of sentences that it passes on. */
+static int without_codes(const char *text, int length)
+{
+  static const char mark[] = " [STEIF_";
+  for (int k = length; k > 0 && text[k - 1] == ']';) {
+    while (k > 0 && text[k] != ' ') k--;
+    if (strncmp(text + k, mark, sizeof mark - 1)) break;
+    length = k;
+  }
+  return length;
+}
+
 static void keep(steif_context *ctx, int code, const char *format, va_list arguments)
 {
   ctx->code = code;
-  const int used = vsnprintf(ctx->message, MESSAGE, format, arguments);
+  int used = vsnprintf(ctx->message, MESSAGE, format, arguments);
+  if (used >= 0 && used < MESSAGE) used = without_codes(ctx->message, used);
   if (used >= 0 && used < MESSAGE)
     snprintf(ctx->message + used, (size_t)(MESSAGE - used), " [%s]", steif_code_symbol(code));
 }

@@ -133,7 +133,7 @@ void stf_model_free(stf_model *m)
   stf_pool_free(&pool);
 }
 
-static int model_new(steif_context *ctx, stf_model **model)
+int stf_model_new(steif_context *ctx, stf_model **model)
 {
   stf_pool *pool = stf_pool_new(ctx);
   stf_model *m = pool ? stf_pool_array(pool, 1, sizeof *m) : NULL;
@@ -187,7 +187,7 @@ static int open_model(steif_context *ctx, const char *path, const char *text,
 {
   stf_model *m = NULL;
   stf_plain plain;
-  int code = model_new(ctx, &m);
+  int code = stf_model_new(ctx, &m);
   p->user = m;
   if (!code) code = stf_plain_begin(ctx, &plain);
   if (code) return code;

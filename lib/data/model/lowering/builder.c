@@ -36,8 +36,8 @@ int stf_builder_open(stf_builder *b, stf_model *m, stf_formulas *g, bool numeric
 
 void stf_builder_close(stf_builder *b)
 {
-  stf_vector *all[] = {&b->stack, &b->frames, &b->bindings, &b->memo, &b->switch_of};
-  for (int i = 0; i < 5; i++) stf_vector_free(b->m->ctx, all[i]);
+  stf_vector *all[] = {&b->stack, &b->frames, &b->bindings, &b->memo, &b->switch_of, &b->turns};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) stf_vector_free(b->m->ctx, all[i]);
 }
 
 int stf_push_node(stf_builder *b, int32_t node)

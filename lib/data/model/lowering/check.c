@@ -19,7 +19,7 @@ static bool local(const stf_model *m, const stf_statement *s, int32_t index, int
   return s->parent >= 0 && local(m, stf_statement_at(m, s->parent), s->parent, word);
 }
 
-static bool summed(const stf_model *m, const stf_expression *e, int32_t word)
+bool stf_summed(const stf_model *m, const stf_expression *e, int32_t word)
 {
   for (uint32_t i = e->from; i < e->to; i++) {
     const stf_code *c = STF_AT(m->syntax.codes, stf_code, i);
@@ -29,9 +29,7 @@ static bool summed(const stf_model *m, const stf_expression *e, int32_t word)
   return false;
 }
 
-/* What names of other languages are here: dx for the derivative of a state x, functions and constants; NULL: nothing
- * known. */
-static const char *elsewhere(const stf_model *m, const char *name, char *room, size_t size)
+const char *stf_elsewhere(const stf_model *m, const char *name, char *room, size_t size)
 {
   static const struct {
     const char *name, *here;
@@ -81,7 +79,7 @@ static int unknown(stf_model *m, const stf_statement *s, const stf_code *c, int3
                         "'%s' is not declared; write 'let %s = ...' for an abbreviation, "
                         "'state %s' for an unknown",
                         name, name, name);
-  const char *here = elsewhere(m, name, room, sizeof room);
+  const char *here = stf_elsewhere(m, name, room, sizeof room);
   if (here) return stf_complain(&m->syntax.sources, c->at, STEIF_UNKNOWN_NAME, "%s", here);
   if (stf_function_of(name, &operands) >= 0)
     return stf_complain(&m->syntax.sources, c->at, STEIF_BAD_INPUT,
@@ -145,7 +143,8 @@ static void check(stf_model *m, int32_t index, const stf_expression *e)
     if (c->kind == STF_OP_CALL) check_call(m, s, c);
     if (c->kind != STF_OP_NAME && c->kind != STF_OP_ELEMENT) continue;
     const int32_t word = c->kind == STF_OP_NAME ? c->a : c->b;
-    if (word < STF_WORDS_RESERVED || summed(m, e, word) || local(m, s, index, word)) continue;
+    if (word < STF_WORDS_RESERVED || stf_summed(m, e, word) || local(m, s, index, word))
+      continue;
     if (stf_symbol_of(m, word))
       check_symbol(m, c, word);
     else

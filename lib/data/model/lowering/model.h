@@ -189,6 +189,11 @@ int stf_setting_add(steif_context *ctx, stf_vector *settings, const char *name, 
 int stf_number_unknowns(stf_model *m);
 /* check.c: every name that is used is known. */
 int stf_check_names(stf_model *m);
+/* Is the word an index of a sum in the expression? */
+bool stf_summed(const stf_model *m, const stf_expression *e, int32_t word);
+/* What names of other languages are here: dx for the derivative of a state x, functions and constants; NULL: nothing
+ * known. */
+const char *stf_elsewhere(const stf_model *m, const char *name, char *room, size_t size);
 
 /* builder.c: expressions into nodes. */
 typedef struct stf_builder {
@@ -198,10 +203,13 @@ typedef struct stf_builder {
                    that have started */
   bool events;  /* relations are frozen between events, unless `literal` */
   bool times;   /* ... those of time alone too */
+  bool clock;   /* there is time alone: when a condition changes must be known */
+  bool kink;    /* the relation is that of a kink */
   int literal;
   stf_block *block;                                    /* of switches */
   int32_t range_low[STF_LOOPS], range_high[STF_LOOPS]; /* of its counters */
   stf_vector switch_of;                                /* 1 + switch of each node g */
+  stf_vector turns;                         /* g of kinks at unknown times, int32_t */
   bool fallback;                            /* an index needs its passes one by one */
   int dims;                                 /* loops whose counters stand in indices */
   int32_t low[STF_LOOPS], high[STF_LOOPS];  /* passes in which all indices exist */
@@ -290,6 +298,8 @@ int stf_parameter_members(stf_model *m, steif_problem *problem);
 void stf_take_literally(const stf_model *m, stf_feed *feed);
 /* Members and callbacks. */
 int stf_model_fill(stf_model *m, steif_problem *problem);
+/* An empty model, without statements. */
+int stf_model_new(steif_context *ctx, stf_model **model);
 void stf_model_free(stf_model *m);
 /* native.c: compiled code is given up. */
 void stf_native_free(stf_model *m);

@@ -8,30 +8,49 @@
 #include "model.h"
 #include <math.h>
 
-/* 1: a break is kept, and *falls says whether g < 0 after it; 0: g is not linear in t; -1: failure. */
-static int add_break(stf_builder *b, int32_t g, bool *falls)
+enum { NO_MEMORY = -1, NOT_LINEAR = -2 };
+
+/* The time at which g, linear in t, is 0, a node; *falls: g < 0 after it. */
+static int32_t zero_of(stf_builder *b, int32_t g, bool *falls)
 {
-  stf_model *m = b->m;
-  double value = 0, slope = 0;
+  double slope = 0;
   stf_vector partials = {0};
   stf_sweep sweep = {{0}, {0}, {0}};
-  int code = stf_formulas_differentiate(b->g, g, STF_OP_TIME, &sweep, &partials);
-  const int32_t slope_node =
-    !code && partials.count ? STF_AT(partials, stf_partial, 0)->value : -1;
-  const int32_t at_zero = code ? -1 : stf_without(b->g, g, STF_OP_TIME, &sweep);
-  const bool linear =
-    slope_node >= 0 && at_zero >= 0 && !(stf_node_at(b->g, slope_node)->on & STF_ON_TIME);
-  if (linear) {
-    code = stf_fixed_value(m, b->g, at_zero, &value);
-    if (!code) code = stf_fixed_value(m, b->g, slope_node, &slope);
-    double *to = code ? NULL : stf_vector_push(m->ctx, &m->breaks, sizeof *to);
-    if (to) *to = -value / slope;
+  int32_t zero = NOT_LINEAR;
+  const uint32_t at = b->g->at;
+  const int code = stf_formulas_differentiate(b->g, g, STF_OP_TIME, &sweep, &partials);
+  const int32_t rate = !code && partials.count ? STF_AT(partials, stf_partial, 0)->value : -1;
+  const int32_t at_0 = code ? -1 : stf_without(b->g, g, STF_OP_TIME, &sweep);
+  if (code || at_0 < 0)
+    zero = NO_MEMORY;
+  else if (rate >= 0 && !(stf_node_at(b->g, rate)->on & STF_ON_TIME)) {
+    zero = stf_apply2(b->g, STF_OP_DIVIDE, stf_apply1(b->g, STF_OP_NEGATIVE, at_0), rate);
+    if (stf_fixed_value(b->m, b->g, rate, &slope)) zero = NO_MEMORY;
     *falls = slope < 0;
-    if (!to) code = STEIF_NO_MEMORY;
   }
-  stf_sweep_free(m->ctx, &sweep);
-  stf_vector_free(m->ctx, &partials);
-  return code ? -1 : linear;
+  b->g->at = at;
+  stf_sweep_free(b->m->ctx, &sweep);
+  stf_vector_free(b->m->ctx, &partials);
+  return zero;
+}
+
+/* Whether g < 0, linear in t, by comparing t itself with the break, which is kept: at the break it is what holds
+ * after it, whatever rounding makes of g there. */
+static int32_t truth_by_time(stf_builder *b, int32_t g)
+{
+  stf_model *m = b->m;
+  bool falls = false;
+  double value;
+  const int32_t zero = zero_of(b, g, &falls);
+  if (zero < 0) return zero;
+  if (stf_fixed_value(m, b->g, zero, &value)) return NO_MEMORY;
+  if (b->clock && !isfinite(value)) return NOT_LINEAR;
+  double *to = stf_vector_push(m->ctx, &m->breaks, sizeof *to);
+  if (!to) return NO_MEMORY;
+  *to = value;
+  const int32_t t = stf_leaf(b->g, STF_OP_TIME, 0, NULL);
+  return falls ? stf_apply2(b->g, STF_OP_LESS_EQUAL, zero, t)
+               : stf_apply2(b->g, STF_OP_LESS, t, zero);
 }
 
 /* Places in memory for all passes of the loops. */
@@ -70,6 +89,22 @@ static int32_t switched(stf_builder *b, int32_t g)
   return stf_leaf(b->g, STF_OP_MEMORY, s->a, s->stride);
 }
 
+/* Of time alone, but not linear: a kink may turn at any time, a jump must be at a time that is known. */
+static int32_t some_time(stf_builder *b, int32_t g, int32_t literal)
+{
+  if (!b->kink) {
+    stf_complain(
+      &b->m->syntax.sources, b->g->at, STEIF_BAD_INPUT,
+      "a jump at a time that is not known: expected t - c, or a t + b with numbers a and b, "
+      "a not 0");
+    return -1;
+  }
+  int32_t *to = stf_vector_push(b->m->ctx, &b->turns, sizeof *to);
+  if (!to) return -1;
+  *to = g;
+  return literal;
+}
+
 int32_t stf_relation(stf_builder *b, int kind, int32_t left, int32_t right)
 {
   const int32_t literal = stf_apply2(b->g, kind, left, right);
@@ -80,12 +115,10 @@ int32_t stf_relation(stf_builder *b, int kind, int32_t left, int32_t right)
   if (!b->events || b->literal || !moves || (on & STF_ON_SLOPE)) return literal;
   const bool time_alone = !(on & ~(STF_ON_TIME | STF_ON_PARAMETER));
   if (time_alone && !b->times) {
-    bool falls = false;
-    const int linear = add_break(b, g, &falls);
-    const int to_the_right = falls ? STF_OP_LESS_EQUAL : STF_OP_LESS;
-    if (linear) return linear < 0 ? -1 : stf_apply2(b->g, to_the_right, left, right);
+    const int32_t truth = truth_by_time(b, g);
+    if (truth != NOT_LINEAR) return truth;
   }
-  return switched(b, g);
+  return b->clock ? some_time(b, g, literal) : switched(b, g);
 }
 
 /* a < c ? x : y */
@@ -95,12 +128,8 @@ static int32_t choose(stf_builder *b, int32_t a, int32_t c, int32_t x, int32_t y
   return holds < 0 ? -1 : stf_apply(b->g, STF_OP_SELECT, holds, x, y);
 }
 
-int32_t stf_kinked(stf_builder *b, int kind, int32_t a, int32_t c)
+static int32_t with_relation(stf_builder *b, int kind, int32_t a, int32_t c)
 {
-  const int32_t plain = stf_apply2(b->g, kind, a, c);
-  if (plain < 0 || !b->events || b->literal) return plain;
-  const int on = stf_node_at(b->g, plain)->on;
-  if (!(on & (STF_ON_STATE | STF_ON_TIME)) || (on & STF_ON_SLOPE)) return plain;
   const int32_t zero = stf_number(b->g, 0), one = stf_number(b->g, 1);
   switch (kind) {
   case STF_OP_ABS: return choose(b, a, zero, stf_apply1(b->g, STF_OP_NEGATIVE, a), a);
@@ -108,7 +137,31 @@ int32_t stf_kinked(stf_builder *b, int kind, int32_t a, int32_t c)
   case STF_OP_STEP: return choose(b, a, zero, zero, one);
   case STF_OP_RAMP: return choose(b, a, zero, zero, a);
   case STF_OP_MIN: return choose(b, a, c, a, c);
-  case STF_OP_MAX: return choose(b, a, c, c, a);
-  default: return plain;
+  default: return choose(b, a, c, c, a);
   }
+}
+
+/* floor and mod of t have a jump after the other. */
+static int32_t jumps(stf_builder *b, int kind, int32_t plain)
+{
+  if (!b->clock || (kind != STF_OP_FLOOR && kind != STF_OP_MOD)) return plain;
+  stf_complain(&b->m->syntax.sources, b->g->at, STEIF_BAD_INPUT,
+               "'%s' of t jumps without end: add up terms with step(t - c)",
+               stf_operation_word(kind));
+  return -1;
+}
+
+int32_t stf_kinked(stf_builder *b, int kind, int32_t a, int32_t c)
+{
+  const int32_t plain = stf_apply2(b->g, kind, a, c);
+  if (plain < 0 || !b->events || b->literal) return plain;
+  const int on = stf_node_at(b->g, plain)->on;
+  if (!(on & (STF_ON_STATE | STF_ON_TIME)) || (on & STF_ON_SLOPE)) return plain;
+  const bool kink =
+    kind == STF_OP_ABS || kind == STF_OP_RAMP || kind == STF_OP_MIN || kind == STF_OP_MAX;
+  if (!kink && kind != STF_OP_SIGN && kind != STF_OP_STEP) return jumps(b, kind, plain);
+  b->kink = kink;
+  const int32_t node = with_relation(b, kind, a, c);
+  b->kink = false;
+  return node;
 }

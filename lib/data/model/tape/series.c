@@ -1,4 +1,4 @@
-/* series.c: Taylor coefficients in t of nodes, by the arithmetic of the forcing functions. At a kink or
+/* series.c: Taylor coefficients in t of nodes. At a kink or
  * jump they are those to the right. SPDX-License-Identifier: BSD-3-Clause */
 #include "series.h"
 #include <math.h>
@@ -17,6 +17,14 @@ static int sign(const stf_series *a, int n)
 {
   for (int k = 0; k <= n; k++)
     if (a->c[k] != 0) return a->c[k] > 0 ? 1 : -1;
+  return 0;
+}
+
+/* That of a - b. */
+static int sign_of_difference(int n, const stf_series *a, const stf_series *b)
+{
+  for (int k = 0; k <= n; k++)
+    if (a->c[k] != b->c[k]) return a->c[k] > b->c[k] ? 1 : -1;
   return 0;
 }
 
@@ -86,7 +94,8 @@ static const char *of_one(const machine *m, const stf_node *n, const stf_series 
   case STF_OP_LOG: return stf_series_log(order, a, u);
   case STF_OP_LOG10:
     copy(order, a, 1, w);
-    if (stf_series_log(order, w, w + 1)) return "a logarithm";
+    if (!(a->c[0] > 0)) return "the logarithm of a number that is not positive";
+    stf_series_log(order, w, w + 1);
     copy(order, w + 1, 1 / log(10), u);
     return NULL;
   case STF_OP_LOG1P:
@@ -119,8 +128,9 @@ static const char *power(const machine *m, const stf_series *a, const stf_series
   if (constant && p == floor(p) && fabs(p) <= 1 << 30)
     return stf_series_whole(order, a, (long)p, u, m->scratch);
   if (constant) return stf_series_power(order, a, p, u);
-  if (!(a->c[0] > 0)) return "a power";
-  if (stf_series_log(order, a, m->scratch)) return "a power";
+  if (!(a->c[0] > 0))
+    return "a power of a number that is not positive, the exponent not constant";
+  stf_series_log(order, a, m->scratch);
   stf_series_times(order, m->scratch, b, m->scratch + 1);
   stf_series_exp(order, m->scratch + 1, u);
   return NULL;
@@ -150,21 +160,24 @@ static const char *of_two(const machine *m, const stf_node *n, const stf_series 
                           const stf_series *b, stf_series *u)
 {
   const int order = m->order;
-  stf_series *d = m->scratch;
-  for (int k = 0; k <= order; k++) d->c[k] = a->c[k] - b->c[k];
-  const int s = sign(d, order);
   switch (n->kind) {
   case STF_OP_ADD:
     for (int k = 0; k <= order; k++) u->c[k] = a->c[k] + b->c[k];
     return NULL;
-  case STF_OP_SUBTRACT: copy(order, d, 1, u); return NULL;
+  case STF_OP_SUBTRACT:
+    for (int k = 0; k <= order; k++) u->c[k] = a->c[k] - b->c[k];
+    return NULL;
   case STF_OP_MULTIPLY: stf_series_times(order, a, b, u); return NULL;
   case STF_OP_DIVIDE: return stf_series_over(order, a, b, u);
   case STF_OP_POWER: return power(m, a, b, u);
-  case STF_OP_MIN: copy(order, s < 0 ? a : b, 1, u); return NULL;
-  case STF_OP_MAX: copy(order, s > 0 ? a : b, 1, u); return NULL;
-  case STF_OP_LESS: stf_series_constant(order, s < 0, u); return NULL;
-  case STF_OP_LESS_EQUAL: stf_series_constant(order, s <= 0, u); return NULL;
+  case STF_OP_MIN: copy(order, sign_of_difference(order, a, b) < 0 ? a : b, 1, u); return NULL;
+  case STF_OP_MAX: copy(order, sign_of_difference(order, a, b) > 0 ? a : b, 1, u); return NULL;
+  case STF_OP_LESS:
+    stf_series_constant(order, sign_of_difference(order, a, b) < 0, u);
+    return NULL;
+  case STF_OP_LESS_EQUAL:
+    stf_series_constant(order, sign_of_difference(order, a, b) <= 0, u);
+    return NULL;
   case STF_OP_ATAN2: return stf_angle_series(order, a, b, u, m->scratch);
   case STF_OP_HYPOT: return length(order, a, b, u, m->scratch);
   case STF_OP_MOD: return remainder_of(order, a, b, u, m->scratch);
@@ -174,35 +187,43 @@ static const char *of_two(const machine *m, const stf_node *n, const stf_series 
   }
 }
 
-/* A branch that is not taken may have no series: NaN until it is chosen. */
+const char *stf_series_run(const stf_formulas *g, const int32_t *list, size_t count,
+                           const stf_feed *feed, const stf_curve *curve, const int32_t *counter,
+                           int order, int32_t *place, stf_series *all, int32_t *wrong)
+{
+  const machine m = {order, feed, curve, counter, all + count};
+  const char *first = NULL;
+  int32_t child[3];
+  for (size_t i = 0; i < count; i++) {
+    const stf_node *n = stf_node_at(g, list[i]);
+    const int operands = stf_children(n, child);
+    const stf_series *x[3] = {NULL, NULL, NULL};
+    const char *why = NULL;
+    for (int k = 0; k < operands; k++) x[k] = all + place[child[k]];
+    place[list[i]] = (int32_t)i;
+    if (operands == 0) why = leaf(&m, n, all + i);
+    if (operands == 1) why = of_one(&m, n, x[0], all + i);
+    if (operands == 2) why = of_two(&m, n, x[0], x[1], all + i);
+    if (operands == 3) copy(order, x[0]->c[0] != 0 ? x[1] : x[2], 1, all + i);
+    for (int k = 0; why && k <= order; k++) all[i].c[k] = NAN;
+    if (why && !first) first = why, *wrong = list[i];
+  }
+  return first;
+}
+
 int stf_taylor(const stf_formulas *g, int32_t root, const stf_feed *feed,
                const stf_curve *curve, const int32_t *counter, int order, stf_sweep *sweep,
                double *value, const char **why)
 {
-  int32_t child[3];
-  const char *unused = NULL;
-  if (!why) why = &unused;
+  int32_t wrong;
   STEIF_TRY(stf_reach(g, root, &sweep->mark, &sweep->list));
   STEIF_TRY(stf_vector_resize(g->ctx, &sweep->adjoint, g->nodes.count, sizeof(int32_t)));
   const size_t count = sweep->list.count;
   stf_series *all = stf_allocate(g->ctx, count + 4, sizeof *all);
   if (!all) return STEIF_NO_MEMORY;
-  const machine m = {order, feed, curve, counter, all + count};
-  for (size_t i = 0; i < count; i++) {
-    const int32_t node = *STF_AT(sweep->list, int32_t, i);
-    const stf_node *n = stf_node_at(g, node);
-    const int operands = stf_children(n, child);
-    const stf_series *x[3] = {NULL, NULL, NULL};
-    const char *wrong = NULL;
-    for (int k = 0; k < operands; k++) x[k] = all + *STF_AT(sweep->adjoint, int32_t, child[k]);
-    *STF_AT(sweep->adjoint, int32_t, node) = (int32_t)i;
-    if (operands == 0) wrong = leaf(&m, n, all + i);
-    if (operands == 1) wrong = of_one(&m, n, x[0], all + i);
-    if (operands == 2) wrong = of_two(&m, n, x[0], x[1], all + i);
-    if (operands == 3) copy(order, x[0]->c[0] != 0 ? x[1] : x[2], 1, all + i);
-    for (int k = 0; wrong && k <= order; k++) all[i].c[k] = NAN;
-    if (wrong && !*why) *why = wrong;
-  }
+  const char *first = stf_series_run(g, sweep->list.data, count, feed, curve, counter, order,
+                                     sweep->adjoint.data, all, &wrong);
+  if (first && why && !*why) *why = first;
   bool finite = true;
   for (int k = 0; k <= order; k++) {
     value[k] = all[count - 1].c[k];

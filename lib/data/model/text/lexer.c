@@ -162,7 +162,7 @@ static int mark(stf_lexer *l, int word, uint32_t bytes)
 
 static bool goes_on(const stf_lexer *l)
 {
-  if (l->broken || !l->tokens->count) return false;
+  if (l->broken || l->single || !l->tokens->count) return false;
   if (l->open) return true;
   const stf_token *t = STF_AT(*l->tokens, stf_token, l->tokens->count - 1);
   return t->kind == STF_TOKEN_MARK && t->at >= l->base && strchr("+-*/^=,", t->word);
@@ -172,6 +172,7 @@ static int line_end(stf_lexer *l)
 {
   const bool on = goes_on(l);
   if (!on) STEIF_TRY(push(l, STF_TOKEN_END, 0, l->at, 0));
+  if (l->single) l->open = 0;
   l->at++;
   l->line++;
   return STEIF_OK;

@@ -31,6 +31,7 @@ typedef struct stf_lexer {
   const char *text;
   uint32_t base, length, at, line;
   int open;    /* brackets */
+  bool single; /* a line is whole: none goes on in the next */
   bool ended;  /* the last token has been told */
   bool broken; /* something in this line has no meaning: the rest of it is left out */
 } stf_lexer;

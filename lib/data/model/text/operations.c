@@ -27,6 +27,14 @@ int stf_function_of(const char *word, int *operands)
   return -1;
 }
 
+size_t stf_function_words(const char **list)
+{
+  size_t count = 0;
+  for (int k = 0; k < STF_OP_KINDS; k++)
+    if (words[k]) list[count++] = words[k];
+  return count;
+}
+
 const char *stf_operation_word(int kind)
 {
   switch (kind) {

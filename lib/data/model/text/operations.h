@@ -6,6 +6,7 @@
 #ifndef STF_OPERATIONS_H
 #define STF_OPERATIONS_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 /* X(name, word in the text or NULL, value at (a, b)). */
@@ -101,6 +102,8 @@ enum stf_kind {
 int stf_operands(int kind);
 /* The function of a word, or -1; *operands as many as it takes. */
 int stf_function_of(const char *word, int *operands);
+/* The words of all functions into `list`; how many there are, fewer than STF_OP_KINDS - 2. */
+size_t stf_function_words(const char **list);
 /* How it is written: "sqrt", "+"; "" for what has no sign. */
 const char *stf_operation_word(int kind);
 /* The value of an operation on numbers. */

@@ -32,23 +32,31 @@ int stf_line_of(const stf_sources *s, uint32_t at)
   return line;
 }
 
-int stf_complain(stf_sources *s, uint32_t at, int code, const char *format, ...)
+const char *stf_place_text(const stf_sources *s, uint32_t at, char *room, size_t size)
 {
   int line, column;
-  char sentence[600];
+  const stf_text *text = stf_place(s, at, &line, &column);
+  if (s->pieces)
+    snprintf(room, size, "expression %d, position %d", line, column);
+  else if (at == STF_NOWHERE)
+    snprintf(room, size, "%s", text->name);
+  else
+    snprintf(room, size, "%s:%d:%d", text->name, line, column);
+  return room;
+}
+
+int stf_complain(stf_sources *s, uint32_t at, int code, const char *format, ...)
+{
+  char sentence[600], place[STF_TOLD];
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(sentence, sizeof sentence, format, arguments);
   va_end(arguments);
   if (!s->errors++) s->code = code;
   if (s->errors > STF_ERRORS) return code;
-  const stf_text *text = stf_place(s, at, &line, &column);
   const size_t room = sizeof s->told - s->used;
-  const char *mark = s->used ? "\n" : "";
-  const int length = at == STF_NOWHERE ? snprintf(s->told + s->used, room, "%s%s: %s", mark,
-                                                  text->name, sentence)
-                                       : snprintf(s->told + s->used, room, "%s%s:%d:%d: %s",
-                                                  mark, text->name, line, column, sentence);
+  const int length = snprintf(s->told + s->used, room, "%s%s: %s", s->used ? "\n" : "",
+                              stf_place_text(s, at, place, sizeof place), sentence);
   if (length >= 0 && (size_t)length < room)
     s->used += (size_t)length;
   else

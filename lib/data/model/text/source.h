@@ -23,6 +23,7 @@ typedef struct stf_text {
 typedef struct stf_sources {
   steif_context *ctx;
   stf_vector texts; /* of stf_text */
+  bool pieces;      /* lines are the expressions of a text: "expression 2, position 5" */
   int errors, code; /* told so far; the code of the first */
   size_t used;
   char told[STF_TOLD + 1];
@@ -44,6 +45,8 @@ int stf_source_path(stf_sources *s, stf_pool *pool, uint32_t at, const char *nam
 /* The characters at a place. */
 const char *stf_source_at(const stf_sources *s, uint32_t at);
 
+/* "FILE:LINE:COLUMN", "FILE" for STF_NOWHERE. */
+const char *stf_place_text(const stf_sources *s, uint32_t at, char *room, size_t size);
 /* Line and column of a place, from 1; columns count characters. */
 const stf_text *stf_place(const stf_sources *s, uint32_t at, int *line, int *column);
 int stf_line_of(const stf_sources *s, uint32_t at);

@@ -3,7 +3,7 @@
  * Derivatives, 2nd ed., SIAM 2008, section 13.2). Each recurrence comes from a linear differential
  * equation of the function, e.g. u = exp(a): u' = a' u gives k u_k = sum_{j=1..k} j a_j u_{k-j}.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "input.h"
+#include "series.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -104,13 +104,6 @@ const char *stf_series_log(int n, const stf_series *a, stf_series *u)
   if (!(a->c[0] > 0)) return "the logarithm of a number that is not positive";
   u->c[0] = log(a->c[0]);
   for (int k = 1; k <= n; k++) u->c[k] = (a->c[k] - slope(u, a, k, k - 1)) / a->c[0];
-  return NULL;
-}
-
-const char *stf_series_abs(int n, const stf_series *a, stf_series *u)
-{
-  if (a->c[0] == 0 && n > 0) return "the derivative of abs at zero";
-  for (int k = 0; k <= n; k++) u->c[k] = a->c[0] < 0 ? -a->c[k] : a->c[k];
   return NULL;
 }
 

@@ -1,13 +1,11 @@
-/* forcing.c: forcing functions from expressions: one program for each component of u, and f = u or
- * f = B u; the derivative of order j is j! times a Taylor coefficient.
+/* forcing.c: forcing functions f = u or f = B u, u by expressions or by samples; the derivative of order j of an
+ * expression is j! times a Taylor coefficient.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "forcing.h"
 #include "input.h"
-#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { LONGEST = 1000000 }; /* characters of an expression */
 
 steif_function *stf_function_new(steif_context *ctx, sunindextype n)
 {
@@ -32,82 +30,9 @@ void steif_function_free(steif_function **f)
 {
   if (!f || !*f) return;
   stf_pool *pool = (*f)->pool;
+  stf_expressions_free(*f);
   stf_pool_free(&pool);
   *f = NULL;
-}
-
-/* ---- pieces of text: one expression each ----------------------------------------------------- */
-
-typedef struct piece {
-  const char *text;
-  size_t length;
-  long number; /* of the line, or of the expression */
-} piece;
-
-static bool blank(const piece *p)
-{
-  for (size_t i = 0; i < p->length; i++)
-    if (!isspace((unsigned char)p->text[i])) return false;
-  return true;
-}
-
-/* The next piece from *at on: a line without its comment, or what stands before a ';'. Blank lines
- * are passed over, and so is what is blank after the last ';'. */
-static bool take(const char **at, bool lines, piece *p)
-{
-  while (**at) {
-    const char *start = *at, *end = start + strcspn(start, lines ? "\n" : ";");
-    *at = *end ? end + 1 : end;
-    p->text = start;
-    p->length = (size_t)(end - start);
-    p->number++;
-    const char *comment = lines ? memchr(start, '#', p->length) : NULL;
-    if (comment) p->length = (size_t)(comment - start);
-    if (!blank(p) || (!lines && **at)) return true;
-  }
-  return false;
-}
-
-static size_t longest(const char *text, bool lines)
-{
-  piece p = {0};
-  size_t most = 0;
-  while (take(&text, lines, &p))
-    if (p.length > most) most = p.length;
-  return most;
-}
-
-/* Parse a piece in `scratch` and keep it as program k. */
-static int keep(steif_function *f, const piece *p, sunindextype k, const char *path,
-                stf_instruction *scratch)
-{
-  stf_program *program = f->program + k;
-  f->source[k] = (stf_source){path, p->number};
-  program->code = scratch;
-  STEIF_TRY(stf_program_parse(f->ctx, f->source + k, p->text, p->length, program));
-  program->code = stf_pool_array(f->pool, (size_t)program->length, sizeof *scratch);
-  if (!program->code) return STEIF_NO_MEMORY;
-  memcpy(program->code, scratch, (size_t)program->length * sizeof *scratch);
-  return STEIF_OK;
-}
-
-static int programs(steif_function *f, const char *path, const char *text,
-                    stf_instruction *scratch)
-{
-  const char *name = path ? path : "the text";
-  const long long wanted = (long long)f->inputs;
-  piece p = {0};
-  sunindextype k = 0;
-  for (; take(&text, path != NULL, &p); k++) {
-    STEIF_CHECK(k < f->inputs, f->ctx, STEIF_BAD_INPUT,
-                "%s, %s %ld: more than %lld expressions; give one for each component", name,
-                path ? "line" : "expression", p.number, wanted);
-    STEIF_TRY(keep(f, &p, k, path, scratch));
-  }
-  STEIF_CHECK(k == f->inputs, f->ctx, STEIF_BAD_INPUT,
-              "%s ends at %s %ld after %lld of %lld expressions; give one for each component",
-              name, path ? "line" : "expression", p.number, (long long)k, wanted);
-  return STEIF_OK;
 }
 
 /* ---- breakpoints ----------------------------------------------------------------------------- */
@@ -118,32 +43,14 @@ static int ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-static bool turns(enum stf_operation o) { return o == STF_ABS || o == STF_MIN || o == STF_MAX; }
-
-/* The breakpoints of all programs into list (NULL: count only). */
-static size_t collect(const steif_function *f, sunrealtype *list)
-{
-  size_t count = 0;
-  for (sunindextype i = 0; i < f->inputs; i++)
-    for (int k = 0; k < f->program[i].length; k++) {
-      const stf_instruction *c = f->program[i].code + k;
-      const bool breaks = c->operation == STF_STEP || c->operation == STF_RAMP ||
-                          (turns(c->operation) && isfinite(c->number));
-      if (!breaks) continue;
-      if (list) list[count] = c->number;
-      count++;
-    }
-  return count;
-}
-
 static int find_breaks(steif_function *f)
 {
-  const size_t count = collect(f, NULL);
-  f->breaks = stf_pool_array(f->pool, count, sizeof *f->breaks);
+  const stf_vector *all = &f->expressions->model->breaks;
+  f->breaks = stf_pool_array(f->pool, all->count, sizeof *f->breaks);
   if (!f->breaks) return STEIF_NO_MEMORY;
-  collect(f, f->breaks);
-  qsort(f->breaks, count, sizeof *f->breaks, ascending);
-  for (size_t i = 0; i < count; i++)
+  if (all->count) memcpy(f->breaks, all->data, all->count * sizeof *f->breaks);
+  qsort(f->breaks, all->count, sizeof *f->breaks, ascending);
+  for (size_t i = 0; i < all->count; i++)
     if (!i || f->breaks[i] != f->breaks[f->break_count - 1])
       f->breaks[f->break_count++] = f->breaks[i];
   return STEIF_OK;
@@ -161,17 +68,17 @@ size_t steif_function_breaks(const steif_function *f, sunrealtype t0, sunrealtyp
   return count;
 }
 
-/* The first of many places in [t0, t1] before which instruction k turns; NaN: none. */
-static sunrealtype turn(const stf_program *program, int k, sunrealtype t0, sunrealtype t1,
-                        stf_series *stack)
+/* The first of many places in [t0, t1] before which a root changes its sign; NaN: none. */
+static sunrealtype turn(steif_function *f, size_t root, sunrealtype t0, sunrealtype t1)
 {
   enum { PLACES = 1000 };
+  const sunrealtype *now;
   sunrealtype last = 0;
   for (int i = 0; i <= PLACES; i++) {
-    const sunrealtype t = t0 + (t1 - t0) * i / PLACES,
-                      now = stf_program_switch(program, k, t, stack);
-    if (now * last < 0) return t;
-    if (now != 0) last = now;
+    const sunrealtype t = t0 + (t1 - t0) * i / PLACES;
+    if (stf_expressions_series(f, root, t, 0, &now)) continue;
+    if (*now * last < 0) return t;
+    if (*now != 0) last = *now;
   }
   return NAN;
 }
@@ -180,13 +87,11 @@ int steif_function_smooth(steif_function *f, sunrealtype t0, sunrealtype t1, sun
 {
   if (!f || !where) return false;
   *where = NAN;
-  for (sunindextype i = 0; f->program && i < f->inputs; i++)
-    for (int k = 0; k < f->program[i].length; k++) {
-      const stf_instruction *c = f->program[i].code + k;
-      if (!turns(c->operation) || isfinite(c->number)) continue;
-      const sunrealtype t = turn(f->program + i, k, t0, t1, f->stack);
-      if (!isnan(t) && !(*where < t)) *where = t;
-    }
+  const size_t roots = f->expressions ? f->expressions->roots.count : 0;
+  for (size_t k = (size_t)f->inputs; k < roots; k++) {
+    const sunrealtype t = turn(f, k, t0, t1);
+    if (!isnan(t) && !(*where < t)) *where = t;
+  }
   return isnan(*where);
 }
 
@@ -219,26 +124,11 @@ int stf_function_input(steif_function *f, SUNMatrix B)
 static int fill(steif_function *f, const char *path, const char *text, SUNMatrix B)
 {
   if (B) STEIF_TRY(stf_function_input(f, B));
-  const size_t length = longest(text, path != NULL);
-  STEIF_CHECK(length <= LONGEST, f->ctx, STEIF_BAD_INPUT,
-              "%s has an expression of %zu characters, and %d are the most; break it up",
-              path ? path : "the text", length, LONGEST);
   char *kept = path ? stf_pool_array(f->pool, strlen(path) + 1, 1) : NULL;
   if (path && !kept) return STEIF_NO_MEMORY;
   if (path) strcpy(kept, path);
-  f->program = stf_pool_array(f->pool, (size_t)f->inputs, sizeof *f->program);
-  f->source = stf_pool_array(f->pool, (size_t)f->inputs, sizeof *f->source);
-  if (!f->program || !f->source) return STEIF_NO_MEMORY;
-  stf_instruction *scratch = stf_allocate(f->ctx, length + 1, sizeof *scratch);
-  if (!scratch) return STEIF_NO_MEMORY;
-  const int code = programs(f, kept, text, scratch);
-  stf_release(f->ctx, scratch);
-  STEIF_TRY(code);
-  int depth = 0;
-  for (sunindextype i = 0; i < f->inputs; i++)
-    if (f->program[i].depth > depth) depth = f->program[i].depth;
-  f->stack = stf_pool_array(f->pool, (size_t)depth + STF_SCRATCH, sizeof *f->stack);
-  return f->stack ? find_breaks(f) : STEIF_NO_MEMORY;
+  STEIF_TRY(stf_expressions_read(f, kept, text));
+  return find_breaks(f);
 }
 
 static steif_function *build(steif_context *ctx, const char *path, const char *text,
@@ -279,18 +169,16 @@ steif_function *steif_function_read(steif_context *ctx, const char *path, sunind
 static int input(steif_function *f, sunindextype i, sunrealtype t, int derivative,
                  sunrealtype *u)
 {
-  int place = 0;
+  const sunrealtype *c;
   sunrealtype scale = 1;
-  const char *wrong = stf_program_run(f->program + i, t, derivative, f->stack, &place);
+  STEIF_TRY(stf_expressions_series(f, (size_t)i, t, derivative, &c));
   for (int k = 2; k <= derivative; k++) scale *= k;
-  if (!wrong) *u = scale * f->stack->c[derivative];
-  if (!wrong && isfinite(*u)) return STEIF_OK;
-  const stf_source *s = f->source + i;
-  return STEIF_RECOVER(
-    f->ctx, STEIF_NOT_FINITE,
-    "%s%s%s %ld, position %d: %s at t = %g, derivative %d; keep t out of there",
-    s->name ? s->name : "", s->name ? ", " : "", s->name ? "line" : "expression", s->line,
-    place + 1, wrong ? wrong : "a result that is not finite", t, derivative);
+  *u = scale * c[derivative];
+  return isfinite(*u)
+           ? STEIF_OK
+           : STEIF_RECOVER(f->ctx, STEIF_NOT_FINITE,
+                           "derivative %d of expression %lld is beyond 1.8e308 at t = %g",
+                           derivative, (long long)i + 1, t);
 }
 
 static int expressions(steif_function *f, sunrealtype t, int derivative, sunrealtype *u)
@@ -315,11 +203,10 @@ static int expressions(steif_function *f, sunrealtype t, int derivative, sunreal
 int steif_function_taylor(long double t, int order, long double *c, void *function)
 {
   steif_function *f = function;
-  int place;
-  if (!f || order < 0 || order > STF_ORDER || f->samples.points) return STEIF_UNSUPPORTED;
-  if (stf_program_run(f->program, (sunrealtype)t, order, f->stack, &place))
-    return STEIF_NOT_FINITE;
-  for (int j = 0; j <= order; j++) c[j] = f->stack->c[j];
+  const sunrealtype *series;
+  if (!f || order < 0 || order > STF_ORDER || !f->expressions) return STEIF_UNSUPPORTED;
+  if (stf_expressions_series(f, 0, (sunrealtype)t, order, &series)) return STEIF_NOT_FINITE;
+  for (int j = 0; j <= order; j++) c[j] = series[j];
   return STEIF_OK;
 }
 

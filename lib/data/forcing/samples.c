@@ -4,6 +4,7 @@
  * one-sided, from there on, so that what was before the start has no part in it; between two
  * samples it is as central as it can be.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "forcing.h"
 #include "input.h"
 #include <ctype.h>
 #include <math.h>
