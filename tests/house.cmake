@@ -90,6 +90,8 @@ if(TARGET steif_program)
     string(APPEND list "X(${name}, \"${folder}\") ")
   endforeach()
   add_executable(test_in_c ${PROJECT_SOURCE_DIR}/tests/in_c/check.c ${programs})
+  # as `cc model.c` of a user compiles: all names of the C library are there, y0 and finite among them
+  set_target_properties(test_in_c PROPERTIES C_STANDARD 17 C_EXTENSIONS ON)
   target_include_directories(test_in_c PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_BINARY_DIR}/in_c)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/in_c/models.h CONTENT "#define MODELS(X) ${list}\n" @ONLY)
   target_link_libraries(test_in_c PRIVATE steif steif_settings CUnit::CUnit)

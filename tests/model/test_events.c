@@ -64,6 +64,34 @@ static void conditions_of_time_are_breaks(void)
   reaches(text, 0.5 + 1 + 2, 1e-8);
 }
 
+/* A sawtooth of time, 100 teeth: half the time. floor of t: k e^{-s}-chains by hand, y_{k+1} = k + (y_k - k) e^{-1/3}. Of a
+ * state that grows by 2.5: the integral over y from 0.3 to 25.3 of floor(y) - mod(y, 0.7)/2 is 303.11. */
+static void whole_parts_jump_at_events(void)
+{
+  double y = 0;
+  for (int k = 0; k < 30; k++) y = k + (y - k) * exp(-1. / 3);
+  reaches("state x = 0\nx' = mod(10*t, 1)\ntime 0 to 10\n", 5, 1e-7);
+  reaches("state y = 0\ny' = floor(3*t) - y\ntime 0 to 10\n", y, 1e-7);
+  reaches("state x = 0\nx' = floor(-t) + noevent(floor(0.5))\ntime 0 to 4\n", -10, 1e-7);
+  reaches("state z = 0, y = 0.3\ny' = 2.5\nz' = floor(y) - 0.5*mod(y, 0.7)\ntime 0 to 10\n",
+          121.244, 1e-6);
+}
+
+/* Where 3 t - 2.1 changes its sign it is -4.4e-16: t itself decides which side it is. */
+static void breaks_are_exact(void)
+{
+  fixture s;
+  CU_ASSERT_FATAL(fixture_text(&s, "state x = 0\nx' = step(3*t - 2.1)\ntime 0 to 3\n", "") ==
+                  STEIF_OK);
+  N_Vector y = N_VNew_Serial(1, steif_sundials(s.ctx)), f = N_VClone(y);
+  CU_ASSERT_FATAL(s.p.break_count == 1);
+  const double c = s.p.breaks[0];
+  CHECK(!s.p.f(c, y, f, s.p.user) && NV_Ith_S(f, 0) == 1);
+  CHECK(!s.p.f(nextafter(c, 0), y, f, s.p.user) && NV_Ith_S(f, 0) == 0);
+  N_VDestroy(y), N_VDestroy(f);
+  fixture_close(&s);
+}
+
 /* A pulse of 1e-3 in 1e3, which steps would pass over. */
 static void a_short_pulse_is_seen(void)
 {
@@ -275,6 +303,8 @@ CU_TestInfo tests_of_events[] = {
   {"a corner of a constraint", a_corner_of_a_constraint_is_crossed},
   {"kinks", kinks_are_events},
   {"conditions of time", conditions_of_time_are_breaks},
+  {"whole parts jump at events", whole_parts_jump_at_events},
+  {"breaks are exact", breaks_are_exact},
   {"a short pulse", a_short_pulse_is_seen},
   {"at and every", times_come},
   {"events cause events", events_cause_events},

@@ -141,14 +141,37 @@ static int32_t with_relation(stf_builder *b, int kind, int32_t a, int32_t c)
   }
 }
 
-/* floor and mod of t have a jump after the other. */
-static int32_t jumps(stf_builder *b, int kind, int32_t plain)
+/* floor(a) = p + 2 floor((a - p)/2 + 1/4), p = 0 or 1: whether it is odd, which is kept between events. What is left of
+ * floor jumps half a unit away from where p changes: a frozen value lasts as far beyond its event. */
+static int32_t whole_part(stf_builder *b, int32_t a)
 {
-  if (!b->clock || (kind != STF_OP_FLOOR && kind != STF_OP_MOD)) return plain;
-  stf_complain(&b->m->syntax.sources, b->g->at, STEIF_BAD_INPUT,
-               "'%s' of t jumps without end: add up terms with step(t - c)",
-               stf_operation_word(kind));
-  return -1;
+  const int32_t one = stf_number(b->g, 1), two = stf_number(b->g, 2);
+  const int32_t angle = stf_apply2(b->g, STF_OP_MULTIPLY, stf_number(b->g, acos(-1)), a);
+  const int32_t wave = angle < 0 ? -1 : stf_apply1(b->g, STF_OP_SIN, angle);
+  const int32_t odd =
+    wave < 0 ? -1 : choose(b, wave, stf_number(b->g, 0), one, stf_number(b->g, 0));
+  if (odd < 0) return -1;
+  const int32_t half =
+    stf_apply2(b->g, STF_OP_DIVIDE, stf_apply2(b->g, STF_OP_SUBTRACT, a, odd), two);
+  const int32_t pairs =
+    stf_apply1(b->g, STF_OP_FLOOR, stf_apply2(b->g, STF_OP_ADD, half, stf_number(b->g, 0.25)));
+  return stf_apply2(b->g, STF_OP_ADD, odd, stf_apply2(b->g, STF_OP_MULTIPLY, two, pairs));
+}
+
+/* floor(a), and mod(a, c) = a - c floor(a/c); of t alone they have a jump after the other. */
+static int32_t jumps(stf_builder *b, int kind, int32_t a, int32_t c)
+{
+  if (b->clock) {
+    stf_complain(&b->m->syntax.sources, b->g->at, STEIF_BAD_INPUT,
+                 "'%s' of t jumps without end: add up terms with step(t - c)",
+                 stf_operation_word(kind));
+    return -1;
+  }
+  if (kind == STF_OP_FLOOR) return whole_part(b, a);
+  const int32_t whole = whole_part(b, stf_apply2(b->g, STF_OP_DIVIDE, a, c));
+  return whole < 0
+           ? -1
+           : stf_apply2(b->g, STF_OP_SUBTRACT, a, stf_apply2(b->g, STF_OP_MULTIPLY, c, whole));
 }
 
 int32_t stf_kinked(stf_builder *b, int kind, int32_t a, int32_t c)
@@ -159,7 +182,8 @@ int32_t stf_kinked(stf_builder *b, int kind, int32_t a, int32_t c)
   if (!(on & (STF_ON_STATE | STF_ON_TIME)) || (on & STF_ON_SLOPE)) return plain;
   const bool kink =
     kind == STF_OP_ABS || kind == STF_OP_RAMP || kind == STF_OP_MIN || kind == STF_OP_MAX;
-  if (!kink && kind != STF_OP_SIGN && kind != STF_OP_STEP) return jumps(b, kind, plain);
+  if (kind == STF_OP_FLOOR || kind == STF_OP_MOD) return jumps(b, kind, a, c);
+  if (!kink && kind != STF_OP_SIGN && kind != STF_OP_STEP) return plain;
   b->kink = kink;
   const int32_t node = with_relation(b, kind, a, c);
   b->kink = false;

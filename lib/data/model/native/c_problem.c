@@ -53,8 +53,8 @@ static void data(stf_writer *w, const stf_model *m, const steif_problem *p)
       "parameter_names};\n",
       m->given.count);
   }
-  reals(w, "static const double y0", m->n, p->y0);
-  if (p->yp0) reals(w, "static const double yp0", m->n, p->yp0);
+  reals(w, "static const double start", m->n, p->y0);
+  if (p->yp0) reals(w, "static const double start_slope", m->n, p->yp0);
   strings(w, "unknowns", m->n, m->unknown);
   stf_write(w, "static const steif_names names = {.unknown = unknowns};\n");
   if (p->index) wholes(w, "static const int component_index", m->n, p->index);
@@ -81,7 +81,7 @@ static void calls_again(stf_writer *w, const stf_model *m, const char *name,
 {
   calls(w, name, q, y, yp, has_events(m) ? "run.memory" : "0", to, size);
   if (!m->switches || *y == '0') return;
-  stf_write(w, "  if (!finite(%s, %lld)) {\n  take_literally(t, %s);\n", to, size, y);
+  stf_write(w, "  if (!all_finite(%s, %lld)) {\n  take_literally(t, %s);\n", to, size, y);
   calls(w, name, q, y, yp, "literal", to, size);
   stf_write(w, "  }\n");
 }
@@ -178,8 +178,8 @@ static void members(stf_writer *w, const stf_model *m, const steif_problem *p)
   stf_write_number(w, p->t0);
   stf_write(w, ",\n  .t1 = ");
   stf_write_number(w, p->t1);
-  stf_write(w, ",\n  .y0 = y0,\n");
-  if (p->yp0) stf_write(w, "  .yp0 = yp0,\n");
+  stf_write(w, ",\n  .y0 = start,\n");
+  if (p->yp0) stf_write(w, "  .yp0 = start_slope,\n");
   if (of_f) stf_write(w, "  .f = f,\n  .jac = jac,\n");
   if (m->form == STEIF_IMPLICIT) stf_write(w, "  .F = F,\n");
   if (m->form == STEIF_DESCRIPTOR) stf_write(w, "  .g = g,\n");
