@@ -2,11 +2,13 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "comparison.h"
 #include "problem.h"
+#include <string.h>
 
 static int run(struct call *call)
 {
   static comparison c;
   steif_method_info m;
+  size_t longest = strlen("method");
   for (int k = 1; k < call->words; k++)
     if (steif_method_find(call->ctx, call->word[k], &m) != STEIF_OK) return fail(call);
   const int found = find_problem(call, call->word[0], &c.problem);
@@ -14,6 +16,9 @@ static int run(struct call *call)
   c.given = c.problem;
   c.report = steif_report_new(call->ctx);
   steif_report_text(c.report, "problem", call->word[0]);
+  for (int k = 1; k < call->words; k++)
+    if (strlen(call->word[k]) > longest) longest = strlen(call->word[k]);
+  steif_report_reserve(c.report, "method", longest);
   int code = c.report ? compare_start(call, &c) : fail(call);
   if (!code) own_reference(call, &c);
   for (int k = 1; !code && k < call->words; k++) compare_method(call, &c, call->word[k]);

@@ -58,6 +58,9 @@ STEIF_EXPORT int steif_report_save(steif_report *r, enum steif_format format, co
  * Either may be NULL; give the same ones every time. What steif_report_write then writes as STEIF_TABLE is the rest;
  * steif_report_save writes all. A pipe or a device is left to that. */
 STEIF_EXPORT int steif_report_flow(steif_report *r, const char *path, FILE *stream);
+/* Before the first row: texts of so many characters may come in its first column, whose name this is, so that rows
+ * that are shown as they come are in line. */
+STEIF_EXPORT void steif_report_reserve(steif_report *r, const char *column, size_t width);
 
 /* Rows of numbers as comma-separated values with a header line, like those of STEIF_CSV, each written out as it
  * comes: what a run that is killed has made is in the file, whose former content is lost. NULL and STEIF_IO where

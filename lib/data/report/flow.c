@@ -67,6 +67,18 @@ static int to_terminal(steif_report *r, json_t *sheet, FILE *stream)
   return fflush(stream) ? STEIF_IO : STEIF_OK;
 }
 
+void steif_report_reserve(steif_report *r, const char *column, size_t width)
+{
+  if (!r || !column || r->flow.shown) return;
+  stf_flow *flow = &r->flow;
+  if (!flow->widths && !(flow->widths = json_object())) {
+    r->code = STEIF_NO_MEMORY;
+    return;
+  }
+  json_t *known = json_pack("{s:I}", "width", (json_int_t)width);
+  if (!known || json_object_set_new(flow->widths, column, known)) r->code = STEIF_NO_MEMORY;
+}
+
 int stf_flow_rest(steif_report *r, json_t *sheet, FILE *stream)
 {
   const int code =

@@ -74,13 +74,17 @@ void stf_table_notes(FILE *stream, json_t *sheet)
 {
   size_t i;
   json_t *row;
+  char name[STF_CELL] = "", before[STF_CELL] = "";
+  const char *last = "";
   json_array_foreach(sheet, i, row)
   {
     const char *note = json_string_value(json_object_get(row, "message"));
     if (!note || !*note || !strcmp(note, "ok")) continue;
     const char *key = json_object_iter_key(json_object_iter(row));
-    char name[STF_CELL];
     stf_report_cell(name, sizeof name, key, json_object_get(row, key));
+    if (!strcmp(note, last) && !strcmp(name, before)) continue; /* said of the row above */
+    last = note;
+    memcpy(before, name, sizeof before);
     fprintf(stream, "  %s: ", name);
     stf_table_wrapped(stream, note, 4 + stf_report_width(name));
   }
