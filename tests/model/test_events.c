@@ -77,6 +77,28 @@ static void whole_parts_jump_at_events(void)
           121.244, 1e-6);
 }
 
+/* Conditions that hang on others: |x| < 1 from -5 does not hold, max(min(x, 3), -2) of -5 is -2; |x| < 1 to and fro over 0
+ * and 1; a pulse of 30 %, 50 times, by mod and by a counter: x = (1 - e^-0.06) e^-0.14 (1 + e^-0.2 + ...). */
+static void conditions_of_conditions_follow(void)
+{
+  double x = 0;
+  for (int k = 0; k < 50; k++) x = (1 + (x - 1) * exp(-0.06)) * exp(-0.14);
+  reaches("state x = -5\nx' = if abs(x) < 1 then 1 else -1\ntime 0 to 1\n", -6, 1e-8);
+  reaches("state x = -5\nx' = max(min(x, 3), -2)\ntime 0 to 1\n", -7, 1e-8);
+  reaches("state z = 0, x = 5\nx' = -2\nz' = if abs(x) < 1 then 1 else 0\ntime 0 to 5\n", 1,
+          1e-7);
+  reaches(
+    "state z = 0, x = -4\nx' = 1\nz' = if max(abs(x) - 1, -abs(x - 0.5)) < 0 then 1 else 0\n"
+    "time 0 to 6\n",
+    2, 1e-7);
+  reaches("state x = 0\nx' = 10*((if mod(50*t, 1) < 0.3 then 1 else 0) - x)\ntime 0 to 1\n", x,
+          1e-7);
+  reaches("state x = 0\ndiscrete k = 0\nlet u = 50*t - k\n"
+          "x' = 10*((if abs(u - 0.15) < 0.15 then 1 else 0) - x)\nevery 0.02: k = k + 1\n"
+          "time 0 to 1\n",
+          x, 1e-7);
+}
+
 /* Where 3 t - 2.1 changes its sign it is -4.4e-16: t itself decides which side it is. */
 static void breaks_are_exact(void)
 {
@@ -305,6 +327,7 @@ CU_TestInfo tests_of_events[] = {
   {"conditions of time", conditions_of_time_are_breaks},
   {"whole parts jump at events", whole_parts_jump_at_events},
   {"breaks are exact", breaks_are_exact},
+  {"conditions of conditions follow", conditions_of_conditions_follow},
   {"a short pulse", a_short_pulse_is_seen},
   {"at and every", times_come},
   {"events cause events", events_cause_events},

@@ -85,19 +85,21 @@ static int settle(steif_solver *s, sunrealtype t)
   return STEIF_OK;
 }
 
-/* Event functions that read what the handler has set are others behind it, clearly off what they were: no crossing.
- * w->mid: before. */
+/* Event functions that read what the handler has set are others behind it, clearly off what they were or on the other
+ * side: no crossing. w->mid: before. */
 static int look_again(steif_solver *s, sunrealtype t)
 {
   static const sunrealtype clearly = 1e6; /* times the noise of an event */
   stf_detector *w = s->events;
   if (w->moved) return STEIF_OK;
   STEIF_TRY(stf_event_ask(s, t, w->after, w->low));
-  for (int i = 0; i < w->count; i++)
-    if (fabs(w->low[i] - w->mid[i]) > clearly * w->noise[i]) {
-      w->sign[i] = (w->low[i] > 0) - (w->low[i] < 0);
-      w->noise[i] = 0;
-    }
+  for (int i = 0; i < w->count; i++) {
+    const bool off = fabs(w->low[i] - w->mid[i]) > clearly * w->noise[i];
+    const bool across = w->low[i] != w->mid[i] && w->low[i] * w->sign[i] < 0;
+    if (!off && !across) continue;
+    w->sign[i] = (w->low[i] > 0) - (w->low[i] < 0);
+    w->noise[i] = 0;
+  }
   return STEIF_OK;
 }
 

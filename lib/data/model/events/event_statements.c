@@ -182,7 +182,10 @@ static void mark_used(stf_model *m, const stf_block *block, const stf_switch *s)
 {
   const int64_t count = stf_passes(&block->box);
   for (int64_t k = 0; k < count; k++)
-    m->switch_used[stf_at_pass(&block->box, k, s->a, s->stride) - m->discretes] = 1;
+    m->switch_used[stf_at_pass(&block->box, k, s->a, s->stride) - m->discretes] =
+      !(s->on & (STF_ON_STATE | STF_ON_MEMORY)) ? STF_OF_TIME
+      : s->on & STF_ON_MEMORY                   ? STF_OF_OTHERS
+                                                : STF_OF_STATE;
 }
 
 /* What `stop` says of the reaction to a condition in this line; NULL: nothing, or there is no stop. */

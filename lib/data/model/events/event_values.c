@@ -5,14 +5,21 @@
 #include <string.h>
 
 /* Places of passes that stand elsewhere are never an event. */
-void stf_event_values(const stf_model *m, double t, const double *y, double *g)
+static void values(const stf_model *m, const double *memory, double t, const double *y,
+                   double *g)
 {
   stf_feed feed = m->feed;
   feed.t = t;
   feed.y = y;
+  feed.memory = memory;
   for (int32_t i = 0; i < m->switches + m->timers; i++)
     g[i] = i < m->switches && !m->switch_used[i];
   stf_quantity_run(m, &m->events, &feed, g);
+}
+
+void stf_event_values(const stf_model *m, double t, const double *y, double *g)
+{
+  values(m, m->memory, t, y, g);
 }
 
 /* After an event g is as small as rounding and may stay so, where a relation stops what it watches: it is
@@ -26,8 +33,9 @@ int stf_event_callback(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
   stf_event_values(m, t, N_VGetArrayPointer(y), g);
   for (int32_t i = 0; i < m->switches; i++) {
     m->event_range[i] = fmax(m->event_range[i], fabs(g[i]));
-    if (g[i] * m->event_shift[i] > 0 && fabs(g[i]) > far * fabs(m->event_shift[i]))
-      m->event_shift[i] = 0;
+    const bool away =
+      g[i] * m->event_shift[i] > 0 && fabs(g[i]) > far * fabs(m->event_shift[i]);
+    if (away && m->switch_open[i] != STF_AT_ZERO) m->event_shift[i] = 0;
     g[i] += m->event_shift[i];
   }
   return 0;
@@ -37,7 +45,7 @@ void stf_event_move(const stf_model *m, const int *fired)
 {
   static const double units = 64 * STF_EPS;
   for (int32_t i = 0; i < m->switches; i++) {
-    if (!fired[i]) continue;
+    if (!fired[i] && (m->switch_open[i] != STF_AT_ZERO || m->event_shift[i] != 0)) continue;
     const double g = fabs(m->event_values[1][i]), shift = units * m->event_range[i] + 2 * g;
     m->event_shift[i] = g > units * 1e3 * m->event_range[i] ? 0
                         : m->memory[m->discretes + i] != 0  ? -shift
@@ -46,9 +54,26 @@ void stf_event_move(const stf_model *m, const int *fired)
   }
 }
 
+void stf_event_sides(const stf_model *m, double t, const double *y, int ahead, double *g)
+{
+  static const double units = 64 * STF_EPS;
+  const double h = 1024 * STF_EPS * (fabs(t) + stf_span(m));
+  values(m, m->memory, t + ahead * h, y, g);
+  for (int32_t i = 0; i < m->switches; i++)
+    if (m->switch_used[i] != STF_OF_TIME || !(fabs(g[i]) > units * m->event_range[i])) g[i] = 0;
+}
+
+/* g of a relation may hang on the truth of others, as in abs(x) < 1: until none changes. */
 void stf_literal_switches(const stf_model *m, double t, const double *y, double *memory)
 {
-  double *g = m->event_values[1];
-  stf_event_values(m, t, y, g);
-  for (int32_t i = 0; i < m->switches; i++) memory[m->discretes + i] = g[i] < 0;
+  double *g = m->event_values[1], *truth = memory + m->discretes;
+  bool changed = true;
+  for (int32_t round = 0; changed && round <= m->switches; round++) {
+    changed = false;
+    values(m, memory, t, y, g);
+    for (int32_t i = 0; i < m->switches; i++) {
+      changed = changed || truth[i] != (g[i] < 0);
+      truth[i] = g[i] < 0;
+    }
+  }
 }

@@ -75,29 +75,67 @@ static void start_timer(const stf_model *m, stf_reaction *r, double t)
  * -------------------------------------------------------------------------------
  */
 
-/* Relations marked in `open`, whose g is 0 or as small as rounding: a short step along y' = f tells. */
-static void look_ahead(stf_model *m, double t, const double *at)
+/* The truth of relation i; true when it was another. */
+static bool is(const stf_model *m, int32_t i, bool truth)
+{
+  double *now = m->memory + m->discretes + i;
+  const bool changed = *now != truth;
+  *now = truth;
+  return changed;
+}
+
+/* Truths that have changed move g of other relations, as that of abs(x) moves abs(x) - 1. Where g has moved beyond
+ * rounding since event_values[0], or to 0, where it may stay, its sign says the truth; until none changes. True when f
+ * changes by it. */
+static bool spread(const stf_model *m, double t, const double *y)
+{
+  static const double noise = 64e3 * STF_EPS;
+  double *before = m->event_values[0], *after = m->event_values[1];
+  bool changed = true, any = false;
+  for (int32_t round = 0; changed && round <= m->switches; round++) {
+    changed = false;
+    stf_event_values(m, t, y, after);
+    for (int32_t i = 0; i < m->switches; i++) {
+      const double least =
+        noise * fmax(m->event_range[i], fmax(fabs(before[i]), fabs(after[i])));
+      if (!(fabs(after[i] - before[i]) > least) && (after[i] || !before[i])) continue;
+      if (fabs(after[i]) <= least) m->switch_open[i] = STF_AT_ZERO;
+      if (!is(m, i, after[i] < 0)) continue;
+      changed = true;
+      any = any || i < m->reactions->equation_switches;
+    }
+    memcpy(before, after, (size_t)(m->switches + m->timers) * sizeof *before);
+  }
+  return any;
+}
+
+/* Relations marked as `open` or more, whose g is 0 or as small as rounding: a short step along y' = f tells. */
+static void look_ahead(stf_model *m, double t, const double *at, int open)
 {
   const double h = 1e-8 * stf_span(m);
+  bool any = false;
+  for (int32_t i = 0; i < m->switches; i++) any = any || m->switch_open[i] >= open;
+  if (!any) return;
   stf_feed feed = feed_at(m, t, at);
   double *y = m->memory_literal + m->memories, *g = m->event_values[1];
+  bool changed = true;
   stf_quantity_run(m, &m->f, &feed, y);
   for (int32_t i = 0; i < m->n; i++) y[i] = at[i] + h * y[i];
-  stf_event_values(m, t + h, y, g);
-  for (int32_t i = 0; i < m->switches; i++)
-    if (m->switch_open[i] && isfinite(g[i])) m->memory[m->discretes + i] = g[i] < 0;
+  for (int32_t round = 0; changed && round <= m->switches; round++) {
+    changed = false;
+    stf_event_values(m, t + h, y, g);
+    for (int32_t i = 0; i < m->switches; i++)
+      if (m->switch_open[i] >= open && isfinite(g[i])) changed = is(m, i, g[i] < 0) || changed;
+  }
+  spread(m, t, at);
 }
 
 static void undecided(stf_model *m, double t)
 {
   const double *g = m->event_values[0];
-  bool any = false;
   stf_event_values(m, t, m->y0, m->event_values[0]);
-  for (int32_t i = 0; i < m->switches; i++) {
-    m->switch_open[i] = g[i] == 0;
-    any = any || g[i] == 0;
-  }
-  if (any && m->form == STEIF_ODE) look_ahead(m, t, m->y0);
+  for (int32_t i = 0; i < m->switches; i++) m->switch_open[i] = g[i] == 0;
+  if (m->form == STEIF_ODE) look_ahead(m, t, m->y0, STF_OPEN);
 }
 
 int stf_reactions_begin(sunrealtype t, void *user)
@@ -146,13 +184,17 @@ static bool find_pending(const stf_model *m, double t, const double *y)
 static void follow(const stf_model *m, double t, const double *y)
 {
   double *before = m->event_values[0], *after = m->event_values[1];
-  stf_event_values(m, t, y, after);
-  for (int32_t i = 0; i < m->switches; i++)
-    if (after[i] != before[i]) {
-      m->memory[m->discretes + i] = after[i] < 0;
-      m->switch_open[i] = after[i] == 0;
-    }
-  memcpy(before, after, (size_t)(m->switches + m->timers) * sizeof *before);
+  bool changed = true;
+  for (int32_t round = 0; changed && round <= m->switches; round++) {
+    changed = false;
+    stf_event_values(m, t, y, after);
+    for (int32_t i = 0; i < m->switches; i++)
+      if (after[i] != before[i]) {
+        changed = is(m, i, after[i] < 0) || changed;
+        m->switch_open[i] = after[i] == 0;
+      }
+    memcpy(before, after, (size_t)(m->switches + m->timers) * sizeof *before);
+  }
 }
 
 static void assign(const stf_model *m, const stf_reaction *e, double t, double *y)
@@ -197,21 +239,43 @@ static int act(const stf_model *m, double t, double *y, bool *stops)
   return STEIF_OK;
 }
 
+/* Truths of what has fired, before the event or after it. Time alone may touch 0 and go back: it is asked. */
+static void turn(const stf_model *m, double t, const double *y, const int *fired, int ahead)
+{
+  double *g = m->event_values[1];
+  stf_event_sides(m, t, y, ahead, g);
+  for (int32_t i = 0; i < m->switches; i++)
+    if (fired[i]) m->memory[m->discretes + i] = g[i] != 0 ? g[i] < 0 : fired[i] * ahead < 0;
+}
+
+/* What hangs on another relation may touch 0 where that one fires, as abs(x) does: a step along y' = f tells. */
+static void touch(stf_model *m, double t, const double *y, const int *fired)
+{
+  int others = 0;
+  for (int32_t i = 0; i < m->switches; i++)
+    others += fired[i] && m->switch_used[i] != STF_OF_OTHERS;
+  for (int32_t i = 0; i < m->switches && others; i++)
+    if (fired[i] && m->switch_used[i] == STF_OF_OTHERS) m->switch_open[i] = STF_AT_ZERO;
+  if (m->form == STEIF_ODE) look_ahead(m, t, y, STF_AT_ZERO);
+}
+
 /* A relation that has fired was the other way before, whatever was remembered of it. */
-static bool flip(const stf_model *m, double t, const double *y, const int *fired)
+static bool flip(stf_model *m, double t, const double *y, const int *fired)
 {
   const stf_reactions *r = m->reactions;
   bool changes = false;
   for (int32_t i = 0; i < m->switches; i++) {
-    m->switch_open[i] = fired[i] != 0;
-    if (fired[i]) m->memory[m->discretes + i] = fired[i] > 0;
+    const bool stays = m->switch_open[i] == STF_AT_ZERO && m->event_values[0][i] == 0;
+    m->switch_open[i] = fired[i] ? STF_OPEN : stays ? STF_AT_ZERO : 0;
   }
+  turn(m, t, y, fired, -1);
   ask(m, t, y);
   for (size_t i = 0; i < r->list.count; i++) reaction(r, i)->truth = r->truths[i] != 0;
-  for (int32_t i = 0; i < m->switches; i++) {
-    if (fired[i]) m->memory[m->discretes + i] = fired[i] < 0;
+  turn(m, t, y, fired, 1);
+  for (int32_t i = 0; i < m->switches; i++)
     changes = changes || (fired[i] && i < r->equation_switches);
-  }
+  changes = spread(m, t, y) || changes;
+  touch(m, t, y, fired);
   int timer = 0;
   for (size_t i = 0; i < r->list.count; i++)
     if (reaction(r, i)->trigger == STF_TIMER && fired[m->switches + timer++] > 0)
@@ -236,7 +300,7 @@ int stf_reactions_handle(sunrealtype t, N_Vector v, const int *fired, void *user
                         t);
     STEIF_TRY(act(m, t, y, &stops));
   }
-  if (acted && m->form == STEIF_ODE) look_ahead(m, t, y);
+  if (acted && m->form == STEIF_ODE) look_ahead(m, t, y, STF_OPEN);
   stf_event_values(m, t, y, m->event_values[1]);
   stf_event_move(m, fired);
   return stops ? STEIF_FINISH : changes || acted ? STEIF_RESTART : STEIF_CONTINUE;

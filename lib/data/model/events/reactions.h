@@ -10,6 +10,12 @@ typedef struct stf_target {
   int32_t statement;
 } stf_target;
 
+/* Of relations whose g is 0 or rounding after an event: fired, or brought to 0 by others, where it may stay. */
+enum stf_openness { STF_OPEN = 1, STF_AT_ZERO };
+
+/* What g of a relation is of: time alone; discrete values and other relations, too. */
+enum stf_use { STF_OF_STATE = 1, STF_OF_TIME, STF_OF_OTHERS };
+
 enum stf_trigger { STF_BECOMES_TRUE, STF_CHANGES, STF_TIMER, STF_REQUIREMENT };
 
 typedef struct stf_reaction {
@@ -41,6 +47,8 @@ int stf_timer_read(stf_model *m, stf_reaction *r);
 /* event_values.c */
 void stf_event_values(const stf_model *m, double t, const double *y, double *g);
 int stf_event_callback(sunrealtype t, N_Vector y, sunrealtype *g, void *user);
+/* g of relations of time alone a moment after t (ahead = 1) or before (-1), where it is clear; else 0. */
+void stf_event_sides(const stf_model *m, double t, const double *y, int ahead, double *g);
 /* After an event, with g there in event_values[1]. */
 void stf_event_move(const stf_model *m, const int *fired);
 /* reactions.c: at the start of a run, and at an event. */

@@ -62,6 +62,7 @@ typedef struct stf_switch {
   int32_t g;                    /* node */
   int32_t a, stride[STF_LOOPS]; /* place in memory */
   uint32_t at; /* place in the text: g may have been computed elsewhere before */
+  uint8_t on;  /* what g depends on */
 } stf_switch;
 
 /* The value of a parameter that is given from outside. */
@@ -134,7 +135,7 @@ typedef struct stf_model {
   uint8_t *constraint_of; /* statements: it is a constraint of the problem */
   bool constrained;
   int32_t memories, switches, timers, invariant_count, output_count;
-  uint8_t *switch_used, *switch_open; /* switches */
+  uint8_t *switch_used, *switch_open; /* switches; used: enum stf_use of reactions.h */
   stf_vector breaks;                  /* double */
   int break_count;                    /* of them inside the interval, sorted */
   stf_block *event_block;

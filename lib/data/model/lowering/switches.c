@@ -8,26 +8,57 @@
 #include "model.h"
 #include <math.h>
 
-enum { NO_MEMORY = -1, NOT_LINEAR = -2 };
+/* Of g that depends on t alone, beside nodes: where it is 0 is not known; it is constant between the breaks of the
+ * conditions in it. */
+enum { NO_MEMORY = -1, NOT_LINEAR = -2, IN_PIECES = -3 };
+
+/* Has an operation of t more than one piece? */
+static bool piecewise(const stf_formulas *g, const stf_vector *list)
+{
+  for (size_t i = 0; i < list->count; i++) {
+    const stf_node *n = stf_node_at(g, *STF_AT(*list, int32_t, i));
+    if (!(n->on & STF_ON_TIME)) continue;
+    switch (n->kind) {
+    case STF_OP_ABS:
+    case STF_OP_SIGN:
+    case STF_OP_STEP:
+    case STF_OP_RAMP:
+    case STF_OP_FLOOR:
+    case STF_OP_MOD:
+    case STF_OP_MIN:
+    case STF_OP_MAX:
+    case STF_OP_LOOKUP:
+    case STF_OP_SELECT: return true;
+    default: break;
+    }
+  }
+  return false;
+}
 
 /* The time at which g, linear in t, is 0, a node; *falls: g < 0 after it. */
-static int32_t zero_of(stf_builder *b, int32_t g, bool *falls)
+static int32_t zero_by(stf_builder *b, int32_t g, stf_sweep *sweep, stf_vector *partials,
+                       bool *falls)
 {
   double slope = 0;
+  if (stf_formulas_differentiate(b->g, g, STF_OP_TIME, sweep, partials)) return NO_MEMORY;
+  const int32_t rate = partials->count ? STF_AT(*partials, stf_partial, 0)->value : -1;
+  if (stf_reach(b->g, g, &sweep->mark, &sweep->list)) return NO_MEMORY;
+  const bool pieces = piecewise(b->g, &sweep->list);
+  if (rate < 0 || stf_is_number(b->g, rate, 0)) return pieces ? IN_PIECES : NOT_LINEAR;
+  if (pieces || (stf_node_at(b->g, rate)->on & STF_ON_TIME)) return NOT_LINEAR;
+  const int32_t at_0 = stf_without(b->g, g, STF_OP_TIME, sweep);
+  if (at_0 < 0 || stf_fixed_value(b->m, b->g, rate, &slope)) return NO_MEMORY;
+  *falls = slope < 0;
+  if (slope == 0) return NOT_LINEAR; /* of the parameters as they are */
+  return stf_apply2(b->g, STF_OP_DIVIDE, stf_apply1(b->g, STF_OP_NEGATIVE, at_0), rate);
+}
+
+static int32_t zero_of(stf_builder *b, int32_t g, bool *falls)
+{
   stf_vector partials = {0};
   stf_sweep sweep = {{0}, {0}, {0}};
-  int32_t zero = NOT_LINEAR;
   const uint32_t at = b->g->at;
-  const int code = stf_formulas_differentiate(b->g, g, STF_OP_TIME, &sweep, &partials);
-  const int32_t rate = !code && partials.count ? STF_AT(partials, stf_partial, 0)->value : -1;
-  const int32_t at_0 = code ? -1 : stf_without(b->g, g, STF_OP_TIME, &sweep);
-  if (code || at_0 < 0)
-    zero = NO_MEMORY;
-  else if (rate >= 0 && !(stf_node_at(b->g, rate)->on & STF_ON_TIME)) {
-    zero = stf_apply2(b->g, STF_OP_DIVIDE, stf_apply1(b->g, STF_OP_NEGATIVE, at_0), rate);
-    if (stf_fixed_value(b->m, b->g, rate, &slope)) zero = NO_MEMORY;
-    *falls = slope < 0;
-  }
+  const int32_t zero = zero_by(b, g, &sweep, &partials, falls);
   b->g->at = at;
   stf_sweep_free(b->m->ctx, &sweep);
   stf_vector_free(b->m->ctx, &partials);
@@ -83,6 +114,7 @@ static int32_t switched(stf_builder *b, int32_t g)
     stf_switch *s = stf_vector_push(m->ctx, &b->block->switches, sizeof *s);
     if (!s || claim(b, s)) return -1;
     s->g = g, s->at = b->g->at;
+    s->on = stf_node_at(b->g, g)->on;
     *known = (int32_t)b->block->switches.count;
   }
   const stf_switch *s = STF_AT(b->block->switches, stf_switch, *known - 1);
@@ -116,9 +148,14 @@ int32_t stf_relation(stf_builder *b, int kind, int32_t left, int32_t right)
   const bool time_alone = !(on & ~(STF_ON_TIME | STF_ON_PARAMETER));
   if (time_alone && !b->times) {
     const int32_t truth = truth_by_time(b, g);
+    if (truth == IN_PIECES) return literal;
     if (truth != NOT_LINEAR) return truth;
   }
-  return b->clock ? some_time(b, g, literal) : switched(b, g);
+  if (b->clock) return some_time(b, g, literal);
+  if (kind == STF_OP_LESS)
+    return switched(b, g); /* a <= c: not c < a, where a - c stays at 0 */
+  const int32_t other = switched(b, stf_apply2(b->g, STF_OP_SUBTRACT, right, left));
+  return other < 0 ? -1 : stf_apply1(b->g, STF_OP_NOT, other);
 }
 
 /* a < c ? x : y */
@@ -133,7 +170,8 @@ static int32_t with_relation(stf_builder *b, int kind, int32_t a, int32_t c)
   const int32_t zero = stf_number(b->g, 0), one = stf_number(b->g, 1);
   switch (kind) {
   case STF_OP_ABS: return choose(b, a, zero, stf_apply1(b->g, STF_OP_NEGATIVE, a), a);
-  case STF_OP_SIGN: return choose(b, a, zero, stf_number(b->g, -1), one);
+  case STF_OP_SIGN:
+    return choose(b, a, zero, stf_number(b->g, -1), choose(b, zero, a, one, zero));
   case STF_OP_STEP: return choose(b, a, zero, zero, one);
   case STF_OP_RAMP: return choose(b, a, zero, zero, a);
   case STF_OP_MIN: return choose(b, a, c, a, c);
@@ -141,15 +179,31 @@ static int32_t with_relation(stf_builder *b, int kind, int32_t a, int32_t c)
   }
 }
 
+/* Of the sign of (-1)^floor(a), without rounding: with q = a - 2 floor(a/2) it is q up to 1/2, 1 - q up to 3/2 and
+ * q - 2 beyond; at odd whole numbers, where some arguments stay, a little less than 0. */
+static int32_t parity(stf_builder *b, int32_t a)
+{
+  stf_formulas *g = b->g;
+  const int32_t one = stf_number(g, 1), two = stf_number(g, 2);
+  const int32_t pairs = stf_apply1(g, STF_OP_FLOOR, stf_apply2(g, STF_OP_DIVIDE, a, two));
+  const int32_t q =
+    stf_apply2(g, STF_OP_SUBTRACT, a, stf_apply2(g, STF_OP_MULTIPLY, two, pairs));
+  const int32_t wave =
+    stf_apply2(g, STF_OP_MIN, q,
+               stf_apply2(g, STF_OP_MAX, stf_apply2(g, STF_OP_SUBTRACT, one, q),
+                          stf_apply2(g, STF_OP_SUBTRACT, q, two)));
+  const int32_t odd = stf_apply2(g, STF_OP_AND, stf_apply2(g, STF_OP_LESS_EQUAL, q, one),
+                                 stf_apply2(g, STF_OP_LESS_EQUAL, one, q));
+  return stf_apply(g, STF_OP_SELECT, odd, stf_number(g, -1e-300), wave);
+}
+
 /* floor(a) = p + 2 floor((a - p)/2 + 1/4), p = 0 or 1: whether it is odd, which is kept between events. What is left of
  * floor jumps half a unit away from where p changes: a frozen value lasts as far beyond its event. */
 static int32_t whole_part(stf_builder *b, int32_t a)
 {
-  const int32_t one = stf_number(b->g, 1), two = stf_number(b->g, 2);
-  const int32_t angle = stf_apply2(b->g, STF_OP_MULTIPLY, stf_number(b->g, acos(-1)), a);
-  const int32_t wave = angle < 0 ? -1 : stf_apply1(b->g, STF_OP_SIN, angle);
-  const int32_t odd =
-    wave < 0 ? -1 : choose(b, wave, stf_number(b->g, 0), one, stf_number(b->g, 0));
+  const int32_t one = stf_number(b->g, 1), two = stf_number(b->g, 2),
+                zero = stf_number(b->g, 0);
+  const int32_t odd = choose(b, parity(b, a), zero, one, zero);
   if (odd < 0) return -1;
   const int32_t half =
     stf_apply2(b->g, STF_OP_DIVIDE, stf_apply2(b->g, STF_OP_SUBTRACT, a, odd), two);
