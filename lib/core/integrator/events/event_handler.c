@@ -22,16 +22,20 @@ static void name_fired(steif_solver *s)
 }
 
 /* Who fires, at t or a little behind it: functions with one root in exact arithmetic do not agree
- * about the last digits. Sides and noise behind the event. */
-static int collect(steif_solver *s, sunrealtype t, sunrealtype to)
+ * about the last digits. What is on its old side again by then has touched 0, as |t - 1| does. Sides and noise behind
+ * the event. */
+static int collect(steif_solver *s, sunrealtype t, sunrealtype to, bool *any)
 {
   stf_detector *w = s->events;
+  *any = false;
   STEIF_TRY(stf_event_value(s, fmin(t + 32 * stf_event_tolerance(s, t), to), w->mid));
   for (int i = 0; i < w->count; i++) {
     const bool now = stf_event_crosses(s, i, w->high[i]);
     const bool soon = stf_event_crosses(s, i, w->mid[i]);
     const sunrealtype after = soon || now ? w->mid[i] : w->high[i];
-    w->fired[i] = now || soon ? -w->sign[i] : 0;
+    const bool touched = now && (w->mid[i] > 0) - (w->mid[i] < 0) == w->sign[i];
+    w->fired[i] = (now || soon) && !touched ? -w->sign[i] : 0;
+    *any = *any || w->fired[i];
     if (w->fired[i]) w->noise[i] = 8 * fabs(w->mid[i] - w->low[i]);
     if (w->fired[i] || w->sign[i] != 0) w->sign[i] = (after > 0) - (after < 0);
   }
@@ -85,8 +89,8 @@ static int settle(steif_solver *s, sunrealtype t)
   return STEIF_OK;
 }
 
-/* Event functions that read what the handler has set are others behind it, clearly off what they were or on the other
- * side: no crossing. w->mid: before. */
+/* Event functions that read what the handler has set are others behind it, clearly off what they were or put on
+ * another side: no crossing. w->mid: before. */
 static int look_again(steif_solver *s, sunrealtype t)
 {
   static const sunrealtype clearly = 1e6; /* times the noise of an event */
@@ -95,9 +99,10 @@ static int look_again(steif_solver *s, sunrealtype t)
   STEIF_TRY(stf_event_ask(s, t, w->after, w->low));
   for (int i = 0; i < w->count; i++) {
     const bool off = fabs(w->low[i] - w->mid[i]) > clearly * w->noise[i];
-    const bool across = w->low[i] != w->mid[i] && w->low[i] * w->sign[i] < 0;
-    if (!off && !across) continue;
-    w->sign[i] = (w->low[i] > 0) - (w->low[i] < 0);
+    const int side = (w->low[i] > 0) - (w->low[i] < 0);
+    const bool put = w->low[i] != w->mid[i] && side != 0 && side != w->sign[i];
+    if (!off && !put) continue;
+    w->sign[i] = side;
     w->noise[i] = 0;
   }
   return STEIF_OK;
@@ -168,7 +173,9 @@ int stf_event_fire(steif_solver *s, sunrealtype t, sunrealtype to)
 {
   stf_detector *w = s->events;
   const steif_options *o = &s->options;
-  STEIF_TRY(collect(s, t, to));
+  bool any;
+  STEIF_TRY(collect(s, t, to, &any));
+  if (!any) return STEIF_OK;
   STEIF_TRY(stf_dense(s, t, w->after));
   s->shown = w->after, s->t_shown = t;
   stf_saltation_forget(s, t);

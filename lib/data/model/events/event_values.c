@@ -35,7 +35,7 @@ int stf_event_callback(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
     m->event_range[i] = fmax(m->event_range[i], fabs(g[i]));
     const bool away =
       g[i] * m->event_shift[i] > 0 && fabs(g[i]) > far * fabs(m->event_shift[i]);
-    if (away && m->switch_open[i] != STF_AT_ZERO) m->event_shift[i] = 0;
+    if (away && m->switch_open[i] < STF_AT_ZERO) m->event_shift[i] = 0;
     g[i] += m->event_shift[i];
   }
   return 0;
@@ -45,7 +45,7 @@ void stf_event_move(const stf_model *m, const int *fired)
 {
   static const double units = 64 * STF_EPS;
   for (int32_t i = 0; i < m->switches; i++) {
-    if (!fired[i] && (m->switch_open[i] != STF_AT_ZERO || m->event_shift[i] != 0)) continue;
+    if (!fired[i] && m->switch_open[i] != STF_AT_ZERO) continue;
     const double g = fabs(m->event_values[1][i]), shift = units * m->event_range[i] + 2 * g;
     m->event_shift[i] = g > units * 1e3 * m->event_range[i] ? 0
                         : m->memory[m->discretes + i] != 0  ? -shift

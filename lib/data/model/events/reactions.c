@@ -136,6 +136,11 @@ static void undecided(stf_model *m, double t)
   stf_event_values(m, t, m->y0, m->event_values[0]);
   for (int32_t i = 0; i < m->switches; i++) m->switch_open[i] = g[i] == 0;
   if (m->form == STEIF_ODE) look_ahead(m, t, m->y0, STF_OPEN);
+  for (int32_t i = 0; i < m->switches; i++) { /* it leaves 0 by an event */
+    if (!m->switch_open[i]) continue;
+    m->event_shift[i] = m->memory[m->discretes + i] != 0 ? -1e-300 : 1e-300;
+    m->switch_open[i] = STF_STAYS;
+  }
 }
 
 int stf_reactions_begin(sunrealtype t, void *user)
@@ -265,8 +270,8 @@ static bool flip(stf_model *m, double t, const double *y, const int *fired)
   const stf_reactions *r = m->reactions;
   bool changes = false;
   for (int32_t i = 0; i < m->switches; i++) {
-    const bool stays = m->switch_open[i] == STF_AT_ZERO && m->event_values[0][i] == 0;
-    m->switch_open[i] = fired[i] ? STF_OPEN : stays ? STF_AT_ZERO : 0;
+    const bool stays = m->switch_open[i] >= STF_AT_ZERO && m->event_values[0][i] == 0;
+    m->switch_open[i] = fired[i] ? STF_OPEN : stays ? STF_STAYS : 0;
   }
   turn(m, t, y, fired, -1);
   ask(m, t, y);

@@ -10,8 +10,8 @@ typedef struct stf_target {
   int32_t statement;
 } stf_target;
 
-/* Of relations whose g is 0 or rounding after an event: fired, or brought to 0 by others, where it may stay. */
-enum stf_openness { STF_OPEN = 1, STF_AT_ZERO };
+/* Of relations whose g is 0 or rounding after an event: fired; brought to 0 by others, where it may stay; still there. */
+enum stf_openness { STF_OPEN = 1, STF_AT_ZERO, STF_STAYS };
 
 /* What g of a relation is of: time alone; discrete values and other relations, too. */
 enum stf_use { STF_OF_STATE = 1, STF_OF_TIME, STF_OF_OTHERS };
