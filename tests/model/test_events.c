@@ -99,6 +99,44 @@ static void conditions_of_conditions_follow(void)
           x, 1e-7);
 }
 
+/* What stays at 0, touches it or is constant in pieces: expected by hand. sign(0) = 0, step(0) = 1, and <= holds there. */
+static void plateaus_and_touches(void)
+{
+  reaches("state z = 0, x = -1\nx' = 1\nz' = sign(ramp(x))\ntime 0 to 3\n", 2, 1e-7);
+  reaches("state z = 0, x = -1\nx' = 1\nz' = sign(ramp(-x))\ntime 0 to 3\n", 1, 1e-7);
+  reaches("state z = 0, w = 0.1\nw' = 1\nz' = step(ramp(sin(3*w)))\ntime 0 to 3\n", 3, 1e-7);
+  reaches("state z = 0\nz' = mod(floor(t), 2)\ntime 0 to 5\n", 2, 1e-7);
+  reaches("state z = 0, x = 0.5\nx' = 1\nz' = mod(floor(x), 2)\ntime 0 to 5\n", 2.5, 1e-7);
+  reaches("let source = if t < 1 then 5 else 0\nstate z = 0\nz' = if source > 0 then 1 else 0\n"
+          "time 0 to 3\n",
+          1, 1e-7);
+  reaches("state z = 0, x = 0\nx' = 1\nz' = if min(x, 1) <= 1 then 1 else 0\ntime 0 to 3\n", 3,
+          1e-7);
+  reaches("state z = 0, x = 0\nx' = 1\nz' = step(-abs(t - 1)*(2 + x))\ntime 0 to 3\n", 0, 1e-7);
+  reaches("state z = 0\nz' = if t - 2 + step(t - 1) < 0 then 1 else 0\ntime 0 to 3\n", 1, 1e-7);
+  reaches("state z = 0, v = 0\nv' = cos(2*t)\nz' = sign(v)\ntime 0 to 1.5\n", 1.5, 1e-7);
+}
+
+/* A sign that is 0 at the start, as that of friction, and one that touches 0 where mod jumps, in algebraic equations. */
+static void algebraic_signs_leave_zero(void)
+{
+  static const char *const methods[] = {"radau:s=3", "auto", "rodas4"};
+  fixture s;
+  double y[8];
+  const char *text[] = {"state z = 0, x = 0, u ~ 0\nx' = 1\nz' = u\n0 = u - sign(mod(x, 0.7))\n"
+                        "time 0 to 3\n",
+                        "state z = 0, x = 0, u ~ 0\nx' = 1\nz' = u\n0 = u - 3/2*sign(x)\n"
+                        "time 0 to 2\n"};
+  for (int i = 0; i < 2; i++) {
+    CU_ASSERT_FATAL(fixture_text(&s, text[i], "") == STEIF_OK);
+    for (int k = 0; k < 3; k++) {
+      CHECK(run(&s, methods[k], 1e-7, y) == STEIF_OK);
+      CLOSE_FLOOR(y[0], 3, 1e-5, 1);
+    }
+    fixture_close(&s);
+  }
+}
+
 /* Where 3 t - 2.1 changes its sign it is -4.4e-16: t itself decides which side it is. */
 static void breaks_are_exact(void)
 {
@@ -328,6 +366,8 @@ CU_TestInfo tests_of_events[] = {
   {"whole parts jump at events", whole_parts_jump_at_events},
   {"breaks are exact", breaks_are_exact},
   {"conditions of conditions follow", conditions_of_conditions_follow},
+  {"plateaus and touches", plateaus_and_touches},
+  {"algebraic signs leave zero", algebraic_signs_leave_zero},
   {"a short pulse", a_short_pulse_is_seen},
   {"at and every", times_come},
   {"events cause events", events_cause_events},

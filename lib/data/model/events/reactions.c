@@ -109,17 +109,28 @@ static bool spread(const stf_model *m, double t, const double *y)
   return any;
 }
 
+/* y' of explicit equations; of others at the start alone, where it is known. */
+static bool slopes(const stf_model *m, double t, const double *at, double *yp)
+{
+  const stf_feed feed = feed_at(m, t, at);
+  if (m->form == STEIF_ODE)
+    stf_quantity_run(m, &m->f, &feed, yp);
+  else if (at == m->y0 && m->yp0)
+    memcpy(yp, m->yp0, (size_t)m->n * sizeof *yp);
+  else
+    return false;
+  return true;
+}
+
 /* Relations marked as `open` or more, whose g is 0 or as small as rounding: a short step along y' = f tells. */
 static void look_ahead(stf_model *m, double t, const double *at, int open)
 {
   const double h = 1e-8 * stf_span(m);
   bool any = false;
   for (int32_t i = 0; i < m->switches; i++) any = any || m->switch_open[i] >= open;
-  if (!any) return;
-  stf_feed feed = feed_at(m, t, at);
   double *y = m->memory_literal + m->memories, *g = m->event_values[1];
   bool changed = true;
-  stf_quantity_run(m, &m->f, &feed, y);
+  if (!any || !slopes(m, t, at, y)) return;
   for (int32_t i = 0; i < m->n; i++) y[i] = at[i] + h * y[i];
   for (int32_t round = 0; changed && round <= m->switches; round++) {
     changed = false;
@@ -135,7 +146,7 @@ static void undecided(stf_model *m, double t)
   const double *g = m->event_values[0];
   stf_event_values(m, t, m->y0, m->event_values[0]);
   for (int32_t i = 0; i < m->switches; i++) m->switch_open[i] = g[i] == 0;
-  if (m->form == STEIF_ODE) look_ahead(m, t, m->y0, STF_OPEN);
+  look_ahead(m, t, m->y0, STF_OPEN);
   for (int32_t i = 0; i < m->switches; i++) { /* it leaves 0 by an event */
     if (!m->switch_open[i]) continue;
     m->event_shift[i] = m->memory[m->discretes + i] != 0 ? -1e-300 : 1e-300;
@@ -261,7 +272,7 @@ static void touch(stf_model *m, double t, const double *y, const int *fired)
     others += fired[i] && m->switch_used[i] != STF_OF_OTHERS;
   for (int32_t i = 0; i < m->switches && others; i++)
     if (fired[i] && m->switch_used[i] == STF_OF_OTHERS) m->switch_open[i] = STF_AT_ZERO;
-  if (m->form == STEIF_ODE) look_ahead(m, t, y, STF_AT_ZERO);
+  look_ahead(m, t, y, STF_AT_ZERO);
 }
 
 /* A relation that has fired was the other way before, whatever was remembered of it. */
@@ -305,7 +316,7 @@ int stf_reactions_handle(sunrealtype t, N_Vector v, const int *fired, void *user
                         t);
     STEIF_TRY(act(m, t, y, &stops));
   }
-  if (acted && m->form == STEIF_ODE) look_ahead(m, t, y, STF_OPEN);
+  if (acted) look_ahead(m, t, y, STF_OPEN);
   stf_event_values(m, t, y, m->event_values[1]);
   stf_event_move(m, fired);
   return stops ? STEIF_FINISH : changes || acted ? STEIF_RESTART : STEIF_CONTINUE;

@@ -126,14 +126,19 @@ void stf_write_event_values(stf_writer *w, const stf_model *m)
 void stf_write_events(stf_writer *w, const stf_model *m)
 {
   reaction_list(w, m);
-  stf_write_text(w, "static void slopes(double t, const double *y, double *out)\n{\n");
-  if (m->form != STEIF_ODE)
-    stf_write_text(w, "  (void)t, (void)y, (void)out;\n}\n");
-  else {
+  stf_write_text(
+    w, "static int slopes(double t, const double *y, double *out)\n{\n  (void)t, (void)y, "
+       "(void)out;\n");
+  if (m->form == STEIF_ODE) {
     if (m->f.size && !m->f.assigns)
       stf_write_text(w, "  memset(out, 0, UNKNOWNS * sizeof *out);\n");
     all(w, "f", &m->f, "run.memory", "out");
-    stf_write_text(w, "}\n");
+    stf_write_text(w, "  return 1;\n}\n");
+  } else {
+    if (m->yp0)
+      stf_write_text(
+        w, "  if (y == start) return memcpy(out, start_slope, UNKNOWNS * sizeof *out), 1;\n");
+    stf_write_text(w, "  return 0;\n}\n");
   }
   stf_write_text(w, stf_c_rules);
   stf_write_text(w, stf_c_turning);
