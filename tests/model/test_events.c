@@ -137,6 +137,23 @@ static void algebraic_signs_leave_zero(void)
   }
 }
 
+/* What old factors leave of a correction in u, which stays at 1, grew from step to step until steps vanished. */
+static void constant_algebraic_unknowns_stay(void)
+{
+  fixture s;
+  steif_options o = steif_defaults();
+  o.rtol = 1e-8, o.atol = 1e-9;
+  const char *text = "state z = 0, x = -1.29, w = 0.3, u ~ 0\nx' = 1.26 + 1e-9*x^2\nz' = u\n"
+                     "w' = 1 + 0.5*cos(t)\n0 = u - 1\ntime 0 to 3\n";
+  CU_ASSERT_FATAL(fixture_text(&s, text, "") == STEIF_OK);
+  steif_solver *solver = steif_solver_new(s.ctx, &s.p, "bdf", &o);
+  CU_ASSERT_FATAL(solver && steif_solve_to(solver, 3) == STEIF_OK);
+  CLOSE_FLOOR(NV_Ith_S(steif_solution(solver), 0), 3, 1e-7, 1);
+  CHECK(steif_statistics(solver)->steps < 400); /* w, without u, takes about 180 */
+  steif_solver_free(&solver);
+  fixture_close(&s);
+}
+
 /* Where 3 t - 2.1 changes its sign it is -4.4e-16: t itself decides which side it is. */
 static void breaks_are_exact(void)
 {
@@ -367,6 +384,7 @@ CU_TestInfo tests_of_events[] = {
   {"breaks are exact", breaks_are_exact},
   {"conditions of conditions follow", conditions_of_conditions_follow},
   {"plateaus and touches", plateaus_and_touches},
+  {"constant algebraic unknowns stay", constant_algebraic_unknowns_stay},
   {"algebraic signs leave zero", algebraic_signs_leave_zero},
   {"a short pulse", a_short_pulse_is_seen},
   {"at and every", times_come},

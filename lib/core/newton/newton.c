@@ -39,15 +39,15 @@ int stf_newton_open(stf_pool *pool, stf_system *system, const stf_transform *tra
 }
 
 /* May the factors in use serve another shift? Then corrections are scaled by 2 / (1 + ratio), which centres the rate
- * of convergence over the spectrum (Petzold, DASSL). Not where the index is above 1: that leaves a share of each
- * correction in rows without a derivative, which old factors solve exactly; a predictor of order k multiplies it by up to
- * 2^k - 1 from step to step, and components of index 2 and 3 divide it by h and h^2. */
+ * of convergence over the spectrum (Petzold, DASSL). Not of DAEs: that leaves a share of each correction in rows without
+ * a derivative, which old factors solve exactly; a predictor of order k multiplies it by up to 2^k - 1 from step to
+ * step, up to what the tolerance lets be, and components of index 2 and 3 divide it by h and h^2. */
 static bool serves(stf_newton *newton, sunrealtype shift)
 {
   const sunrealtype ratio = shift / newton->shift, window = newton->shift_ratio_most;
   if (!(window > 1) || newton->jacobian_wanted || newton->system->linear) return false;
   if (!(ratio < window && ratio > 1 / window)) return false;
-  const bool centred = newton->gamma == 0 && newton->system->problem->dae_index < 2;
+  const bool centred = newton->gamma == 0 && newton->system->problem->dae_index < 1;
   newton->relax = centred ? 2 / (1 + ratio) : 1;
   return true;
 }
