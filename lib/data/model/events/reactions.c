@@ -98,7 +98,7 @@ static bool spread(const stf_model *m, double t, const double *y)
     for (int32_t i = 0; i < m->switches; i++) {
       const double least =
         noise * fmax(m->event_range[i], fmax(fabs(before[i]), fabs(after[i])));
-      if (!(fabs(after[i] - before[i]) > least) && (after[i] || !before[i])) continue;
+      if (!(fabs(after[i] - before[i]) > least) && (after[i] != 0 || before[i] == 0)) continue;
       if (fabs(after[i]) <= least) m->switch_open[i] = STF_AT_ZERO;
       if (!is(m, i, after[i] < 0)) continue;
       changed = true;
