@@ -70,6 +70,24 @@ static int passes_on(steif_context *ctx, double h)
   return STEIF_RETRY;
 }
 
+static int wraps(steif_context *ctx, double h)
+{
+  fails(ctx, h);
+  return STEIF_FAIL(ctx, STEIF_BAD_INPUT, "in [0, 1]: %s", steif_message(ctx));
+}
+
+/* A sentence that passes on another has its own code alone; brackets of other kinds stay. */
+static void a_sentence_has_one_code(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  CHECK(wraps(ctx, -0.375) == STEIF_BAD_INPUT);
+  CHECK(!strcmp(steif_message(ctx),
+                "in [0, 1]: the step is h = -0.375: give a positive one [STEIF_BAD_INPUT]"));
+  CHECK(STEIF_FAIL(ctx, STEIF_IO, "a place in [0, 1]") == STEIF_IO);
+  CHECK(!strcmp(steif_message(ctx), "a place in [0, 1] [STEIF_IO]"));
+  steif_context_free(&ctx);
+}
+
 static void a_failure_keeps_code_values_and_place(void)
 {
   steif_context *ctx = steif_context_new(NULL);
@@ -122,6 +140,7 @@ CU_TestInfo tests_of_context[] = {
   {"a refused context leaves nothing", a_refused_context_leaves_nothing},
   {"an own allocator serves everything", own_allocator_serves_everything},
   {"a failure keeps code, values and place", a_failure_keeps_code_values_and_place},
+  {"a sentence has one code", a_sentence_has_one_code},
   {"a long sentence is cut, not overrun", a_long_sentence_is_cut_not_overrun},
   {"every code has a name and a remedy", every_code_has_name_and_remedy},
   {"the version is that of the header", the_version_is_that_of_the_header},

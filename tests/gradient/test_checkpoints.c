@@ -1,6 +1,7 @@
 /* test_checkpoints.c: what a gradient comes to does not depend on what is kept.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "subjects.h"
+#include "folder.h"
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -107,8 +108,8 @@ static void within_the_limit(void)
 
 static void in_files(void)
 {
-  char folder[] = "/tmp/steif-gradient-XXXXXX";
-  CU_ASSERT_FATAL(mkdtemp(folder) != NULL);
+  char folder[400];
+  CU_ASSERT_FATAL(folder_make(folder, sizeof folder) != NULL);
   steif_context *ctx = steif_context_new(NULL);
   struct subject s;
   subject_robertson(&s);

@@ -55,9 +55,11 @@ static void what_cannot_be_read_is_rejected_with_its_place(void)
     int code;
     const char *place, *words;
   } cases[] = {
-    {"2 +", STEIF_BAD_INPUT, "position 4", "expected an expression, found the end"},
+    {"2 +", STEIF_BAD_INPUT, "position 4",
+     "expected an expression, found the end of the expression"},
     {"2 * * t", STEIF_BAD_INPUT, "position 5", "expected an expression, found '*'"},
-    {"(2 + t", STEIF_BAD_INPUT, "position 7", "expected ')' or an operator, found the end"},
+    {"(2 + t", STEIF_BAD_INPUT, "position 7",
+     "expected ')' or an operator, found the end of the expression"},
     {"2 + t)", STEIF_BAD_INPUT, "position 6",
      "an operator or the end of the expression, found ')'"},
     {"2 t", STEIF_BAD_INPUT, "position 3",
@@ -114,7 +116,7 @@ static void nesting_is_bounded(void)
     *text = 0;
     for (int k = 0; k < 5000; k++) strcat(text, openings[i]);
     CHECK(!steif_function_parse(ctx, text, 1, NULL));
-    SAYS(ctx, "nested more than 200 deep");
+    SAYS(ctx, "nested more than 200 deep; simplify it");
   }
   memset(text, 0, sizeof text);
   for (int k = 0; k < 5000; k++) strcpy(text + 2 * k, "1+");

@@ -113,6 +113,11 @@ static void plateaus_and_touches(void)
   reaches("state z = 0, x = 0\nx' = 1\nz' = if min(x, 1) <= 1 then 1 else 0\ntime 0 to 3\n", 3,
           1e-7);
   reaches("state z = 0, x = 0\nx' = 1\nz' = step(-abs(t - 1)*(2 + x))\ntime 0 to 3\n", 0, 1e-7);
+  reaches("state z = 0\nz' = if noevent(floor(t - 0.5)) < 0.5 then 1 else 0\ntime 0 to 3\n",
+          1.5, 1e-7);
+  reaches("table f = (0, 1), (1, -1), (2, 1) steps\nstate z = 0\n"
+          "z' = (if f(t - 0.25) > 0 then 1 else 0) + sign(sign(step(t - 1)))\ntime 0 to 3\n",
+          2 + 2, 1e-7);
   reaches("state z = 0\nz' = if t - 2 + step(t - 1) < 0 then 1 else 0\ntime 0 to 3\n", 1, 1e-7);
   reaches("state z = 0, v = 0\nv' = cos(2*t)\nz' = sign(v)\ntime 0 to 1.5\n", 1.5, 1e-7);
 }

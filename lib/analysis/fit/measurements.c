@@ -255,18 +255,6 @@ static int row(table *T, const char *line)
 
 /* ---- the file -------------------------------------------------------------------------------- */
 
-static bool has_data(const char *line)
-{
-  while (isspace((unsigned char)*line) && *line != '\n') line++;
-  return *line && *line != '\n' && *line != '#';
-}
-
-static const char *after(const char *line)
-{
-  const char *end = strchr(line, '\n');
-  return end ? end + 1 : line + strlen(line);
-}
-
 static int room(table *T, const char *text)
 {
   steif_measurements *m = T->data;
@@ -282,9 +270,9 @@ static int room(table *T, const char *text)
 
 static int read(table *T, const char *text, int count, const sunrealtype *sd)
 {
-  for (const char *line = text; *line; line = after(line)) {
+  for (const char *line = text; *line; line = stf_next_line(line)) {
     T->line++;
-    if (!has_data(line)) continue;
+    if (!stf_has_data(line)) continue;
     if (T->columns) {
       STEIF_TRY(row(T, line));
       continue;

@@ -125,8 +125,10 @@ static int without_codes(const char *text, int length)
 static void keep(steif_context *ctx, int code, const char *format, va_list arguments)
 {
   ctx->code = code;
-  int used = vsnprintf(ctx->message, MESSAGE, format, arguments);
-  if (used >= 0 && used < MESSAGE) used = without_codes(ctx->message, used);
+  char text[MESSAGE] = ""; /* the former message may be among the arguments */
+  int used = vsnprintf(text, MESSAGE, format, arguments);
+  if (used >= 0 && used < MESSAGE) used = without_codes(text, used);
+  memcpy(ctx->message, text, MESSAGE);
   if (used >= 0 && used < MESSAGE)
     snprintf(ctx->message + used, (size_t)(MESSAGE - used), " [%s]", steif_code_symbol(code));
 }

@@ -93,6 +93,18 @@ static int fill(steif_context *ctx, const char *path, FILE *file, char *text, si
                     line);
 }
 
+bool stf_has_data(const char *line)
+{
+  while (isspace((unsigned char)*line) && *line != '\n') line++;
+  return *line && *line != '\n' && *line != '#';
+}
+
+const char *stf_next_line(const char *line)
+{
+  const char *end = strchr(line, '\n');
+  return end ? end + 1 : line + strlen(line);
+}
+
 char *stf_input_text(steif_context *ctx, const char *path)
 {
   FILE *file = stf_input_open(ctx, path);

@@ -26,6 +26,10 @@ char *stf_input_text(steif_context *ctx, const char *path);
 enum { STF_SHOWN = 44 };
 const char *stf_input_shown(const char *text, char shown[STF_SHOWN]);
 
+/* A line of a text of numbers has something before its end that is no comment; the line after it. */
+bool stf_has_data(const char *line);
+const char *stf_next_line(const char *line);
+
 /* Lines of an open file, in order. */
 enum { STF_LINE = 1000, STF_CHUNK = 1 << 15 };
 typedef struct stf_lines {

@@ -180,7 +180,7 @@ int stf_expressions_read(steif_function *f, const char *path, const char *text)
   x->graph.ctx = f->ctx;
   STEIF_TRY(stf_model_new(f->ctx, &x->model));
   x->model->syntax.pool = x->model->pool;
-  x->model->syntax.sources.pieces = !path;
+  x->model->syntax.sources.alone = true, x->model->syntax.sources.pieces = !path;
   STEIF_TRY(take(f, path, text));
   const int code = build(f);
   return x->model->syntax.sources.errors ? stf_complaints(&x->model->syntax.sources) : code;

@@ -122,18 +122,6 @@ int steif_function_accuracy(const steif_function *f, sunrealtype t, int derivati
 
 /* ---- the file -------------------------------------------------------------------------------- */
 
-static bool has_data(const char *line)
-{
-  while (isspace((unsigned char)*line) && *line != '\n') line++;
-  return *line && *line != '\n' && *line != '#';
-}
-
-static const char *after(const char *line)
-{
-  const char *end = strchr(line, '\n');
-  return end ? end + 1 : line + strlen(line);
-}
-
 static const char *skip(const char *at)
 {
   while (isspace((unsigned char)*at) && *at != '\n') at++;
@@ -180,8 +168,8 @@ static int rows(steif_context *ctx, const char *path, const char *text, sunindex
   bool first = true;
   long number = 1;
   *count = 0;
-  for (const char *line = text; *line; line = after(line), number++) {
-    if (!has_data(line)) continue;
+  for (const char *line = text; *line; line = stf_next_line(line), number++) {
+    if (!stf_has_data(line)) continue;
     const bool names = first && is_header(line);
     first = false;
     if (names) continue;

@@ -8,31 +8,62 @@
 #include "model.h"
 #include <math.h>
 
-/* Of g that depends on t alone, beside nodes: where it is 0 is not known; it is constant between the breaks of the
- * conditions in it. */
-enum { NO_MEMORY = -1, NOT_LINEAR = -2, IN_PIECES = -3 };
+/* Of g that depends on t alone, beside nodes: where it is 0 is not known; it is constant between known breaks. */
+enum { NO_MEMORY = -1, NOT_LINEAR = -2, CONSTANT = -3 };
 
-/* Has an operation of t more than one piece? */
-static bool piecewise(const stf_formulas *g, const stf_vector *list)
+/* Has an operation more than one piece? */
+static bool has_pieces(int kind)
 {
-  for (size_t i = 0; i < list->count; i++) {
-    const stf_node *n = stf_node_at(g, *STF_AT(*list, int32_t, i));
-    if (!(n->on & STF_ON_TIME)) continue;
-    switch (n->kind) {
-    case STF_OP_ABS:
-    case STF_OP_SIGN:
-    case STF_OP_STEP:
-    case STF_OP_RAMP:
-    case STF_OP_FLOOR:
-    case STF_OP_MOD:
-    case STF_OP_MIN:
-    case STF_OP_MAX:
-    case STF_OP_LOOKUP:
-    case STF_OP_SELECT: return true;
-    default: break;
-    }
+  switch (kind) {
+  case STF_OP_ABS:
+  case STF_OP_SIGN:
+  case STF_OP_STEP:
+  case STF_OP_RAMP:
+  case STF_OP_FLOOR:
+  case STF_OP_MOD:
+  case STF_OP_MIN:
+  case STF_OP_MAX:
+  case STF_OP_LOOKUP:
+  case STF_OP_SELECT: return true;
+  default: return false;
   }
-  return false;
+}
+
+/* Is node i constant between the times at which t is compared with numbers, and the nodes of tables of t? Operands
+ * are known in `constant`. */
+static bool stays(const stf_formulas *g, int32_t i, const int32_t *constant)
+{
+  int32_t child[3];
+  const stf_node *n = stf_node_at(g, i);
+  const int count = stf_children(n, child);
+  if (!(n->on & STF_ON_TIME)) return true;
+  bool all = count > 0;
+  for (int k = 0; k < count; k++) all = all && constant[child[k]];
+  if (all) return true;
+  const bool compares = n->kind == STF_OP_LESS || n->kind == STF_OP_LESS_EQUAL,
+             steps = n->kind == STF_OP_LOOKUP && n->c;
+  for (int k = 0; k < count && (compares || steps); k++)
+    if (!constant[child[k]] && stf_node_at(g, child[k])->kind != STF_OP_TIME) return false;
+  return compares ? constant[child[0]] || constant[child[1]] : steps;
+}
+
+/* What g, of t alone, is: CONSTANT between known breaks, of one piece (0), or of several (NOT_LINEAR). */
+static int32_t pieces_of(stf_formulas *g, int32_t root, stf_sweep *sweep)
+{
+  if (stf_reach(g, root, &sweep->mark, &sweep->list) ||
+      stf_vector_resize(g->ctx, &sweep->adjoint, g->nodes.count, sizeof(int32_t)))
+    return NO_MEMORY;
+  int32_t *constant = sweep->adjoint.data;
+  bool pieces = false;
+  for (size_t k = 0; k < sweep->list.count; k++) {
+    const int32_t i = *STF_AT(sweep->list, int32_t, k);
+    const stf_node *n = stf_node_at(g, i);
+    pieces = pieces || ((n->on & STF_ON_TIME) && has_pieces(n->kind));
+    constant[i] = stays(g, i, constant);
+  }
+  const bool all = constant[root];
+  for (size_t k = 0; k < sweep->list.count; k++) constant[*STF_AT(sweep->list, int32_t, k)] = 0;
+  return all ? CONSTANT : pieces ? NOT_LINEAR : 0;
 }
 
 /* The time at which g, linear in t, is 0, a node; *falls: g < 0 after it. */
@@ -40,12 +71,11 @@ static int32_t zero_by(stf_builder *b, int32_t g, stf_sweep *sweep, stf_vector *
                        bool *falls)
 {
   double slope = 0;
+  const int32_t pieces = pieces_of(b->g, g, sweep);
+  if (pieces) return pieces;
   if (stf_formulas_differentiate(b->g, g, STF_OP_TIME, sweep, partials)) return NO_MEMORY;
   const int32_t rate = partials->count ? STF_AT(*partials, stf_partial, 0)->value : -1;
-  if (stf_reach(b->g, g, &sweep->mark, &sweep->list)) return NO_MEMORY;
-  const bool pieces = piecewise(b->g, &sweep->list);
-  if (rate < 0 || stf_is_number(b->g, rate, 0)) return pieces ? IN_PIECES : NOT_LINEAR;
-  if (pieces || (stf_node_at(b->g, rate)->on & STF_ON_TIME)) return NOT_LINEAR;
+  if (rate < 0 || (stf_node_at(b->g, rate)->on & STF_ON_TIME)) return NOT_LINEAR;
   const int32_t at_0 = stf_without(b->g, g, STF_OP_TIME, sweep);
   if (at_0 < 0 || stf_fixed_value(b->m, b->g, rate, &slope)) return NO_MEMORY;
   *falls = slope < 0;
@@ -148,7 +178,7 @@ int32_t stf_relation(stf_builder *b, int kind, int32_t left, int32_t right)
   const bool time_alone = !(on & ~(STF_ON_TIME | STF_ON_PARAMETER));
   if (time_alone && !b->times) {
     const int32_t truth = truth_by_time(b, g);
-    if (truth == IN_PIECES) return literal;
+    if (truth == CONSTANT) return literal;
     if (truth != NOT_LINEAR) return truth;
   }
   if (b->clock) return some_time(b, g, literal);

@@ -40,7 +40,8 @@ int stf_expected(stf_parser *p, const char *what)
   const stf_token *t = stf_next(p);
   if (t->kind == STF_TOKEN_END)
     return stf_complain(&p->syntax->sources, t->at, STEIF_BAD_INPUT,
-                        "expected %s, found the end of the line", what);
+                        "expected %s, found the end of the %s", what,
+                        p->syntax->sources.pieces ? "expression" : "line");
   const stf_text *text = p->syntax->sources.texts.data;
   for (size_t i = 0; i < p->syntax->sources.texts.count; i++, text++)
     if (t->at >= text->base && t->at <= text->base + text->length) break;

@@ -21,6 +21,13 @@ static int complain(stf_parser *p, uint32_t at, const char *what)
   return stf_complain(&p->syntax->sources, at, STEIF_BAD_INPUT, "%s", what);
 }
 
+static int too_deep(stf_parser *p, uint32_t at)
+{
+  return complain(p, at,
+                  p->syntax->sources.alone ? "nested more than 200 deep; simplify it"
+                                           : "nested more than 200 deep; introduce a 'let'");
+}
+
 static stf_code *emit(stf_parser *p, int kind, uint32_t at)
 {
   stf_code *c = stf_vector_push(p->syntax->sources.ctx, &p->syntax->codes, sizeof *c);
@@ -231,8 +238,7 @@ static int power(stf_parser *p)
 static int signed_power(stf_parser *p)
 {
   const uint32_t at = stf_next(p)->at;
-  if (++p->level > DEEPEST)
-    return complain(p, at, "nested more than 200 deep; introduce a 'let'");
+  if (++p->level > DEEPEST) return too_deep(p, at);
   const bool minus = stf_take(p, '-');
   if (minus || stf_take(p, '+')) {
     STEIF_TRY(signed_power(p));
@@ -304,8 +310,7 @@ static int condition(stf_parser *p)
 static int negation(stf_parser *p)
 {
   const uint32_t at = stf_next(p)->at;
-  if (++p->level > DEEPEST)
-    return complain(p, at, "nested more than 200 deep; introduce a 'let'");
+  if (++p->level > DEEPEST) return too_deep(p, at);
   if (stf_take_word(p, STF_WORD_NOT)) {
     STEIF_TRY(negation(p));
     STEIF_TRY(condition(p));
@@ -342,8 +347,7 @@ static int choice(stf_parser *p, uint32_t at)
   STEIF_TRY(arithmetic(p, at));
   const uint32_t next = stf_next(p)->at;
   if (stf_take_word(p, STF_WORD_ELSEIF)) {
-    if (++p->level > DEEPEST)
-      return complain(p, next, "nested more than 200 deep; introduce a 'let'");
+    if (++p->level > DEEPEST) return too_deep(p, next);
     STEIF_TRY(choice(p, next));
     p->level--;
   } else {
@@ -358,8 +362,7 @@ static int any(stf_parser *p)
 {
   const uint32_t at = stf_next(p)->at;
   if (!stf_take_word(p, STF_WORD_IF)) return either(p);
-  if (++p->level > DEEPEST)
-    return complain(p, at, "nested more than 200 deep; introduce a 'let'");
+  if (++p->level > DEEPEST) return too_deep(p, at);
   STEIF_TRY(choice(p, at));
   p->boolean = false;
   p->level--;

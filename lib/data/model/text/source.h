@@ -23,7 +23,8 @@ typedef struct stf_text {
 typedef struct stf_sources {
   steif_context *ctx;
   stf_vector texts; /* of stf_text */
-  bool pieces;      /* lines are the expressions of a text: "expression 2, position 5" */
+  bool alone;       /* expressions in t, one in a line, no model ... */
+  bool pieces;      /* ... of a text with ';': "expression 2, position 5" */
   int errors, code; /* told so far; the code of the first */
   size_t used;
   char told[STF_TOLD + 1];
