@@ -41,3 +41,31 @@ void fixture_close(fixture *s)
   unlink(s->path);
   rmdir(s->folder);
 }
+
+int fixture_run(fixture *s, const char *method, double rtol, double *y)
+{
+  steif_options o = steif_defaults();
+  o.rtol = rtol;
+  steif_solver *solver = steif_solver_new(s->ctx, &s->p, method, &o);
+  const int code = solver ? steif_solve_to(solver, s->p.t1) : steif_status(s->ctx);
+  if (code && code != STEIF_EVENT) printf("\n  %s: %s", method, steif_message(s->ctx));
+  for (int i = 0; solver && i < s->p.n; i++) y[i] = NV_Ith_S(steif_solution(solver), i);
+  steif_solver_free(&solver);
+  return code;
+}
+
+void fixture_reaches(const char *text, double expected, double allowed)
+{
+  static const char *const methods[] = {"radau:s=3", "dopri87", "bdf", "auto"};
+  fixture s;
+  double y[8];
+  const int code = fixture_text(&s, text, "");
+  if (code) printf("\n  %s", steif_message(s.ctx));
+  CU_ASSERT_FATAL(code == STEIF_OK);
+  for (int k = 0; k < 4; k++)
+    for (int again = 0; again < 2; again++) { /* a run leaves nothing for the next */
+      CHECK(fixture_run(&s, methods[k], 1e-9, y) == STEIF_OK);
+      CLOSE_FLOOR(y[0], expected, allowed, 1);
+    }
+  fixture_close(&s);
+}

@@ -22,5 +22,9 @@ typedef struct fixture {
 int fixture_text(fixture *s, const char *text, const char *rest);
 int fixture_example(fixture *s, const char *spec);
 void fixture_close(fixture *s);
+/* To t1; the unknowns there into y. */
+int fixture_run(fixture *s, const char *method, double rtol, double *y);
+/* The first unknown at the end of a model of at most eight, by four methods, twice each, at rtol 1e-9. */
+void fixture_reaches(const char *text, double expected, double allowed);
 
 #endif

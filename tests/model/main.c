@@ -5,6 +5,7 @@
 extern CU_TestInfo tests_of_examples[];
 extern CU_TestInfo tests_of_derivatives[];
 extern CU_TestInfo tests_of_events[];
+extern CU_TestInfo tests_of_conditions[];
 extern CU_TestInfo tests_of_circuits[];
 extern CU_TestInfo tests_of_growth[];
 extern CU_TestInfo tests_of_interface[];
@@ -16,6 +17,7 @@ extern CU_TestInfo tests_of_wrong_models[];
 SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_examples},
            {.pName = "derivatives against differences", .pTests = tests_of_derivatives},
            {.pName = "events", .pTests = tests_of_events},
+           {.pName = "conditions", .pTests = tests_of_conditions},
            {.pName = "circuits with diodes", .pTests = tests_of_circuits},
            {.pName = "errors that grow again", .pTests = tests_of_growth},
            {.pName = "the interface", .pTests = tests_of_interface},

@@ -41,15 +41,31 @@ int stf_event_callback(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
   return 0;
 }
 
-void stf_event_move(const stf_model *m, const int *fired)
+/* What the rounding of y makes of g, at y(1 +- 2 eps), into g; 0 where g jumps there. */
+static void rounding_of(const stf_model *m, double t, const double *y, const double *at,
+                        double *g)
 {
-  static const double units = 64 * STF_EPS;
+  static const double jump = 1e-6; /* of the range */
+  double *beside = m->memory_literal + m->memories;
+  for (int32_t i = 0; i < m->n; i++) beside[i] = y[i] * (1 + (i % 2 ? 2 : -2) * STF_EPS);
+  stf_event_values(m, t, beside, g);
+  for (int32_t i = 0; i < m->switches; i++) {
+    const double off = fabs(g[i] - at[i]);
+    g[i] = off <= jump * m->event_range[i] ? off : 0;
+  }
+}
+
+void stf_event_move(const stf_model *m, double t, const double *y, const int *fired)
+{
+  static const double units = 64 * STF_EPS, times = 8;
+  double *noise = m->event_values[0];
+  rounding_of(m, t, y, m->event_values[1], noise);
   for (int32_t i = 0; i < m->switches; i++) {
     if (!fired[i] && m->switch_open[i] != STF_AT_ZERO) continue;
-    const double g = fabs(m->event_values[1][i]), shift = units * m->event_range[i] + 2 * g;
-    m->event_shift[i] = g > units * 1e3 * m->event_range[i] ? 0
-                        : m->memory[m->discretes + i] != 0  ? -shift
-                                                            : shift;
+    const double g = fabs(m->event_values[1][i]),
+                 least = fmax(units * m->event_range[i], times * noise[i]),
+                 shift = least + 2 * g;
+    m->event_shift[i] = g > 1e3 * least ? 0 : m->memory[m->discretes + i] != 0 ? -shift : shift;
     m->event_range[i] = 0;
   }
 }

@@ -318,6 +318,6 @@ int stf_reactions_handle(sunrealtype t, N_Vector v, const int *fired, void *user
   }
   if (acted) look_ahead(m, t, y, STF_OPEN);
   stf_event_values(m, t, y, m->event_values[1]);
-  stf_event_move(m, fired);
+  stf_event_move(m, t, y, fired);
   return stops ? STEIF_FINISH : changes || acted ? STEIF_RESTART : STEIF_CONTINUE;
 }

@@ -49,8 +49,8 @@ void stf_event_values(const stf_model *m, double t, const double *y, double *g);
 int stf_event_callback(sunrealtype t, N_Vector y, sunrealtype *g, void *user);
 /* g of relations of time alone a moment after t (ahead = 1) or before (-1), where it is clear; else 0. */
 void stf_event_sides(const stf_model *m, double t, const double *y, int ahead, double *g);
-/* After an event, with g there in event_values[1]. */
-void stf_event_move(const stf_model *m, const int *fired);
+/* After an event at (t, y), with g there in event_values[1]. */
+void stf_event_move(const stf_model *m, double t, const double *y, const int *fired);
 /* reactions.c: at the start of a run, and at an event. */
 int stf_reactions_begin(sunrealtype t, void *user);
 int stf_reactions_handle(sunrealtype t, N_Vector y, const int *fired, void *user);

@@ -1,0 +1,143 @@
+/* test_conditions.c: conditions that hang on others, whole parts, what stays at 0 or touches it, against closed solutions.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "fixture.h"
+
+/* A sawtooth of time, 100 teeth: half the time. floor of t: k e^{-s}-chains by hand, y_{k+1} = k + (y_k - k) e^{-1/3}. Of a
+ * state that grows by 2.5: the integral over y from 0.3 to 25.3 of floor(y) - mod(y, 0.7)/2 is 303.11. */
+static void whole_parts_jump_at_events(void)
+{
+  double y = 0;
+  for (int k = 0; k < 30; k++) y = k + (y - k) * exp(-1. / 3);
+  fixture_reaches("state x = 0\nx' = mod(10*t, 1)\ntime 0 to 10\n", 5, 1e-7);
+  fixture_reaches("state y = 0\ny' = floor(3*t) - y\ntime 0 to 10\n", y, 1e-7);
+  fixture_reaches("state x = 0\nx' = floor(-t) + noevent(floor(0.5))\ntime 0 to 4\n", -10,
+                  1e-7);
+  fixture_reaches(
+    "state z = 0, y = 0.3\ny' = 2.5\nz' = floor(y) - 0.5*mod(y, 0.7)\ntime 0 to 10\n", 121.244,
+    1e-6);
+}
+
+/* 1.2e8 teeth from 0: x is known to 1.9e-9, after a thousand steps to 1e-6, which moves 30 jumps of 0.1 by 2e-6 each. In 7 of
+ * time x passes 30 teeth, whose mean is 0.05. */
+static void teeth_far_from_zero(void)
+{
+  fixture_reaches(
+    "state z = 0 scale 0.1, x = -12345678\nx' = 3/7\nz' = mod(x, 0.1)\ntime 0 to 7\n", 0.35,
+    1e-5);
+}
+
+/* Where 3 t - 2.1 changes its sign it is -4.4e-16: t itself decides which side it is. */
+static void breaks_are_exact(void)
+{
+  fixture s;
+  CU_ASSERT_FATAL(fixture_text(&s, "state x = 0\nx' = step(3*t - 2.1)\ntime 0 to 3\n", "") ==
+                  STEIF_OK);
+  N_Vector y = N_VNew_Serial(1, steif_sundials(s.ctx)), f = N_VClone(y);
+  CU_ASSERT_FATAL(s.p.break_count == 1);
+  const double c = s.p.breaks[0];
+  CHECK(!s.p.f(c, y, f, s.p.user) && NV_Ith_S(f, 0) == 1);
+  CHECK(!s.p.f(nextafter(c, 0), y, f, s.p.user) && NV_Ith_S(f, 0) == 0);
+  N_VDestroy(y), N_VDestroy(f);
+  fixture_close(&s);
+}
+
+/* Conditions that hang on others: |x| < 1 from -5 does not hold, max(min(x, 3), -2) of -5 is -2; |x| < 1 to and fro over 0
+ * and 1; a pulse of 30 %, 50 times, by mod and by a counter: x = (1 - e^-0.06) e^-0.14 (1 + e^-0.2 + ...). */
+static void conditions_of_conditions_follow(void)
+{
+  double x = 0;
+  for (int k = 0; k < 50; k++) x = (1 + (x - 1) * exp(-0.06)) * exp(-0.14);
+  fixture_reaches("state x = -5\nx' = if abs(x) < 1 then 1 else -1\ntime 0 to 1\n", -6, 1e-8);
+  fixture_reaches("state x = -5\nx' = max(min(x, 3), -2)\ntime 0 to 1\n", -7, 1e-8);
+  fixture_reaches(
+    "state z = 0, x = 5\nx' = -2\nz' = if abs(x) < 1 then 1 else 0\ntime 0 to 5\n", 1, 1e-7);
+  fixture_reaches(
+    "state z = 0, x = -4\nx' = 1\nz' = if max(abs(x) - 1, -abs(x - 0.5)) < 0 then 1 else 0\n"
+    "time 0 to 6\n",
+    2, 1e-7);
+  fixture_reaches(
+    "state x = 0\nx' = 10*((if mod(50*t, 1) < 0.3 then 1 else 0) - x)\ntime 0 to 1\n", x, 1e-7);
+  fixture_reaches(
+    "state x = 0\ndiscrete k = 0\nlet u = 50*t - k\n"
+    "x' = 10*((if abs(u - 0.15) < 0.15 then 1 else 0) - x)\nevery 0.02: k = k + 1\n"
+    "time 0 to 1\n",
+    x, 1e-7);
+}
+
+/* What stays at 0, touches it or is constant in pieces: expected by hand. sign(0) = 0, step(0) = 1, and <= holds there. */
+static void plateaus_and_touches(void)
+{
+  fixture_reaches("state z = 0, x = -1\nx' = 1\nz' = sign(ramp(x))\ntime 0 to 3\n", 2, 1e-7);
+  fixture_reaches("state z = 0, x = -1\nx' = 1\nz' = sign(ramp(-x))\ntime 0 to 3\n", 1, 1e-7);
+  fixture_reaches("state z = 0, w = 0.1\nw' = 1\nz' = step(ramp(sin(3*w)))\ntime 0 to 3\n", 3,
+                  1e-7);
+  fixture_reaches("state z = 0\nz' = mod(floor(t), 2)\ntime 0 to 5\n", 2, 1e-7);
+  fixture_reaches("state z = 0, x = 0.5\nx' = 1\nz' = mod(floor(x), 2)\ntime 0 to 5\n", 2.5,
+                  1e-7);
+  fixture_reaches(
+    "let source = if t < 1 then 5 else 0\nstate z = 0\nz' = if source > 0 then 1 else 0\n"
+    "time 0 to 3\n",
+    1, 1e-7);
+  fixture_reaches(
+    "state z = 0, x = 0\nx' = 1\nz' = if min(x, 1) <= 1 then 1 else 0\ntime 0 to 3\n", 3, 1e-7);
+  fixture_reaches("state z = 0, x = 0\nx' = 1\nz' = step(-abs(t - 1)*(2 + x))\ntime 0 to 3\n",
+                  0, 1e-7);
+  fixture_reaches(
+    "state z = 0\nz' = if noevent(floor(t - 0.5)) < 0.5 then 1 else 0\ntime 0 to 3\n", 1.5,
+    1e-7);
+  fixture_reaches(
+    "table f = (0, 1), (1, -1), (2, 1) steps\nstate z = 0\n"
+    "z' = (if f(t - 0.25) > 0 then 1 else 0) + sign(sign(step(t - 1)))\ntime 0 to 3\n",
+    2 + 2, 1e-7);
+  fixture_reaches("state z = 0\nz' = if t - 2 + step(t - 1) < 0 then 1 else 0\ntime 0 to 3\n",
+                  1, 1e-7);
+  fixture_reaches("state z = 0, v = 0\nv' = cos(2*t)\nz' = sign(v)\ntime 0 to 1.5\n", 1.5,
+                  1e-7);
+}
+
+/* A sign that is 0 at the start, as that of friction, and one that touches 0 where mod jumps, in algebraic equations. */
+static void algebraic_signs_leave_zero(void)
+{
+  static const char *const methods[] = {"radau:s=3", "auto", "rodas4"};
+  fixture s;
+  double y[8];
+  const char *text[] = {"state z = 0, x = 0, u ~ 0\nx' = 1\nz' = u\n0 = u - sign(mod(x, 0.7))\n"
+                        "time 0 to 3\n",
+                        "state z = 0, x = 0, u ~ 0\nx' = 1\nz' = u\n0 = u - 3/2*sign(x)\n"
+                        "time 0 to 2\n"};
+  for (int i = 0; i < 2; i++) {
+    CU_ASSERT_FATAL(fixture_text(&s, text[i], "") == STEIF_OK);
+    for (int k = 0; k < 3; k++) {
+      CHECK(fixture_run(&s, methods[k], 1e-7, y) == STEIF_OK);
+      CLOSE_FLOOR(y[0], 3, 1e-5, 1);
+    }
+    fixture_close(&s);
+  }
+}
+
+/* What old factors leave of a correction in u, which stays at 1, grew from step to step until steps vanished. */
+static void constant_algebraic_unknowns_stay(void)
+{
+  fixture s;
+  steif_options o = steif_defaults();
+  o.rtol = 1e-8, o.atol = 1e-9;
+  const char *text = "state z = 0, x = -1.29, w = 0.3, u ~ 0\nx' = 1.26 + 1e-9*x^2\nz' = u\n"
+                     "w' = 1 + 0.5*cos(t)\n0 = u - 1\ntime 0 to 3\n";
+  CU_ASSERT_FATAL(fixture_text(&s, text, "") == STEIF_OK);
+  steif_solver *solver = steif_solver_new(s.ctx, &s.p, "bdf", &o);
+  CU_ASSERT_FATAL(solver && steif_solve_to(solver, 3) == STEIF_OK);
+  CLOSE_FLOOR(NV_Ith_S(steif_solution(solver), 0), 3, 1e-7, 1);
+  CHECK(steif_statistics(solver)->steps < 400); /* w, without u, takes about 180 */
+  steif_solver_free(&solver);
+  fixture_close(&s);
+}
+
+CU_TestInfo tests_of_conditions[] = {
+  {"whole parts jump at events", whole_parts_jump_at_events},
+  {"teeth far from zero", teeth_far_from_zero},
+  {"breaks are exact", breaks_are_exact},
+  {"conditions of conditions follow", conditions_of_conditions_follow},
+  {"plateaus and touches", plateaus_and_touches},
+  {"algebraic signs leave zero", algebraic_signs_leave_zero},
+  {"constant algebraic unknowns stay", constant_algebraic_unknowns_stay},
+  CU_TEST_INFO_NULL};
