@@ -70,4 +70,8 @@ typedef struct stf_engine_entry {
 extern const stf_engine_entry stf_engine_shelf[];
 extern const size_t stf_engine_count;
 
+/* steif_solve_step without its processor time, which the system takes longer to tell than a small step
+ * lasts. */
+int stf_step_untimed(steif_solver *s);
+
 #endif

@@ -158,10 +158,6 @@ int stf_run_begin(steif_solver *s);
  * is; or STEIF_BAD_INPUT. */
 int stf_rest_open(steif_solver *s, const stf_constant *constant, sunrealtype t1);
 
-/* steif_solve_step without its processor time, which the system takes longer to tell than a small step
- * lasts. */
-int stf_step_untimed(steif_solver *s);
-
 /* Is there more to do after a step than to go on? */
 bool stf_observed(const steif_solver *s);
 

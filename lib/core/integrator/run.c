@@ -173,7 +173,7 @@ static sunrealtype begin(const steif_solver *s)
   return s->options.max_seconds > 0 ? now(CLOCK_MONOTONIC) : 0;
 }
 
-int stf_step_untimed(steif_solver *s)
+static int one_step(steif_solver *s)
 {
   STEIF_TRY(ready(s));
   if (s->finished) return ended(s);
@@ -185,6 +185,8 @@ int stf_step_untimed(steif_solver *s)
   steif_forget(s->ctx);
   return STEIF_OK;
 }
+
+int stf_step_untimed(steif_solver *s) { return stf_agreed_end(s, one_step(s)); }
 
 /* Time is counted from here until the next call. */
 static void start_clock(steif_solver *s)
@@ -209,7 +211,7 @@ int steif_solve_step(steif_solver *s)
   if (s) start_clock(s);
   const int code = stf_step_untimed(s);
   if (s) stop_clock(s);
-  return stf_agreed_end(s, code);
+  return code;
 }
 
 /* Show the solution at t inside the last step. */

@@ -87,7 +87,7 @@ static int step(stf_journey *J, steif_solver *s, sunrealtype *record)
 {
   if (record) stf_copy(&J->back.space, stf_last(s), J->back.before);
   const long count = s->step.count;
-  const int code = steif_solve_step(s);
+  const int code = stf_step_untimed(s);
   if (code && code != STEIF_EVENT) return code;
   STEIF_CHECK(s->step.count == count + 1, s->ctx, STEIF_UNSUPPORTED,
               "a step of '%s' at t = %.12g was not one step", s->spec, s->step.t);
