@@ -39,11 +39,23 @@ static void add_sparse(SUNMatrix M, sunindextype n, sunrealtype c, const sunreal
   }
 }
 
+static void add_full(SUNMatrix M, sunindextype n, sunrealtype c, const sunrealtype *x,
+                     sunrealtype *out)
+{
+  const sunrealtype *value = SM_DATA_D(M);
+  for (sunindextype j = 0; j < n; j++, value += n) {
+    sunrealtype sum = 0;
+    for (sunindextype k = 0; k < n; k++) sum += value[k] * x[k];
+    out[j] += c * sum;
+  }
+}
+
 void stf_add_transposed(SUNMatrix M, sunindextype n, sunrealtype c, const sunrealtype *x,
                         sunrealtype *out)
 {
-  if (M && SUNMatGetID(M) == SUNMATRIX_SPARSE) {
-    add_sparse(M, n, c, x, out);
+  const SUNMatrix_ID kind = M ? SUNMatGetID(M) : SUNMATRIX_CUSTOM;
+  if (kind == SUNMATRIX_SPARSE || kind == SUNMATRIX_DENSE) {
+    (kind == SUNMATRIX_SPARSE ? add_sparse : add_full)(M, n, c, x, out);
     return;
   }
   for (sunindextype j = 0; j < n; j++) {
@@ -57,9 +69,21 @@ void stf_add_transposed(SUNMatrix M, sunindextype n, sunrealtype c, const sunrea
   }
 }
 
+static void add_full_columns(SUNMatrix M, sunindextype n, sunrealtype c, double *to,
+                             sunindextype step, sunindextype ld)
+{
+  const sunrealtype *value = SM_DATA_D(M);
+  for (sunindextype j = 0; j < n; j++, to += ld, value += n)
+    for (sunindextype k = 0; k < n; k++) to[step * k] += c * value[k];
+}
+
 void stf_add_dense(SUNMatrix M, sunindextype n, sunrealtype c, double *to, sunindextype step,
                    sunindextype ld)
 {
+  if (M && SUNMatGetID(M) == SUNMATRIX_DENSE) {
+    add_full_columns(M, n, c, to, step, ld);
+    return;
+  }
   for (sunindextype j = 0; j < n; j++, to += ld) {
     if (!M) {
       to[step * j] += c;

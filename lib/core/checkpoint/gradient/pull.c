@@ -4,6 +4,15 @@
 #include <math.h>
 #include <string.h>
 
+/* Over host arrays, as all here. */
+static sunrealtype dot(const stf_backwards *B, N_Vector a, N_Vector b)
+{
+  const sunrealtype *x = STF_ARRAY(a), *y = STF_ARRAY(b);
+  sunrealtype sum = 0;
+  for (sunindextype i = 0; i < B->n; i++) sum += x[i] * y[i];
+  return sum;
+}
+
 int stf_parameters_times(stf_backwards *B, sunrealtype t, N_Vector Y, N_Vector Yp, N_Vector w,
                          sunrealtype *out)
 {
@@ -17,7 +26,7 @@ int stf_parameters_times(stf_backwards *B, sunrealtype t, N_Vector Y, N_Vector Y
   }
   for (int k = 0; k < B->P; k++) {
     STEIF_TRY(stf_slopes_at(B->slopes, k, t, Y, Yp, B->work));
-    out[k] = N_VDotProd(B->work, w);
+    out[k] = dot(B, B->work, w);
   }
   return STEIF_OK;
 }
@@ -313,7 +322,7 @@ int stf_pull(stf_backwards *B, const sunrealtype *record)
   stf_record_read(B, record);
   if (B->tangent) stf_push_read(B, record);
   for (int i = 0; B->adaptive && i < B->count; i++)
-    B->estimate[i] += N_VDotProd(B->error, B->lambda[i]);
+    B->estimate[i] += dot(B, B->error, B->lambda[i]);
   STEIF_TRY(stf_see_cut(B, &head));
   STEIF_TRY(B->kind == STF_TRACE_COLLOCATION ? pull_collocation(B, &head)
             : B->kind == STF_TRACE_CHAIN     ? pull_chain(B, &head)
