@@ -95,6 +95,53 @@ static void plateaus_and_touches(void)
                   1e-7);
 }
 
+/* How often a condition becomes true while x = 0.37 + sin t and z = 0.11 + 1.3 sin 0.61 t: by 4e5 points of these. The
+ * parts of a condition cross, touch and leave 0 together: the branch of max stays at 0, that of abs turns there. */
+static bool over(double x, double z) { return (void)z, fmax(x, 0) > 0; }
+static bool beyond(double x, double z) { return fmin(fmax(x, 0), z + 1) > 0; }
+static bool within(double x, double z) { return fabs(fmin(x >= 0, x + z)) < (z + 0.47 >= 0); }
+static bool between(double x, double z)
+{
+  return (fmin(fabs(x), z) > fmax(-0.41, z) ? fmax(-0.72 - z, fabs(x)) : 2 * z >= 0) >=
+         2 * z + x;
+}
+
+static int rises(bool (*holds)(double x, double z))
+{
+  enum { POINTS = 400000 };
+  int count = 0;
+  bool last = holds(0.37, 0.11);
+  for (int i = 1; i <= POINTS; i++) {
+    const double t = 20. * i / POINTS;
+    const bool now = holds(0.37 + sin(t), 0.11 + 1.3 * sin(0.61 * t));
+    count += now && !last;
+    last = now;
+  }
+  return count;
+}
+
+static void conditions_are_counted_once(void)
+{
+  static const struct {
+    bool (*holds)(double x, double z);
+    const char *text;
+  } list[] = {{over, "max(x, 0) > 0"},
+              {beyond, "min(max(x, 0), z + 1) > 0"},
+              {within, "abs(min(step(x), x + z)) < step(z + 0.47)"},
+              {between, "(if min(abs(x), z) > max(-0.41, z) then max(-0.72 - z, abs(x)) else "
+                        "step(z + z)) >= z + (z + x)"}};
+  for (int i = 0; i < 4; i++) {
+    char text[400];
+    const int count = rises(list[i].holds);
+    CHECK(count > 1);
+    snprintf(text, sizeof text,
+             "state n = 0, x = 0.37, p = 1, z = 0.11, s = 1\nn' = 0\nx' = p\np' = 0.37 - x\n"
+             "z' = 0.793*s\ns' = -0.61*(z - 0.11)/1.3\nwhen %s: n = n + 1\ntime 0 to 20\n",
+             list[i].text);
+    fixture_reaches(text, count, 1e-9);
+  }
+}
+
 /* A sign that is 0 at the start, as that of friction, and one that touches 0 where mod jumps, in algebraic equations. */
 static void algebraic_signs_leave_zero(void)
 {
@@ -137,6 +184,7 @@ CU_TestInfo tests_of_conditions[] = {
   {"teeth far from zero", teeth_far_from_zero},
   {"breaks are exact", breaks_are_exact},
   {"conditions of conditions follow", conditions_of_conditions_follow},
+  {"conditions are counted once", conditions_are_counted_once},
   {"plateaus and touches", plateaus_and_touches},
   {"algebraic signs leave zero", algebraic_signs_leave_zero},
   {"constant algebraic unknowns stay", constant_algebraic_unknowns_stay},

@@ -199,6 +199,12 @@ static int find_sides(steif_solver *s, sunrealtype t)
   return STEIF_OK;
 }
 
+/* Ends what is known of the step at an event? */
+static bool over(const steif_solver *s)
+{
+  return s->events->cut || s->events->again || s->finished;
+}
+
 /* Go on to t, where g is in `high`; all changes on the way are events. */
 static int walk(steif_solver *s, sunrealtype t)
 {
@@ -209,8 +215,8 @@ static int walk(steif_solver *s, sunrealtype t)
     memcpy(w->next, w->high, bytes(w));
     STEIF_TRY(locate(s, &at));
     STEIF_TRY(stf_event_fire(s, at, t));
-    if (w->cut || s->finished) return STEIF_OK;
     w->t = at;
+    if (over(s)) return STEIF_OK;
     swap(&w->low, &w->high);
     memcpy(w->high, w->next, bytes(w));
   }
@@ -318,7 +324,7 @@ static int search(steif_solver *s, sunrealtype from, sunrealtype to, int halving
   if (!shown) {
     const sunrealtype middle = from + (to - from) / 2;
     STEIF_TRY(search(s, from, middle, halvings - 1));
-    return w->cut || s->finished ? STEIF_OK : search(s, middle, to, halvings - 1);
+    return over(s) ? STEIF_OK : search(s, middle, to, halvings - 1);
   }
   for (int k = 1; k < STF_NODES; k++) {
     const sunrealtype *g = w->node + (size_t)k * m, end = from + point[k] * (to - from);
@@ -329,15 +335,38 @@ static int search(steif_solver *s, sunrealtype from, sunrealtype to, int halving
       else
         memcpy(w->high, g, m * sizeof *g);
       STEIF_TRY(walk(s, k == STF_NODES - 1 && t == end ? to : t));
-      if (w->cut || s->finished) return STEIF_OK;
+      if (over(s)) return STEIF_OK;
     }
   }
+  return STEIF_OK;
+}
+
+/* Handlers that put what they watch back again and again, at one time. */
+static int check_rest(steif_solver *s, sunrealtype from, int *rounds)
+{
+  enum { MOST = 100 };
+  stf_detector *w = s->events;
+  *rounds = w->t - from > stf_event_tolerance(s, w->t) ? 0 : *rounds + 1;
+  w->crowded = *rounds > MOST;
+  STEIF_CHECK(!w->crowded, s->ctx, STEIF_STEP_SIZE,
+              "events %s of problem '%s' follow each other without end at t = %.12g: their "
+              "handler changes what the event functions read; let it leave them on their new "
+              "side",
+              w->name, s->problem->name, w->t);
   return STEIF_OK;
 }
 
 int stf_event_step(steif_solver *s, sunrealtype from)
 {
   enum { HALVINGS = 6 };
-  s->events->t = from;
-  return search(s, from, s->end, HALVINGS);
+  stf_detector *w = s->events;
+  int rounds = 0;
+  w->t = from;
+  do {
+    const sunrealtype begun = w->t;
+    w->again = false;
+    STEIF_TRY(search(s, begun, s->end, HALVINGS));
+    if (w->again) STEIF_TRY(check_rest(s, begun, &rounds));
+  } while (w->again);
+  return STEIF_OK;
 }

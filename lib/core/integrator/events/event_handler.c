@@ -95,7 +95,7 @@ static int look_again(steif_solver *s, sunrealtype t)
 {
   static const sunrealtype clearly = 1e6; /* times the noise of an event */
   stf_detector *w = s->events;
-  if (w->moved) return STEIF_OK;
+  if (w->moved && !w->again) return STEIF_OK;
   STEIF_TRY(stf_event_ask(s, t, w->after, w->low));
   for (int i = 0; i < w->count; i++) {
     const bool off = fabs(w->low[i] - w->mid[i]) > clearly * w->noise[i];
@@ -125,7 +125,8 @@ static int react(steif_solver *s, sunrealtype t)
               wish, w->name, t);
   s->finished = wish == STEIF_FINISH, w->silent = s->finished;
   w->cut = wish == STEIF_RESTART;
-  if (wish == STEIF_CONTINUE) return STEIF_OK;
+  w->again = wish == STEIF_CONTINUE;
+  if (w->again) return look_again(s, t);
   cut(s, t);
   if (w->cut) STEIF_TRY(look_again(s, t));
   if (w->cut) STEIF_TRY(settle(s, t));

@@ -55,13 +55,21 @@ static void rounding_of(const stf_model *m, double t, const double *y, const dou
   }
 }
 
+/* Of what has fired, of what may stay at 0, and where a truth that follows others has left the side of its shift. */
+static bool moves(const stf_model *m, int32_t i, const int *fired)
+{
+  const double shift = m->event_shift[i];
+  const bool truth = m->memory[m->discretes + i] != 0;
+  return fired[i] || m->switch_open[i] == STF_AT_ZERO || (shift != 0 && (shift < 0) != truth);
+}
+
 void stf_event_move(const stf_model *m, double t, const double *y, const int *fired)
 {
   static const double units = 64 * STF_EPS, times = 8;
   double *noise = m->event_values[0];
   rounding_of(m, t, y, m->event_values[1], noise);
   for (int32_t i = 0; i < m->switches; i++) {
-    if (!fired[i] && m->switch_open[i] != STF_AT_ZERO) continue;
+    if (!moves(m, i, fired)) continue;
     const double g = fabs(m->event_values[1][i]),
                  least = fmax(units * m->event_range[i], times * noise[i]),
                  shift = least + 2 * g;

@@ -267,10 +267,9 @@ static void turn(const stf_model *m, double t, const double *y, const int *fired
 /* What hangs on another relation may touch 0 where that one fires, as abs(x) does: a step along y' = f tells. */
 static void touch(stf_model *m, double t, const double *y, const int *fired)
 {
-  int others = 0;
-  for (int32_t i = 0; i < m->switches; i++)
-    others += fired[i] && m->switch_used[i] != STF_OF_OTHERS;
-  for (int32_t i = 0; i < m->switches && others; i++)
+  int together = 0;
+  for (int32_t i = 0; i < m->switches; i++) together += fired[i] != 0;
+  for (int32_t i = 0; i < m->switches && together > 1; i++)
     if (fired[i] && m->switch_used[i] == STF_OF_OTHERS) m->switch_open[i] = STF_AT_ZERO;
   look_ahead(m, t, y, STF_AT_ZERO);
 }

@@ -160,9 +160,9 @@ const char stf_c_turning[] =
   "/* What hangs on another relation may touch 0 where that one fires, as abs(x) does. */\n"
   "static void touch(double t, const double *y, const int *fired)\n"
   "{\n"
-  "  int others = 0;\n"
-  "  for (int i = 0; i < SWITCHES; i++) others += fired[i] && used[i] != 3;\n"
-  "  for (int i = 0; i < SWITCHES && others; i++)\n"
+  "  int together = 0;\n"
+  "  for (int i = 0; i < SWITCHES; i++) together += fired[i] != 0;\n"
+  "  for (int i = 0; i < SWITCHES && together > 1; i++)\n"
   "    if (fired[i] && used[i] == 3) run.open[i] = 2;\n"
   "  look_ahead(t, y, 2);\n"
   "}\n";
@@ -235,7 +235,9 @@ const char stf_c_handling[] =
   "  for (int i = 0; i < REACTIONS; i++)\n"
   "    if (reactions[i].trigger == TIMER && fired[timer++] > 0) run.pending[i] = 1;\n"
   "  return changes;\n"
-  "}\n"
+  "}\n";
+
+const char stf_c_moving[] =
   "/* g is moved to its new side by some rounding, so that noise does not fire it again: by "
   "its own, and by what\n"
   " * y(1 +- 2 eps) makes of it. */\n"
@@ -246,7 +248,10 @@ const char stf_c_handling[] =
   "  for (int i = 0; i < UNKNOWNS; i++) beside[i] = y[i] * (1 + (i % 2 ? 2 : -2) * eps);\n"
   "  event_values(t, beside, run.memory, before);\n"
   "  for (int i = 0; i < SWITCHES; i++) {\n"
-  "    if (!fired[i] && run.open[i] != 2) continue;\n"
+  "    const int against = run.shift[i] < 0 ? run.memory[DISCRETES + i] == 0\n"
+  "                                         : run.shift[i] > 0 && run.memory[DISCRETES + i] != "
+  "0;\n"
+  "    if (!fired[i] && run.open[i] != 2 && !against) continue;\n"
   "    const double off = fabs(before[i] - after[i]), noise = off <= 1e-6 * run.range[i] ? off "
   ": 0,\n"
   "                 g = fabs(after[i]), least = fmax(64 * eps * run.range[i], 8 * noise),\n"

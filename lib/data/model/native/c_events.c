@@ -143,4 +143,5 @@ void stf_write_events(stf_writer *w, const stf_model *m)
   stf_write_text(w, stf_c_rules);
   stf_write_text(w, stf_c_turning);
   stf_write_text(w, stf_c_handling);
+  stf_write_text(w, stf_c_moving);
 }
