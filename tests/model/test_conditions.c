@@ -126,11 +126,12 @@ static void conditions_are_counted_once(void)
     bool (*holds)(double x, double z);
     const char *text;
   } list[] = {{over, "max(x, 0) > 0"},
+              {over, "noevent(max(x, 0)) > 0"},
               {beyond, "min(max(x, 0), z + 1) > 0"},
               {within, "abs(min(step(x), x + z)) < step(z + 0.47)"},
               {between, "(if min(abs(x), z) > max(-0.41, z) then max(-0.72 - z, abs(x)) else "
                         "step(z + z)) >= z + (z + x)"}};
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < 5; i++) {
     char text[400];
     const int count = rises(list[i].holds);
     CHECK(count > 1);
@@ -139,6 +140,24 @@ static void conditions_are_counted_once(void)
              "z' = 0.793*s\ns' = -0.61*(z - 0.11)/1.3\nwhen %s: n = n + 1\ntime 0 to 20\n",
              list[i].text);
     fixture_reaches(text, count, 1e-9);
+  }
+}
+
+/* What stays at 0 without an event of its own, beside one that crosses: x = sin t + 0.5 is above 0 for 4 pi/3 of 2 pi, in
+ * [0, 20] for 13.716814692820414. */
+static void plateaus_without_events(void)
+{
+  const double up = 13.716814692820414;
+  static const char *const relation[] = {"<", "<=", ">", ">="};
+  const double expected[] = {0, 20 - up, up, 20};
+  for (int i = 0; i < 4; i++) {
+    char text[400];
+    snprintf(text, sizeof text,
+             "state y = 0, n = 0, x = 0.5, p = 1, q = 0\nx' = p\np' = 0.5 - x\nn' = 0\n"
+             "y' = if noevent(max(x, 0)) %s 0 then 1 else 0\nq' = if x > 0 then 1 else 0\n"
+             "when noevent(max(x, 0)) %s 0: n = n + 1\ntime 0 to 20\n",
+             relation[i], relation[i]);
+    fixture_reaches(text, expected[i], 1e-6);
   }
 }
 
@@ -185,6 +204,7 @@ CU_TestInfo tests_of_conditions[] = {
   {"breaks are exact", breaks_are_exact},
   {"conditions of conditions follow", conditions_of_conditions_follow},
   {"conditions are counted once", conditions_are_counted_once},
+  {"plateaus without events", plateaus_without_events},
   {"plateaus and touches", plateaus_and_touches},
   {"algebraic signs leave zero", algebraic_signs_leave_zero},
   {"constant algebraic unknowns stay", constant_algebraic_unknowns_stay},

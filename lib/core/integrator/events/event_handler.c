@@ -222,7 +222,7 @@ static int renew_step(steif_solver *s)
   return STEIF_OK;
 }
 
-/* A function at zero: its side a little later along y'. Dense output would not do: errors within the
+/* A function at zero: its side a little later along y', or where it rests near zero. Dense output would not do: errors within the
  * tolerance may give the beginning of a step the wrong slope. */
 static int look_ahead(steif_solver *s, N_Vector y)
 {
@@ -237,7 +237,8 @@ static int look_ahead(steif_solver *s, N_Vector y)
   for (int i = 0; i < w->count; i++) {
     const int there = (w->mid[i] > 0) - (w->mid[i] < 0);
     if (w->sign[i] == 0 && w->low[i] == 0) w->leaves[i] = there;
-    if (w->sign[i] == 0 && fabs(w->mid[i]) > w->noise[i]) w->sign[i] = there;
+    const bool rests = w->mid[i] == w->low[i];
+    if (w->sign[i] == 0 && (rests || fabs(w->mid[i]) > w->noise[i])) w->sign[i] = there;
   }
   return STEIF_OK;
 }

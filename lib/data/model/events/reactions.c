@@ -122,21 +122,29 @@ static bool slopes(const stf_model *m, double t, const double *at, double *yp)
   return true;
 }
 
+/* event_values[1] := g after a short step along y' = f; false: y' is not known. */
+static bool see_ahead(const stf_model *m, double t, const double *at)
+{
+  const double h = 1e-8 * stf_span(m);
+  double *y = m->memory_literal + m->memories;
+  if (!slopes(m, t, at, y)) return false;
+  for (int32_t i = 0; i < m->n; i++) y[i] = at[i] + h * y[i];
+  stf_event_values(m, t + h, y, m->event_values[1]);
+  return true;
+}
+
 /* Relations marked as `open` or more, whose g is 0 or as small as rounding: a short step along y' = f tells. */
 static void look_ahead(stf_model *m, double t, const double *at, int open)
 {
-  const double h = 1e-8 * stf_span(m);
-  bool any = false;
+  const double *g = m->event_values[1], *y = m->memory_literal + m->memories;
+  bool any = false, changed = true;
   for (int32_t i = 0; i < m->switches; i++) any = any || m->switch_open[i] >= open;
-  double *y = m->memory_literal + m->memories, *g = m->event_values[1];
-  bool changed = true;
-  if (!any || !slopes(m, t, at, y)) return;
-  for (int32_t i = 0; i < m->n; i++) y[i] = at[i] + h * y[i];
+  if (!any || !see_ahead(m, t, at)) return;
   for (int32_t round = 0; changed && round <= m->switches; round++) {
     changed = false;
-    stf_event_values(m, t + h, y, g);
     for (int32_t i = 0; i < m->switches; i++)
       if (m->switch_open[i] >= open && isfinite(g[i])) changed = is(m, i, g[i] < 0) || changed;
+    if (changed) stf_event_values(m, t + 1e-8 * stf_span(m), y, m->event_values[1]);
   }
   spread(m, t, at);
 }
@@ -264,13 +272,18 @@ static void turn(const stf_model *m, double t, const double *y, const int *fired
     if (fired[i]) m->memory[m->discretes + i] = g[i] != 0 ? g[i] < 0 : fired[i] * ahead < 0;
 }
 
-/* What hangs on another relation may touch 0 where that one fires, as abs(x) does: a step along y' = f tells. */
+/* What hangs on another relation may touch 0 where that one fires, as abs(x) does, and what is max(x, 0) without events
+ * stays there: a step along y' = f tells. */
 static void touch(stf_model *m, double t, const double *y, const int *fired)
 {
   int together = 0;
   for (int32_t i = 0; i < m->switches; i++) together += fired[i] != 0;
-  for (int32_t i = 0; i < m->switches && together > 1; i++)
-    if (fired[i] && m->switch_used[i] == STF_OF_OTHERS) m->switch_open[i] = STF_AT_ZERO;
+  const bool seen = together > 0 && see_ahead(m, t, y);
+  for (int32_t i = 0; i < m->switches; i++) {
+    const bool hangs = together > 1 && m->switch_used[i] == STF_OF_OTHERS;
+    if (fired[i] && (hangs || (seen && m->event_values[1][i] == 0)))
+      m->switch_open[i] = STF_AT_ZERO;
+  }
   look_ahead(m, t, y, STF_AT_ZERO);
 }
 
