@@ -21,6 +21,21 @@ static void name_fired(steif_solver *s)
   if (found > 1) strcat(w->name, " and others");
 }
 
+/* Does function i jump where it fires at t? What it is on both sides differs by more than it can in so short a time, if
+ * it is like it is elsewhere in the step. */
+static bool jumps(const steif_solver *s, int i, sunrealtype t)
+{
+  const stf_detector *w = s->events;
+  const sunrealtype h = s->engine ? s->run.stats.h_last : s->step.h;
+  sunrealtype low = w->low[i], high = w->low[i];
+  if (h < 1e8 * stf_event_tolerance(s, t)) return false;
+  for (int k = 0; k < STF_NODES; k++) {
+    low = fmin(low, w->node[k * w->count + i]);
+    high = fmax(high, w->node[k * w->count + i]);
+  }
+  return fabs(w->mid[i] - w->low[i]) > 0.01 * (high - low);
+}
+
 /* Who fires, at t or a little behind it: functions with one root in exact arithmetic do not agree
  * about the last digits. What is on its old side again by then has touched 0, as |t - 1| does. Sides and noise behind
  * the event. */
@@ -36,7 +51,7 @@ static int collect(steif_solver *s, sunrealtype t, sunrealtype to, bool *any)
     const bool touched = now && (w->mid[i] > 0) - (w->mid[i] < 0) == w->sign[i];
     w->fired[i] = (now || soon) && !touched ? -w->sign[i] : 0;
     *any = *any || w->fired[i];
-    if (w->fired[i]) w->noise[i] = 8 * fabs(w->mid[i] - w->low[i]);
+    if (w->fired[i]) w->noise[i] = jumps(s, i, t) ? 0 : 8 * fabs(w->mid[i] - w->low[i]);
     if (w->fired[i] || w->sign[i] != 0) w->sign[i] = (after > 0) - (after < 0);
   }
   name_fired(s);
