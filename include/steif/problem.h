@@ -203,7 +203,10 @@ struct steif_problem {
   const steif_parameters *parameters;  /* numbers that it depends on; NULL: none */
   const steif_quadrature *quadrature;  /* integrals beside the solution; NULL: none */
   steif_precsolve_pair precsolve_pair; /* Krylov; NULL: precsolve for each half */
-  void *reserved[14]; /* 0; members to come take their place, and later ones stand after them */
+  /* Called before handle_event, for handlers that must know which way the solution goes: y' of the step at the
+   * event, of algebraic unknowns too, by a difference of its dense output. NULL: not needed. */
+  steif_state event_slope;
+  void *reserved[13]; /* 0; members to come take their place, and later ones stand after them */
 };
 
 /* The form, or 0 with the message set: complete, consistent, finite start values. */

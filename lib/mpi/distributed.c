@@ -116,6 +116,10 @@ static int handle_event(sunrealtype t, N_Vector y, const int *fired, void *user)
 {
   ON(handle_event, t, y, fired, p->user);
 }
+static int event_slope(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  ON(event_slope, t, y, yp, p->user);
+}
 static int begin(sunrealtype t, void *user) { ON(begin, t, p->user); }
 static long save(void *bytes, void *user) { ON(save, bytes, p->user); }
 static int restore(const void *bytes, size_t count, void *user)
@@ -208,7 +212,8 @@ static void pass_on(steif_mpi *m)
   steif_problem *q = &m->problem;
 #define PASS(member) q->member = p->member ? member : NULL
   PASS(f), PASS(kick), PASS(drift), PASS(F), PASS(g), PASS(Ev), PASS(Av), PASS(Lv);
-  PASS(start), PASS(exact), PASS(invariant), PASS(event), PASS(handle_event), PASS(begin);
+  PASS(start), PASS(exact), PASS(invariant), PASS(event), PASS(handle_event), PASS(event_slope),
+    PASS(begin);
   PASS(save), PASS(restore);
 #undef PASS
   q->user = m, q->storage = STEIF_KRYLOV, q->pattern = NULL;

@@ -224,6 +224,7 @@ static void events(stf_model *m, steif_problem *p)
   p->event = stf_event_callback;
   p->event_list = m->event_list;
   p->handle_event = stf_reactions_handle;
+  if (m->form != STEIF_ODE) p->event_slope = stf_reactions_slope;
   p->begin = stf_reactions_begin;
   p->save = stf_reactions_save;
   p->restore = stf_reactions_restore;

@@ -185,6 +185,24 @@ static int check_way(steif_solver *s, sunrealtype t)
   return STEIF_OK;
 }
 
+/* To whom wants it: y' of the step at the event, from there on where the step goes on, else up to there. */
+static int tell_slope(steif_solver *s, sunrealtype t)
+{
+  static const sunrealtype part = 1e-8; /* of the interval */
+  const steif_problem *p = s->problem;
+  stf_detector *w = s->events;
+  if (!p->event_slope) return STEIF_OK;
+  const sunrealtype h = s->engine ? s->run.stats.h_last : s->step.h;
+  const sunrealtype d = fmin(part * (s->t1 - p->t0), h / 2);
+  const sunrealtype at = t + d <= s->end ? t + d : t - d;
+  STEIF_TRY(stf_dense(s, at, w->y));
+  N_VLinearSum(1 / (at - t), w->y, -1 / (at - t), w->after, w->y);
+  const int returned = p->event_slope(t, w->after, w->y, p->user);
+  STEIF_CHECK(returned == 0, s->ctx, STEIF_CALLBACK,
+              "event_slope of problem '%s' returned %d at t = %.12g", p->name, returned, t);
+  return STEIF_OK;
+}
+
 int stf_event_fire(steif_solver *s, sunrealtype t, sunrealtype to)
 {
   stf_detector *w = s->events;
@@ -204,6 +222,7 @@ int stf_event_fire(steif_solver *s, sunrealtype t, sunrealtype to)
   }
   if (!s->problem->handle_event) return STEIF_OK;
   STEIF_TRY(check_way(s, t));
+  STEIF_TRY(tell_slope(s, t));
   return react(s, t);
 }
 

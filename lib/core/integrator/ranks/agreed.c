@@ -130,6 +130,11 @@ static int handle_event(sunrealtype t, N_Vector y, const int *fired, void *user)
   AGREED(handle_event, t, y, fired, p->user);
 }
 
+static int event_slope(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  AGREED(event_slope, t, y, yp, p->user);
+}
+
 static int begin(sunrealtype t, void *user) { AGREED(begin, t, p->user); }
 
 /* Values that decide must be the same; the first failure of a run leaves the sentence. */
@@ -179,11 +184,12 @@ static const char *name_of(long id)
   static const struct {
     size_t offset;
     const char *name;
-  } names[] = {NAMED(f),     NAMED(kick),      NAMED(drift),        NAMED(F),
-               NAMED(g),     NAMED(jac),       NAMED(idajac),       NAMED(E),
-               NAMED(A),     NAMED(L),         NAMED(Ev),           NAMED(Av),
-               NAMED(Lv),    NAMED(precsetup), NAMED(precsolve),    NAMED(precsolve_pair),
-               NAMED(start), NAMED(exact),     NAMED(handle_event), NAMED(begin)};
+  } names[] = {NAMED(f),          NAMED(kick),      NAMED(drift),        NAMED(F),
+               NAMED(g),          NAMED(jac),       NAMED(idajac),       NAMED(E),
+               NAMED(A),          NAMED(L),         NAMED(Ev),           NAMED(Av),
+               NAMED(Lv),         NAMED(precsetup), NAMED(precsolve),    NAMED(precsolve_pair),
+               NAMED(start),      NAMED(exact),     NAMED(handle_event), NAMED(begin),
+               NAMED(event_slope)};
   for (size_t i = 0; i < STF_COUNT(names); i++)
     if ((long)names[i].offset == id) return names[i].name;
   return "a callback";
@@ -199,8 +205,8 @@ static void wrap(stf_agreed *a)
   to->user = a, to->save = NULL, to->restore = NULL;
   WRAP(f), WRAP(kick), WRAP(drift), WRAP(F), WRAP(g), WRAP(jac), WRAP(idajac);
   WRAP(E), WRAP(A), WRAP(L), WRAP(Ev), WRAP(Av), WRAP(Lv), WRAP(precsetup), WRAP(precsolve);
-  WRAP(precsolve_pair), WRAP(start), WRAP(exact), WRAP(handle_event), WRAP(begin), WRAP(event),
-    WRAP(invariant);
+  WRAP(precsolve_pair), WRAP(start), WRAP(exact), WRAP(handle_event), WRAP(event_slope),
+    WRAP(begin), WRAP(event), WRAP(invariant);
 }
 
 /* -- the same input ---------------------------------------------------------------------------- */

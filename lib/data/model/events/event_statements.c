@@ -272,13 +272,14 @@ static int arrays(stf_model *m)
   m->memory = stf_pool_array(m->pool, memories, sizeof *m->memory);
   m->memory_start = stf_pool_array(m->pool, memories, sizeof *m->memory);
   m->memory_literal = stf_pool_array(m->pool, memories + (size_t)m->n, sizeof *m->memory);
+  m->event_slope = stf_pool_array(m->pool, (size_t)m->n, sizeof *m->event_slope);
   for (int k = 0; k < 2; k++)
     m->event_values[k] = stf_pool_array(m->pool, events, sizeof(double));
   r->truths = stf_pool_array(m->pool, r->list.count, sizeof *r->truths);
   r->values = stf_pool_array(m->pool, r->targets.count, sizeof *r->values);
   const bool all = m->switch_used && m->switch_open && m->event_list && m->memory &&
-                   m->memory_start && m->memory_literal && m->event_values[0] &&
-                   m->event_values[1] && r->truths && r->values;
+                   m->event_slope && m->memory_start && m->memory_literal &&
+                   m->event_values[0] && m->event_values[1] && r->truths && r->values;
   m->feed.memory = m->memory;
   return all ? STEIF_OK : STEIF_NO_MEMORY;
 }

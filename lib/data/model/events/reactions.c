@@ -109,7 +109,7 @@ static bool spread(const stf_model *m, double t, const double *y)
   return any;
 }
 
-/* y' of explicit equations; of others at the start alone, where it is known. */
+/* y' of explicit equations; of others at the start, where it is known, and at events, before assignments. */
 static bool slopes(const stf_model *m, double t, const double *at, double *yp)
 {
   const stf_feed feed = feed_at(m, t, at);
@@ -117,9 +117,20 @@ static bool slopes(const stf_model *m, double t, const double *at, double *yp)
     stf_quantity_run(m, &m->f, &feed, yp);
   else if (at == m->y0 && m->yp0)
     memcpy(yp, m->yp0, (size_t)m->n * sizeof *yp);
+  else if (t == m->slope_at)
+    memcpy(yp, m->event_slope, (size_t)m->n * sizeof *yp);
   else
     return false;
   return true;
+}
+
+int stf_reactions_slope(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  stf_model *m = user;
+  (void)y;
+  memcpy(m->event_slope, N_VGetArrayPointer(yp), (size_t)m->n * sizeof *m->event_slope);
+  m->slope_at = t;
+  return 0;
 }
 
 /* event_values[1] := g after a short step along y' = f; false: y' is not known. */
@@ -167,6 +178,7 @@ int stf_reactions_begin(sunrealtype t, void *user)
   stf_model *m = user;
   stf_reactions *r = m->reactions;
   memcpy(m->memory, m->memory_start, (size_t)m->memories * sizeof *m->memory);
+  m->slope_at = NAN;
   memset(m->event_shift, 0, (size_t)m->switches * sizeof *m->event_shift);
   memset(m->event_range, 0, (size_t)m->switches * sizeof *m->event_range);
   for (size_t i = 0; i < r->list.count; i++)
@@ -320,6 +332,7 @@ int stf_reactions_handle(sunrealtype t, N_Vector v, const int *fired, void *user
   const bool changes = flip(m, t, y, fired);
   for (int round = 0; find_pending(m, t, y); round++) {
     acted = true;
+    m->slope_at = NAN;
     if (round == ROUNDS)
       return STEIF_FAIL(m->ctx, STEIF_STEP_LIMIT,
                         "events at t = %.12g cause each other without end (100 "

@@ -53,6 +53,7 @@ void stf_event_sides(const stf_model *m, double t, const double *y, int ahead, d
 void stf_event_move(const stf_model *m, double t, const double *y, const int *fired);
 /* reactions.c: at the start of a run, and at an event. */
 int stf_reactions_begin(sunrealtype t, void *user);
+int stf_reactions_slope(sunrealtype t, N_Vector y, N_Vector yp, void *user);
 int stf_reactions_handle(sunrealtype t, N_Vector y, const int *fired, void *user);
 /* Parameters have moved in the midst of a run: conditions, assignments and the next times follow. */
 int stf_reactions_follow(stf_model *m);

@@ -143,6 +143,7 @@ typedef struct stf_model {
   steif_event *event_list;
   double *event_values[2];
   double *event_shift, *event_range; /* of each relation: see event_values.c */
+  double *event_slope, slope_at; /* y' at the event at slope_at, for other forms than y' = f */
   stf_measured measured;
   steif_reference reference;
   sunindextype *reference_component;

@@ -8,6 +8,7 @@ const char stf_c_state[] =
   " * time: copies of this file in programs with threads need a state of their own each. */\n"
   "static struct run {\n"
   "  double memory[MEMORIES + 1], shift[SWITCHES + 1], range[SWITCHES + 1];\n"
+  "  double slope_at; /* when y' at an event was told */\n"
   "  unsigned char open[SWITCHES + 1], truth[REACTIONS + 1], pending[REACTIONS + 1];\n"
   "  int done[REACTIONS + 1];\n"
   "} run;\n"
@@ -53,6 +54,16 @@ const char stf_c_relations[] =
   "}\n\n";
 
 /* After f and the tables. */
+const char stf_c_slope[] =
+  "static double slope_now[UNKNOWNS];\n"
+  "static int event_slope(sunrealtype t, N_Vector y, N_Vector yp, void *user)\n"
+  "{\n"
+  "  (void)y, (void)user;\n"
+  "  memcpy(slope_now, N_VGetArrayPointer(yp), sizeof slope_now);\n"
+  "  run.slope_at = t;\n"
+  "  return 0;\n"
+  "}\n";
+
 const char stf_c_rules[] =
   "static int event(sunrealtype t, N_Vector y, sunrealtype *g, void *user)\n"
   "{\n"
@@ -137,6 +148,7 @@ const char stf_c_rules[] =
   "{\n"
   "  (void)user;\n"
   "  memset(&run, 0, sizeof run);\n"
+  "  run.slope_at = NAN;\n"
   "  memcpy(run.memory, memory_start, sizeof run.memory);\n"
   "  for (int i = 0; i < REACTIONS; i++)\n"
   "    if (reactions[i].trigger == TIMER) start_timer(i, t);\n"
@@ -281,6 +293,7 @@ const char stf_c_moving[] =
   "  const int changes = flip(t, y, fired);\n"
   "  for (; find_pending(t, y); rounds++) {\n"
   "    if (rounds == 100) return STEIF_STEP_LIMIT; /* they cause each other without end */\n"
+  "    run.slope_at = NAN;\n"
   "    const int code = act(t, y, &stops);\n"
   "    if (code) return code;\n"
   "  }\n"

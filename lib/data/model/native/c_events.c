@@ -126,6 +126,7 @@ void stf_write_event_values(stf_writer *w, const stf_model *m)
 void stf_write_events(stf_writer *w, const stf_model *m)
 {
   reaction_list(w, m);
+  if (m->form != STEIF_ODE) stf_write_text(w, stf_c_slope);
   stf_write_text(
     w, "static int slopes(double t, const double *y, double *out)\n{\n  (void)t, (void)y, "
        "(void)out;\n");
@@ -138,7 +139,9 @@ void stf_write_events(stf_writer *w, const stf_model *m)
     if (m->yp0)
       stf_write_text(
         w, "  if (y == start) return memcpy(out, start_slope, UNKNOWNS * sizeof *out), 1;\n");
-    stf_write_text(w, "  return 0;\n}\n");
+    stf_write_text(
+      w, "  if (t == run.slope_at) return memcpy(out, slope_now, sizeof slope_now), 1;\n"
+         "  return 0;\n}\n");
   }
   stf_write_text(w, stf_c_rules);
   stf_write_text(w, stf_c_turning);

@@ -50,6 +50,6 @@ void stf_write_problem(stf_writer *w, const stf_model *m, const steif_problem *p
 
 /* c_event_rules.c: parts of the C text of a model with events, in their order. */
 extern const char stf_c_state[], stf_c_relations[], stf_c_rules[], stf_c_turning[],
-  stf_c_handling[], stf_c_moving[];
+  stf_c_handling[], stf_c_moving[], stf_c_slope[];
 
 #endif
