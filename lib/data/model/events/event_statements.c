@@ -69,7 +69,6 @@ int stf_timer_read(stf_model *m, stf_reaction *r)
 static int timer(stf_model *m, stf_reaction *r, const stf_statement *s)
 {
   r->trigger = STF_TIMER;
-  r->memory = m->memories++;
   m->timers++;
   if (s->kind != STF_SAY_AT) return stf_timer_read(m, r);
   STEIF_TRY(instants(m, r));
@@ -259,6 +258,14 @@ static int timers(stf_model *m)
   return code;
 }
 
+/* Next times stand behind the truths of all relations, which follow each other. */
+static void place_timers(stf_model *m)
+{
+  for (size_t i = 0; i < m->reactions->list.count; i++)
+    if (reaction(m->reactions, i)->trigger == STF_TIMER)
+      reaction(m->reactions, i)->memory = m->memories++;
+}
+
 static int arrays(stf_model *m)
 {
   const size_t events = (size_t)(m->switches + m->timers), memories = (size_t)m->memories;
@@ -322,6 +329,7 @@ int stf_build_events(stf_model *m)
   if (!code && !m->syntax.sources.errors) code = look_at_starts(m, &b);
   stf_builder_close(&b);
   if (m->syntax.sources.errors) code = stf_complaints(&m->syntax.sources);
+  place_timers(m);
   if (!code) code = arrays(m);
   for (size_t i = 0; !code && i < m->blocks.count; i++)
     code = switches(m, *STF_AT(m->blocks, stf_block *, i));
