@@ -244,19 +244,11 @@ static int user_function(stf_builder *b, stf_symbol *s, int count)
   return stf_enter(b, &stf_statement_at(b->m, s->statement)->value, which, scope);
 }
 
-/* A table of t has breaks at its nodes, where it has kinks or jumps. */
 static int table(stf_builder *b, const stf_symbol *s)
 {
   const int32_t x = pop(b);
   if (b->numeric) return complain(b, b->g->at, "a table where a number is needed at once");
-  const stf_lookup *l = b->m->lookups + s->which;
-  const bool breaks = b->events && stf_node_at(b->g, x)->kind == STF_OP_TIME && l->kind != 1;
-  for (size_t i = 0; breaks && i < l->count; i++) {
-    double *to = stf_vector_push(b->m->ctx, &b->m->breaks, sizeof *to);
-    if (!to) return STEIF_NO_MEMORY;
-    *to = l->x[i];
-  }
-  return stf_push_node(b, stf_apply(b->g, STF_OP_LOOKUP, x, s->which, l->kind == 2));
+  return stf_push_node(b, stf_table_value(b, x, s->which));
 }
 
 static int call(stf_builder *b, const stf_code *c)

@@ -148,7 +148,7 @@ typedef struct stf_model {
   steif_reference reference;
   sunindextype *reference_component;
   int *constraint;
-  stf_lookup *lookups;
+  stf_lookup *lookups; /* tables, then three that belong to each: see table_wave.c */
   int32_t tables;
   sunrealtype *y0, *yp0;
   uint8_t *start;  /* n: '=', '~' or 0 */
@@ -239,6 +239,10 @@ int stf_push_node(stf_builder *b, int32_t node);
 
 /* switches.c: relations and functions with kinks or jumps. */
 int32_t stf_relation(stf_builder *b, int kind, int32_t left, int32_t right);
+/* The table `which` of node x, with breaks and events where it has kinks or jumps; -1: no memory. */
+int32_t stf_table_value(stf_builder *b, int32_t x, int32_t which);
+/* table_wave.c: made at the first use; STEIF_NO_MEMORY. */
+int stf_table_wave(stf_model *m, int32_t which);
 int32_t stf_kinked(stf_builder *b, int kind, int32_t a, int32_t c);
 /* loops.c: the equations. */
 int stf_build_blocks(stf_model *m);

@@ -188,6 +188,45 @@ int32_t stf_relation(stf_builder *b, int kind, int32_t left, int32_t right)
   return other < 0 ? -1 : stf_apply1(b->g, STF_OP_NOT, other);
 }
 
+/* Breaks at the nodes of a table of time alone; NOT_LINEAR: they are not known. */
+static int32_t breaks_of(stf_builder *b, int32_t x, const stf_lookup *l)
+{
+  for (size_t k = 0; k < l->count; k++) {
+    const int32_t g = stf_apply2(b->g, STF_OP_SUBTRACT, x, stf_number(b->g, l->x[k]));
+    const int32_t truth = g < 0 ? NO_MEMORY : truth_by_time(b, g);
+    if (truth < 0) return truth;
+  }
+  return 0;
+}
+
+/* A step of a table that is kept between events. */
+static int32_t kept_step(stf_builder *b, int32_t x, int32_t which, int32_t below)
+{
+  const int32_t tables = b->m->tables;
+  return stf_apply(b->g, STF_OP_SELECT, below,
+                   stf_apply(b->g, STF_OP_LOOKUP, x, 2 * tables + which, true),
+                   stf_apply(b->g, STF_OP_LOOKUP, x, 3 * tables + which, true));
+}
+
+/* Kinks in tables of states are left to the error control: materials in a grid have one in each cell. */
+int32_t stf_table_value(stf_builder *b, int32_t x, int32_t which)
+{
+  const stf_lookup *l = b->m->lookups + which;
+  const int on = stf_node_at(b->g, x)->on;
+  const bool moves = on & (STF_ON_TIME | STF_ON_STATE), steps = l->kind == 2;
+  const int32_t literal = stf_apply(b->g, STF_OP_LOOKUP, x, which, steps);
+  if (!b->events || b->literal || !moves || (on & STF_ON_SLOPE) || l->kind == 1) return literal;
+  if (!(on & ~(STF_ON_TIME | STF_ON_PARAMETER))) {
+    const int32_t found = breaks_of(b, x, l);
+    if (found != NOT_LINEAR) return found == NO_MEMORY ? -1 : literal;
+  }
+  if (b->clock || (!steps && (on & STF_ON_STATE))) return literal;
+  if (stf_table_wave(b->m, which)) return -1;
+  const int32_t wave = stf_apply(b->g, STF_OP_LOOKUP, x, b->m->tables + which, false);
+  const int32_t below = wave < 0 ? -1 : switched(b, wave);
+  return below < 0 ? -1 : steps ? kept_step(b, x, which, below) : literal;
+}
+
 /* a < c ? x : y */
 static int32_t choose(stf_builder *b, int32_t a, int32_t c, int32_t x, int32_t y)
 {

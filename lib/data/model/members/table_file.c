@@ -233,7 +233,7 @@ static int table(stf_model *m, int32_t statement, stf_lookup *l)
 
 int stf_read_tables(stf_model *m)
 {
-  m->lookups = stf_pool_array(m->pool, (size_t)m->tables, sizeof *m->lookups);
+  m->lookups = stf_pool_array(m->pool, 4 * (size_t)m->tables, sizeof *m->lookups);
   if (!m->lookups) return STEIF_NO_MEMORY;
   int code = STEIF_OK;
   for (size_t i = 0; !code && i < m->symbols.count; i++) {

@@ -83,8 +83,9 @@ static void array(stf_writer *w, const char *name, size_t which, size_t count, c
 /* The functions of tables.c that occur. */
 static void tables(stf_writer *w, const stf_model *m, const bool *used)
 {
-  for (int32_t i = 0; i < m->tables; i++) {
+  for (int32_t i = 0; i < 4 * m->tables; i++) {
     const stf_lookup *l = m->lookups + i;
+    if (!l->count) continue;
     array(w, "table_x", (size_t)i, l->count, l->x);
     array(w, "table_y", (size_t)i, l->count, l->y);
     if (l->kind == 1) array(w, "table_slope", (size_t)i, l->count, l->slope);
@@ -92,8 +93,12 @@ static void tables(stf_writer *w, const stf_model *m, const bool *used)
   stf_write(
     w, "static const struct table { int kind, error; long count; const double *x, *y, *slope; "
        "} table[] = {\n");
-  for (int32_t i = 0; i < m->tables; i++) {
+  for (int32_t i = 0; i < 4 * m->tables; i++) {
     const stf_lookup *l = m->lookups + i;
+    if (!l->count) {
+      stf_write(w, "  {0, 0, 0, 0, 0, 0},\n");
+      continue;
+    }
     stf_write(w, "  {%d, %d, %zu, table_x%d, table_y%d, ", l->kind, (int)l->error, l->count,
               (int)i, (int)i);
     stf_write(w, l->kind == 1 ? "table_slope%d},\n" : "0},\n", (int)i);
