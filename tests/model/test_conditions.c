@@ -184,6 +184,44 @@ static void plateaus_without_events(void)
   }
 }
 
+/* Pulses of one unit, whatever the argument of the table: the integral is their number, in units of the argument. The daily
+ * profile has 3 + 2 + 3 + 5 in four hours. */
+static void tables_have_events_for_any_argument(void)
+{
+#define PULSES "table p = (0, 0), (10, 1), (11, 0), (20, 1), (21, 0) steps\nstate e = 0"
+  fixture_reaches(PULSES "\ne' = p(t/60)\ntime 0 to 3000\n", 120, 1e-7);
+  fixture_reaches(PULSES "\ne' = p(t - 1)\ntime 0 to 50\n", 2, 1e-7);
+  fixture_reaches(PULSES "\ne' = p(50 - t)\ntime 0 to 50\n", 2, 1e-7);
+  fixture_reaches(PULSES ", x = 0\nx' = 1\ne' = p(x)\ntime 0 to 50\n", 2, 1e-7);
+  fixture_reaches(PULSES "\ne' = p(mod(t, 24))\ntime 0 to 240\n", 20, 1e-7);
+  fixture_reaches(PULSES ", x[i in 1:5] = i/10\nfor i in 1:5\nx[i]' = 1 + p(x[i])\nend\n"
+                         "e' = p(x[3])\ntime 0 to 50\n",
+                  1, 1e-7);
+  fixture_reaches("table q = (0, 3), (1, 1), (2, 5) linear\nstate e = 0\n"
+                  "e' = q(mod(t, 4) - 1)\ntime 0 to 40\n",
+                  130, 1e-6);
+#undef PULSES
+}
+
+/* The lines of events in every order: x = 1 + t passes 2.1, 2.2 and 4.1; 4 whole seconds and two times pass before 4.5. */
+static void events_in_any_order(void)
+{
+  static const char *const line[] = {"when x > 2.2: k = k + 1\n", "at 2.5, 3.5: k = k + 10\n",
+                                     "when x > 2.1: k = k + 100\n", "every 1: k = k + 10000\n"};
+  for (int order = 0; order < 24; order++) {
+    char text[400] = "state k = 0, x = 1\nk' = 0\nx' = 1\n";
+    int left[] = {0, 1, 2, 3}, code = order;
+    for (int count = 4; count > 0; count--) {
+      const int take = code % count;
+      code /= count;
+      strcat(text, line[left[take]]);
+      for (int i = take; i + 1 < count; i++) left[i] = left[i + 1];
+    }
+    strcat(text, "time 0 to 4.5\n");
+    fixture_reaches(text, 40121, 1e-12);
+  }
+}
+
 /* A sign that is 0 at the start, as that of friction, and one that touches 0 where mod jumps, in algebraic equations. */
 static void algebraic_signs_leave_zero(void)
 {
@@ -229,6 +267,8 @@ CU_TestInfo tests_of_conditions[] = {
   {"conditions are counted once", conditions_are_counted_once},
   {"plateaus without events", plateaus_without_events},
   {"plateaus and touches", plateaus_and_touches},
+  {"tables have events for any argument", tables_have_events_for_any_argument},
+  {"events in any order", events_in_any_order},
   {"algebraic signs leave zero", algebraic_signs_leave_zero},
   {"constant algebraic unknowns stay", constant_algebraic_unknowns_stay},
   CU_TEST_INFO_NULL};

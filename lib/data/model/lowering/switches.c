@@ -199,13 +199,14 @@ static int32_t breaks_of(stf_builder *b, int32_t x, const stf_lookup *l)
   return 0;
 }
 
-/* A step of a table that is kept between events. */
-static int32_t kept_step(stf_builder *b, int32_t x, int32_t which, int32_t below)
+/* The part of a table that is kept between events. */
+static int32_t kept_part(stf_builder *b, int32_t x, int32_t which, int32_t below)
 {
   const int32_t tables = b->m->tables;
+  const bool steps = b->m->lookups[which].kind == 2;
   return stf_apply(b->g, STF_OP_SELECT, below,
-                   stf_apply(b->g, STF_OP_LOOKUP, x, 2 * tables + which, true),
-                   stf_apply(b->g, STF_OP_LOOKUP, x, 3 * tables + which, true));
+                   stf_apply(b->g, STF_OP_LOOKUP, x, 2 * tables + which, steps),
+                   stf_apply(b->g, STF_OP_LOOKUP, x, 3 * tables + which, steps));
 }
 
 /* Kinks in tables of states are left to the error control: materials in a grid have one in each cell. */
@@ -224,7 +225,7 @@ int32_t stf_table_value(stf_builder *b, int32_t x, int32_t which)
   if (stf_table_wave(b->m, which)) return -1;
   const int32_t wave = stf_apply(b->g, STF_OP_LOOKUP, x, b->m->tables + which, false);
   const int32_t below = wave < 0 ? -1 : switched(b, wave);
-  return below < 0 ? -1 : steps ? kept_step(b, x, which, below) : literal;
+  return below < 0 ? -1 : kept_part(b, x, which, below);
 }
 
 /* a < c ? x : y */

@@ -32,6 +32,7 @@ static const char value_function[] =
   "l->y[i];\n"
   "  if (l->kind == 2) return l->y[i];\n"
   "  if (l->kind == 0) return l->y[i] + s * rise;\n"
+  "  if (l->kind == 3) return l->y[i] + l->slope[i] * (x - l->x[i]);\n"
   "  const double a = h * l->slope[i] - rise, b = rise - h * l->slope[i + 1];\n"
   "  return l->y[i] + s * rise + s * (1 - s) * (a * (1 - s) + b * s);\n"
   "}\n";
@@ -44,6 +45,7 @@ static const char slope_function[] =
   "  const double h = l->x[i + 1] - l->x[i], s = (x - l->x[i]) / h, rise = l->y[i + 1] - "
   "l->y[i];\n"
   "  if (l->kind == 0) return rise / h;\n"
+  "  if (l->kind == 3) return l->slope[i];\n"
   "  const double a = h * l->slope[i] - rise, b = rise - h * l->slope[i + 1];\n"
   "  return (rise + (1 - 2 * s) * (a * (1 - s) + b * s) + s * (1 - s) * (b - a)) / h;\n"
   "}\n";
@@ -88,7 +90,7 @@ static void tables(stf_writer *w, const stf_model *m, const bool *used)
     if (!l->count) continue;
     array(w, "table_x", (size_t)i, l->count, l->x);
     array(w, "table_y", (size_t)i, l->count, l->y);
-    if (l->kind == 1) array(w, "table_slope", (size_t)i, l->count, l->slope);
+    if (l->kind & 1) array(w, "table_slope", (size_t)i, l->count, l->slope);
   }
   stf_write(
     w, "static const struct table { int kind, error; long count; const double *x, *y, *slope; "
@@ -101,7 +103,7 @@ static void tables(stf_writer *w, const stf_model *m, const bool *used)
     }
     stf_write(w, "  {%d, %d, %zu, table_x%d, table_y%d, ", l->kind, (int)l->error, l->count,
               (int)i, (int)i);
-    stf_write(w, l->kind == 1 ? "table_slope%d},\n" : "0},\n", (int)i);
+    stf_write(w, l->kind & 1 ? "table_slope%d},\n" : "0},\n", (int)i);
   }
   stf_write_text(w, "};\n");
   stf_write_text(w, finding_functions);

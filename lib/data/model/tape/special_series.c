@@ -84,6 +84,11 @@ const char *stf_lookup_series(const stf_lookup *l, int n, const stf_series *a, i
     u->c[0] = l->y[i];
     return NULL;
   }
+  if (l->kind == 3) {
+    for (int k = 0; k <= n; k++)
+      u->c[k] = l->slope[i] * (a->c[k] - (k ? 0 : l->x[i])) + (k ? 0 : l->y[i]);
+    return NULL;
+  }
   const double h = l->x[i + 1] - l->x[i], rise = l->y[i + 1] - l->y[i];
   const double left = l->kind ? h * l->slope[i] - rise : 0,
                right = l->kind ? rise - h * l->slope[i + 1] : 0;

@@ -87,10 +87,11 @@ int32_t stf_at_pass(const stf_box *box, int64_t k, int32_t a, const int32_t *str
 
 /* tables.c */
 struct stf_lookup {
-  int kind; /* 0 linear, 1 cubic, 2 steps */
+  int
+    kind; /* 0 linear, 1 cubic, 2 steps, 3 lines y[i] + slope[i] (x - x[i]), which need not meet */
   bool error;
   size_t count;
-  const double *x, *y, *slope; /* slopes at the nodes, cubic */
+  const double *x, *y, *slope; /* slopes at the nodes, cubic and lines */
 };
 double stf_lookup_value(const stf_lookup *l, double x);
 double stf_lookup_slope(const stf_lookup *l, double x);
