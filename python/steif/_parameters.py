@@ -342,7 +342,8 @@ def sweep(f, values, *, t1=None, method="auto", rtol=1e-6, atol=None, threads=0)
         raise ValueError("values must hold one number for each run, the same for all parameters")
     count, context, problem = lengths.pop(), Context(), None
     try:
-        problem, start, end = _known(context, f, None if t1 is None else (0, t1))
+        problem, start, end = _known(context, f, None)
+        end = end if t1 is None else float(t1)
         _tolerances(problem, rtol, atol, problem.n)
         problem.options.set("t1", REAL, end)
         r = Result()

@@ -313,7 +313,7 @@ def _times(t_eval, t0, t1):
     if t_eval is None:
         return None
     times = np.asarray(t_eval, dtype=float)
-    if times.ndim != 1 or times.size == 0 or np.any(np.diff(times) <= 0):
+    if times.ndim != 1 or times.size == 0 or not np.all(np.isfinite(times)) or np.any(np.diff(times) <= 0):
         raise ValueError("t_eval must hold ascending times")
     if times[0] < t0 or times[-1] > t1:
         raise ValueError("t_eval must lie within the interval from %g to %g" % (t0, t1))
@@ -335,7 +335,20 @@ def _known(context, spec, t_span):
     if unknown:
         run.names = [name.decode() for name in (c.c_char_p * run.n).from_address(unknown)]
     t0, t1 = found.get("t0", REAL), found.get("t1", REAL)
-    return run, t0, t1 if t_span is None else float(t_span[1])
+    if t_span is None:
+        return run, t0, t1
+    if np.shape(t_span) != (2,) or float(t_span[0]) != t0:
+        lib.steif_problem_clear(context.pointer, found.address)
+        raise ValueError("t_span must be (%g, t1), for %r begins at %g; got %r" % (t0, spec, t0, t_span))
+    return run, t0, float(t_span[1])
+
+
+def _refuse(spec, **given):
+    """What a named problem has itself."""
+    for name, value in given.items():
+        if value is not None:
+            raise ValueError("%s is given, but %r has its own: leave it None%s" % (
+                name, spec, ", and set a parameter: 'FILE.steif:x0=1'" if name in ("y0", "args") else ""))
 
 
 def _own(f, t_span, y0, args, jac, jac_sparsity, mass, events):
@@ -373,8 +386,9 @@ def solve(f, t_span=None, y0=None, *, method="auto", rtol=1e-6, atol=None, t_eva
           first_step=None, max_step=None, max_steps=None):
     """Integrate y' = f(t, y), or mass y' = f(t, y) with a constant, possibly singular matrix.
 
-    f             f(t, y) -> array or list; or the name of a problem ("rober", "pendulum.steif:k=3")
-    t_span        (t0, t1); of a named problem None: its own
+    f             f(t, y) -> array or list; or the name of a problem ("rober", "pendulum.steif:k=3"), which has its
+                  own y0, jac, mass and events: parameters change it
+    t_span        (t0, t1); of a named problem None: its own, or another t1
     method        a spec of steif: "auto", "radau:s=3", "bdf", "cvode", ...
     atol          a number or one for each component; None: rtol times the scale of the problem (1)
     t_eval        times of the output; None: the steps
@@ -393,6 +407,7 @@ def solve(f, t_span=None, y0=None, *, method="auto", rtol=1e-6, atol=None, t_eva
     run = record = steps = result = None
     try:
         if named:
+            _refuse(f, y0=y0, args=args or None, jac=jac, jac_sparsity=jac_sparsity, mass=mass, events=events)
             run, t0, t1 = _known(context, f, t_span)
         else:
             run, t0, t1 = _own(f, t_span, y0, tuple(args), jac, jac_sparsity, mass, events)

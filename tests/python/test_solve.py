@@ -2,6 +2,7 @@
 import math
 import os
 import signal
+import tempfile
 import threading
 import unittest
 
@@ -86,6 +87,19 @@ class Solve(unittest.TestCase):
         self.assertAlmostEqual(r.sol(0.25)[0], 0.25, 6)  # within rtol
         with self.assertRaises(ZeroDivisionError):  # the record is freed with the run
             steif.solve(lambda t, y: [1 / 0], (0, 1), [0], dense_output=True)
+
+    def test_a_model_keeps_its_own(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "decay.steif")
+            with open(path, "w") as file:
+                file.write("param x0 = 1\nstate x = x0\nx' = -x\ntime 1 to 2\n")
+            self.assertAlmostEqual(steif.solve(path + ":x0=10", (1, 3)).y[0, -1], 10 * np.exp(-2), 4)
+            for given in ({"y0": [10.0]}, {"args": (3,)}, {"mass": [[5]]}, {"events": lambda t, y: y[0]},
+                          {"jac": [[1]]}, {"t_span": (0, 2)}, {"t_span": 2}):
+                with self.assertRaises(ValueError):
+                    steif.solve(path, **given)
+        with self.assertRaisesRegex(ValueError, "ascending"):
+            steif.solve(lambda t, y: [1.0], (0, 1), [0], t_eval=[0, float("nan"), 1])
 
     def test_sparse_jacobian(self):
         # u_t = u_xx on a grid: the sine decays by its eigenvalue; few evaluations for 300 unknowns

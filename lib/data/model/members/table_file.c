@@ -129,6 +129,13 @@ static bool number(const char *line, long k, double *value)
   return end == at + length && isfinite(*value);
 }
 
+static int cells(const char *line)
+{
+  int count = 1;
+  for (; (line = strchr(line, ',')); line++) count++;
+  return count;
+}
+
 /* A column by its number needs no names: a first line of numbers is a row. */
 static int rows(stf_model *m, const stf_statement *s, const stf_statement *column,
                 stf_lines *lines, const char *file, columns *c)
@@ -138,11 +145,15 @@ static int rows(stf_model *m, const stf_statement *s, const stf_statement *colum
   STEIF_TRY(stf_line_next(lines, &more));
   STEIF_TRY(header(m, s, column, lines->text, file, &x, &y));
   double a, b;
+  const int columns_there = cells(lines->text);
   bool here = !column->strlength && number(lines->text, x, &a) && number(lines->text, y, &b);
   for (;; here = false) {
     if (!here) STEIF_TRY(stf_line_next(lines, &more));
     if (!more) return STEIF_OK;
     if (!lines->text[strspn(lines->text, " \t\r")]) continue;
+    if (cells(lines->text) > columns_there)
+      return complain(m, s, "more cells than the first line has, or a decimal comma", file,
+                      lines->number);
     if (!number(lines->text, x, &a) || !number(lines->text, y, &b))
       return complain(m, s, "expected finite numbers with a decimal point", file,
                       lines->number);
