@@ -204,7 +204,8 @@ static int check_words(const struct call *call)
 {
   const struct verb *verb = call->verb;
   if (call->words < verb->least)
-    return bad_usage(call, "something is missing: steif %s %s", verb->name, verb->usage);
+    return bad_usage(call, "it needs %d words, %d given: steif %s %s", verb->least, call->words,
+                     verb->name, verb->usage);
   if (call->words > verb->most)
     return bad_usage(call, "\"%s\" is one word too many: steif %s %s", call->word[verb->most],
                      verb->name, verb->usage);

@@ -176,9 +176,19 @@ int stf_cause_singular(stf_search *c)
   }
   stf_point_say(c->cause->message,
                 "s E - A is singular for every s, so that no step can be solved, though the "
-                "solution is determined: index %d (%s) of matrices that turn with time; "
-                "differentiated on the way: ",
+                "solution is determined: index %d (%s) of matrices that turn with time",
                 d->index, steif_confidence_name(d->confidence));
+  bool any = false;
+  for (size_t i = 0; i < c->point->n; i++) any = any || d->derivatives[i] > 0;
+  if (!any) {
+    stf_point_say(
+      c->cause->message,
+      ". No equation is differentiated on the way: perhaps an entry has become 0, as "
+      "the slope of an exponential that underflows; give the equation a small term of "
+      "its own, such as a conductance beside a diode");
+    return STEIF_OK;
+  }
+  stf_point_say(c->cause->message, "; differentiated on the way: ");
   stf_point_list(c->point, c->cause->message, true, d->derivatives, 1, true);
   stf_point_say(c->cause->message, ". Put derivatives of these in their place");
   return STEIF_OK;
