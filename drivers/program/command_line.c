@@ -204,8 +204,8 @@ static int check_words(const struct call *call)
 {
   const struct verb *verb = call->verb;
   if (call->words < verb->least)
-    return bad_usage(call, "it needs %d words, %d given: steif %s %s", verb->least, call->words,
-                     verb->name, verb->usage);
+    return bad_usage(call, "something is missing, %d of %d words given: steif %s %s",
+                     call->words, verb->least, verb->name, verb->usage);
   if (call->words > verb->most)
     return bad_usage(call, "\"%s\" is one word too many: steif %s %s", call->word[verb->most],
                      verb->name, verb->usage);
