@@ -71,7 +71,7 @@ void stf_event_move(const stf_model *m, double t, const double *y, const int *fi
   for (int32_t i = 0; i < m->switches; i++) {
     if (!moves(m, i, fired)) continue;
     const double g = fabs(m->event_values[1][i]),
-                 least = fmax(units * m->event_range[i], times * noise[i]),
+                 least = fmax(fmax(units * m->event_range[i], times * noise[i]), 1e-300),
                  shift = least + 2 * g;
     m->event_shift[i] = g > 1e3 * least ? 0 : m->memory[m->discretes + i] != 0 ? -shift : shift;
     m->event_range[i] = 0;
