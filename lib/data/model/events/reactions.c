@@ -293,10 +293,12 @@ static void touch(stf_model *m, double t, const double *y, const int *fired)
   const bool seen = together > 0 && see_ahead(m, t, y);
   for (int32_t i = 0; i < m->switches; i++) {
     const bool hangs = together > 1 && m->switch_used[i] == STF_OF_OTHERS;
-    if (fired[i] && (hangs || (seen && m->event_values[1][i] == 0)))
-      m->switch_open[i] = STF_AT_ZERO;
+    if (fired[i] && hangs) m->switch_open[i] = STF_AT_ZERO;
+    if (fired[i] && seen && m->event_values[1][i] == 0) m->switch_open[i] = STF_STAYS;
   }
   look_ahead(m, t, y, STF_AT_ZERO);
+  for (int32_t i = 0; i < m->switches; i++)
+    if (fired[i] && m->switch_open[i] == STF_AT_ZERO) m->switch_open[i] = STF_OPEN;
 }
 
 /* A relation that has fired was the other way before, whatever was remembered of it. */

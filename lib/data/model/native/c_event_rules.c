@@ -186,9 +186,12 @@ const char stf_c_turning[] =
   "  seen = together > 0 && see_ahead(t, y);\n"
   "  for (int i = 0; i < SWITCHES; i++) {\n"
   "    const int hangs = together > 1 && used[i] == 3;\n"
-  "    if (fired[i] && (hangs || (seen && after[i] == 0))) run.open[i] = 2;\n"
+  "    if (fired[i] && hangs) run.open[i] = 2;\n"
+  "    if (fired[i] && seen && after[i] == 0) run.open[i] = 3;\n"
   "  }\n"
   "  look_ahead(t, y, 2);\n"
+  "  for (int i = 0; i < SWITCHES; i++)\n"
+  "    if (fired[i] && run.open[i] == 2) run.open[i] = 1;\n"
   "}\n";
 
 const char stf_c_handling[] =
