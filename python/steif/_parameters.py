@@ -6,7 +6,7 @@ import os
 import numpy as np
 
 from ._library import INT, POINTER, REAL, WHOLE, Context, Struct, lib
-from ._solve import Result, _Interrupt, _known, _own, _times, _tolerances
+from ._solve import Result, _Interrupt, _known, _own, _refuse, _times, _tolerances
 
 _OK, _EVENT, _NO_CONVERGENCE = 0, 2, -6  # of base.h
 _SCALES = ("auto", "log", "linear")  # enum steif_fit_scale
@@ -30,8 +30,7 @@ class _Parametrised:
     def __init__(self, context, f, t_span, y0, p, jac, jac_sparsity, mass):
         self.context, self.named = context, isinstance(f, (str, bytes, os.PathLike))
         if self.named:
-            if y0 is not None:
-                raise ValueError("the start of a named problem is its own: y0 must be None")
+            _refuse(f, y0=y0, jac=jac, jac_sparsity=jac_sparsity, mass=mass)
             self.run, self.t0, self.t1 = _known(context, f, t_span)
             self._of_the_library(p)
         else:

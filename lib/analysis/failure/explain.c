@@ -178,9 +178,7 @@ int stf_cause_singular(stf_search *c)
                 "s E - A is singular for every s, so that no step can be solved, though the "
                 "solution is determined: index %d (%s) of matrices that turn with time",
                 d->index, steif_confidence_name(d->confidence));
-  bool any = false;
-  for (size_t i = 0; i < c->point->n; i++) any = any || d->derivatives[i] > 0;
-  if (!any) {
+  if (!stf_point_any(c->point, d->derivatives, 1)) {
     stf_point_say(
       c->cause->message,
       ". No equation is differentiated on the way: perhaps an entry has become 0, as "

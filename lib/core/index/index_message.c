@@ -3,13 +3,6 @@
 #include "evidence.h"
 #include "index_thresholds.h"
 
-static bool any(const int *flag, size_t n, int least)
-{
-  for (size_t i = 0; i < n; i++)
-    if (flag[i] >= least) return true;
-  return false;
-}
-
 static void say_index(const stf_summary *s, steif_diagnosis *d)
 {
   const stf_point *point = s->e->point;
@@ -20,18 +13,18 @@ static void say_index(const stf_summary *s, steif_diagnosis *d)
                   ", the largest of those found near t = %g (%d to %d): a singular point is "
                   "near, numbers are for the largest",
                   point->t, s->found[1] ? s->low[1] : s->low[0], d->index);
-  if (any(d->number, point->n, 2)) {
+  if (stf_point_any(point, d->number, 2)) {
     stf_point_say(m, "; numbers above 1: ");
     stf_point_list(point, m, false, d->number, 2, true);
   }
-  if (any(d->derivatives, point->n, 1)) {
+  if (stf_point_any(point, d->derivatives, 1)) {
     stf_point_say(m, "; equations differentiated on the way: ");
     stf_point_list(point, m, true, d->derivatives, 1, true);
   }
   if (d->freedom >= 0)
     stf_point_say(m, "; %lld degree%s of freedom", (long long)d->freedom,
                   d->freedom == 1 ? "" : "s");
-  if (any(d->prescribe, point->n, 1)) {
+  if (stf_point_any(point, d->prescribe, 1)) {
     stf_point_say(m, ", for example ");
     stf_point_list(point, m, false, d->prescribe, 1, false);
   }

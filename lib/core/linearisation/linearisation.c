@@ -155,6 +155,13 @@ void stf_point_say(char *sentence, const char *format, ...)
   va_end(list);
 }
 
+bool stf_point_any(const stf_point *s, const int *flag, int least)
+{
+  for (size_t i = 0; i < s->n; i++)
+    if (flag[i] >= least) return true;
+  return false;
+}
+
 void stf_point_list(const stf_point *s, char *sentence, bool equations, const int *flag,
                     int least, bool counts)
 {

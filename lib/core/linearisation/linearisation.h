@@ -35,6 +35,8 @@ const char *stf_point_equation(const stf_point *point, size_t i, char *room);
 const char *stf_point_unknown(const stf_point *point, size_t j, char *room);
 /* Append to a sentence of STEIF_SENTENCE characters. */
 void stf_point_say(char *sentence, const char *format, ...) STEIF_PRINTF(2, 3);
+/* Is there one with flag[i] >= least? */
+bool stf_point_any(const stf_point *point, const int *flag, int least);
 /* " a, b, c (and 7 more)" of those with flag[i] >= least; with counts: "a (2), b (1)". */
 void stf_point_list(const stf_point *point, char *sentence, bool equations, const int *flag,
                     int least, bool counts);

@@ -23,12 +23,11 @@ typedef struct stf_detector {
   sunrealtype *noise; /* |g| that cannot be told from zero behind an event */
   int *sign;          /* side of each function at t: 1, -1; 0: at zero, side unknown */
   int *fired;
-  int *leaves;  /* the side to which y' takes a function that is at zero when a step begins;
-                        0: not known, or not at zero */
-  bool started; /* g was seen at the start */
-  bool cut;     /* the step ends at the event, the next one begins anew from `after` */
-  bool
-    again; /* the step goes on, and what g is behind the event may be other than it was seen */
+  int *leaves;      /* the side to which y' takes a function that is at zero when a step begins;
+                       0: not known, or not at zero */
+  bool started;     /* g was seen at the start */
+  bool cut;         /* the step ends at the event, the next one begins anew from `after` */
+  bool again;       /* the step goes on; g behind the event may be another */
   bool settled;     /* options.reinitialise has found the slope */
   bool moved;       /* the last reaction changed y */
   bool silent;      /* the end of the step was shown to the observer before the reaction */

@@ -26,14 +26,17 @@ static void name_fired(steif_solver *s)
 static bool jumps(const steif_solver *s, int i, sunrealtype t)
 {
   const stf_detector *w = s->events;
+  /* Both sides lie 33 resolutions of time apart: 3e-7 of the step or less, in which g moves by much less than 0.01 of its
+   * range there unless it jumps. */
+  static const sunrealtype apart = 1e8, part = 0.01;
   const sunrealtype h = s->engine ? s->run.stats.h_last : s->step.h;
   sunrealtype low = w->low[i], high = w->low[i];
-  if (h < 1e8 * stf_event_tolerance(s, t)) return false;
+  if (h < apart * stf_event_tolerance(s, t)) return false;
   for (int k = 0; k < STF_NODES; k++) {
     low = fmin(low, w->node[k * w->count + i]);
     high = fmax(high, w->node[k * w->count + i]);
   }
-  return fabs(w->mid[i] - w->low[i]) > 0.01 * (high - low);
+  return fabs(w->mid[i] - w->low[i]) > part * (high - low);
 }
 
 /* Who fires, at t or a little behind it: functions with one root in exact arithmetic do not agree
@@ -111,7 +114,7 @@ static int look_again(steif_solver *s, sunrealtype t)
   static const sunrealtype clearly = 1e6; /* times the noise of an event */
   stf_detector *w = s->events;
   if (w->moved && !w->again) return STEIF_OK;
-  STEIF_TRY(stf_event_ask(s, t, w->after, w->low));
+  STEIF_TRY(w->again ? stf_event_value(s, t, w->low) : stf_event_ask(s, t, w->after, w->low));
   for (int i = 0; i < w->count; i++) {
     const bool off = fabs(w->low[i] - w->mid[i]) > clearly * w->noise[i];
     const int side = (w->low[i] > 0) - (w->low[i] < 0);

@@ -203,7 +203,7 @@ static int32_t breaks_of(stf_builder *b, int32_t x, const stf_lookup *l)
 static int32_t kept_part(stf_builder *b, int32_t x, int32_t which, int32_t below)
 {
   const int32_t tables = b->m->tables;
-  const bool steps = b->m->lookups[which].kind == 2;
+  const bool steps = b->m->lookups[which].kind == STF_STEPS_TABLE;
   return stf_apply(b->g, STF_OP_SELECT, below,
                    stf_apply(b->g, STF_OP_LOOKUP, x, 2 * tables + which, steps),
                    stf_apply(b->g, STF_OP_LOOKUP, x, 3 * tables + which, steps));
@@ -214,9 +214,10 @@ int32_t stf_table_value(stf_builder *b, int32_t x, int32_t which)
 {
   const stf_lookup *l = b->m->lookups + which;
   const int on = stf_node_at(b->g, x)->on;
-  const bool moves = on & (STF_ON_TIME | STF_ON_STATE), steps = l->kind == 2;
+  const bool moves = on & (STF_ON_TIME | STF_ON_STATE), steps = l->kind == STF_STEPS_TABLE;
   const int32_t literal = stf_apply(b->g, STF_OP_LOOKUP, x, which, steps);
-  if (!b->events || b->literal || !moves || (on & STF_ON_SLOPE) || l->kind == 1) return literal;
+  if (!b->events || b->literal || !moves || (on & STF_ON_SLOPE) || l->kind == STF_CUBIC_TABLE)
+    return literal;
   if (!(on & ~(STF_ON_TIME | STF_ON_PARAMETER))) {
     const int32_t found = breaks_of(b, x, l);
     if (found != NOT_LINEAR) return found == NO_MEMORY ? -1 : literal;

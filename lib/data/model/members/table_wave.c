@@ -30,7 +30,7 @@ static int wave(stf_model *m, const stf_lookup *of, stf_lookup *to)
 /* The slope of part k. */
 static double slope_of(const stf_lookup *of, size_t k)
 {
-  if (of->kind == 2 || k + 1 >= of->count) return 0;
+  if (of->kind == STF_STEPS_TABLE || k + 1 >= of->count) return 0;
   return (of->y[k + 1] - of->y[k]) / (of->x[k + 1] - of->x[k]);
 }
 
@@ -52,7 +52,7 @@ static int every_other(stf_model *m, const stf_lookup *of, int first, stf_lookup
   const size_t last = count - 1;
   x[count] = of->x[n - 1] + (of->error ? 0 : of->x[n - 1] - of->x[n - 2]);
   y[count] = y[last] + slope[last] * (x[count] - x[last]), slope[count++] = 0;
-  *to = (stf_lookup){3, of->error, count, x, y, slope};
+  *to = (stf_lookup){STF_LINES_TABLE, of->error, count, x, y, slope};
   return STEIF_OK;
 }
 

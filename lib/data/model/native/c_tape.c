@@ -82,6 +82,11 @@ static void array(stf_writer *w, const char *name, size_t which, size_t count, c
   stf_write(w, "};\n");
 }
 
+static bool has_slopes(const stf_lookup *l)
+{
+  return l->kind == STF_CUBIC_TABLE || l->kind == STF_LINES_TABLE;
+}
+
 /* The functions of tables.c that occur. */
 static void tables(stf_writer *w, const stf_model *m, const bool *used)
 {
@@ -90,7 +95,7 @@ static void tables(stf_writer *w, const stf_model *m, const bool *used)
     if (!l->count) continue;
     array(w, "table_x", (size_t)i, l->count, l->x);
     array(w, "table_y", (size_t)i, l->count, l->y);
-    if (l->kind & 1) array(w, "table_slope", (size_t)i, l->count, l->slope);
+    if (has_slopes(l)) array(w, "table_slope", (size_t)i, l->count, l->slope);
   }
   stf_write(
     w, "static const struct table { int kind, error; long count; const double *x, *y, *slope; "
@@ -103,7 +108,7 @@ static void tables(stf_writer *w, const stf_model *m, const bool *used)
     }
     stf_write(w, "  {%d, %d, %zu, table_x%d, table_y%d, ", l->kind, (int)l->error, l->count,
               (int)i, (int)i);
-    stf_write(w, l->kind & 1 ? "table_slope%d},\n" : "0},\n", (int)i);
+    stf_write(w, has_slopes(l) ? "table_slope%d},\n" : "0},\n", (int)i);
   }
   stf_write_text(w, "};\n");
   stf_write_text(w, finding_functions);

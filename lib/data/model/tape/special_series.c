@@ -80,11 +80,11 @@ const char *stf_lookup_series(const stf_lookup *l, int n, const stf_series *a, i
   const double from = l->x[0], to = l->x[l->count - 1];
   if (x < from || x > to || (x == from && sign < 0) || (x == to && sign > 0)) return NULL;
   while (i + 2 < l->count && (l->x[i + 1] < x || (l->x[i + 1] == x && sign > 0))) i++;
-  if (l->kind == 2) {
+  if (l->kind == STF_STEPS_TABLE) {
     u->c[0] = l->y[i];
     return NULL;
   }
-  if (l->kind == 3) {
+  if (l->kind == STF_LINES_TABLE) {
     for (int k = 0; k <= n; k++)
       u->c[k] = l->slope[i] * (a->c[k] - (k ? 0 : l->x[i])) + (k ? 0 : l->y[i]);
     return NULL;

@@ -86,9 +86,10 @@ int64_t stf_passes(const stf_box *box);
 int32_t stf_at_pass(const stf_box *box, int64_t k, int32_t a, const int32_t *stride);
 
 /* tables.c */
+/* The last: lines y[i] + slope[i] (x - x[i]), which need not meet. The others by their numbers in the language. */
+enum stf_table_kind { STF_LINEAR_TABLE, STF_CUBIC_TABLE, STF_STEPS_TABLE, STF_LINES_TABLE };
 struct stf_lookup {
-  int
-    kind; /* 0 linear, 1 cubic, 2 steps, 3 lines y[i] + slope[i] (x - x[i]), which need not meet */
+  int kind;
   bool error;
   size_t count;
   const double *x, *y, *slope; /* slopes at the nodes, cubic and lines */
