@@ -185,6 +185,8 @@ static void of_files_beside(void)
          "one");
   beside(table, "f.csv", "t {min},T\n0,1\n1,2\n", NULL, NULL);
   beside(table, "f.csv", "t,T {K}\n0,1\n1,2\n", NULL, NULL);
+  beside(table, "f.csv", "t,T\n0,1\n1,\"2,5\"\n", NULL,
+         "m.steif:2:7: f.csv, line 3: more cells than the first line has, or a decimal comma");
   beside(
     include, "part.steif", NULL, "/etc/passwd",
     "m.steif:1:9: 'part.steif' leaves the directory of the model; copy the file beside it");

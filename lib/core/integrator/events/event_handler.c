@@ -259,8 +259,8 @@ static int renew_step(steif_solver *s)
   return STEIF_OK;
 }
 
-/* A function at zero: its side a little later along y', or where it rests near zero. Dense output would not do: errors within the
- * tolerance may give the beginning of a step the wrong slope. */
+/* A function at zero: its side a little later along y', or where it rests near zero. Dense output would not
+ * do: errors within the tolerance may give the beginning of a step the wrong slope. */
 static int look_ahead(steif_solver *s, N_Vector y)
 {
   stf_detector *w = s->events;

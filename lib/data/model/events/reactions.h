@@ -10,7 +10,8 @@ typedef struct stf_target {
   int32_t statement;
 } stf_target;
 
-/* Of relations whose g is 0 or rounding after an event: fired; brought to 0 by others, where it may stay; still there, or seen to stay. */
+/* Of relations whose g is 0 or rounding after an event: fired; brought to 0 by others, where it may stay; still
+ * there, or seen to stay. */
 enum stf_openness { STF_OPEN = 1, STF_AT_ZERO, STF_STAYS };
 
 /* What g of a relation is of: time alone; discrete values and other relations, too. */

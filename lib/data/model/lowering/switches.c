@@ -66,18 +66,28 @@ static int32_t pieces_of(stf_formulas *g, int32_t root, stf_sweep *sweep)
   return all ? CONSTANT : pieces ? NOT_LINEAR : 0;
 }
 
+/* g = at_0 + rate t, nodes; 0, or what it is instead. */
+static int32_t line_of(stf_builder *b, int32_t g, stf_sweep *sweep, stf_vector *partials,
+                       int32_t *at_0, int32_t *rate)
+{
+  const int32_t pieces = pieces_of(b->g, g, sweep);
+  if (pieces) return pieces;
+  if (stf_formulas_differentiate(b->g, g, STF_OP_TIME, sweep, partials)) return NO_MEMORY;
+  *rate = partials->count ? STF_AT(*partials, stf_partial, 0)->value : -1;
+  if (*rate < 0 || (stf_node_at(b->g, *rate)->on & STF_ON_TIME)) return NOT_LINEAR;
+  *at_0 = stf_without(b->g, g, STF_OP_TIME, sweep);
+  return *at_0 < 0 ? NO_MEMORY : 0;
+}
+
 /* The time at which g, linear in t, is 0, a node; *falls: g < 0 after it. */
 static int32_t zero_by(stf_builder *b, int32_t g, stf_sweep *sweep, stf_vector *partials,
                        bool *falls)
 {
   double slope = 0;
-  const int32_t pieces = pieces_of(b->g, g, sweep);
-  if (pieces) return pieces;
-  if (stf_formulas_differentiate(b->g, g, STF_OP_TIME, sweep, partials)) return NO_MEMORY;
-  const int32_t rate = partials->count ? STF_AT(*partials, stf_partial, 0)->value : -1;
-  if (rate < 0 || (stf_node_at(b->g, rate)->on & STF_ON_TIME)) return NOT_LINEAR;
-  const int32_t at_0 = stf_without(b->g, g, STF_OP_TIME, sweep);
-  if (at_0 < 0 || stf_fixed_value(b->m, b->g, rate, &slope)) return NO_MEMORY;
+  int32_t at_0, rate;
+  const int32_t other = line_of(b, g, sweep, partials, &at_0, &rate);
+  if (other) return other;
+  if (stf_fixed_value(b->m, b->g, rate, &slope)) return NO_MEMORY;
   *falls = slope < 0;
   if (slope == 0) return NOT_LINEAR; /* of the parameters as they are */
   return stf_apply2(b->g, STF_OP_DIVIDE, stf_apply1(b->g, STF_OP_NEGATIVE, at_0), rate);
@@ -188,15 +198,33 @@ int32_t stf_relation(stf_builder *b, int kind, int32_t left, int32_t right)
   return other < 0 ? -1 : stf_apply1(b->g, STF_OP_NOT, other);
 }
 
-/* Breaks at the nodes of a table of time alone; NOT_LINEAR: they are not known. */
+/* x = *from + *rate t, numbers; 0, or what it is instead. */
+static int32_t numbers_of_line(stf_builder *b, int32_t x, double *from, double *rate)
+{
+  int32_t at_0, slope;
+  stf_vector partials = {0};
+  stf_sweep sweep = {{0}, {0}, {0}};
+  int32_t other = line_of(b, x, &sweep, &partials, &at_0, &slope);
+  if (!other &&
+      (stf_fixed_value(b->m, b->g, at_0, from) || stf_fixed_value(b->m, b->g, slope, rate)))
+    other = NO_MEMORY;
+  stf_sweep_free(b->m->ctx, &sweep);
+  stf_vector_free(b->m->ctx, &partials);
+  return other ? other : *rate == 0 ? NOT_LINEAR : 0;
+}
+
+/* Breaks at the nodes of a table of time alone; 0, or what its argument is instead. */
 static int32_t breaks_of(stf_builder *b, int32_t x, const stf_lookup *l)
 {
-  for (size_t k = 0; k < l->count; k++) {
-    const int32_t g = stf_apply2(b->g, STF_OP_SUBTRACT, x, stf_number(b->g, l->x[k]));
-    const int32_t truth = g < 0 ? NO_MEMORY : truth_by_time(b, g);
-    if (truth < 0) return truth;
+  double from = 0, rate = 1;
+  const bool time = stf_node_at(b->g, x)->kind == STF_OP_TIME;
+  const int32_t other = time ? 0 : numbers_of_line(b, x, &from, &rate);
+  for (size_t k = 0; !other && k < l->count; k++) {
+    double *to = stf_vector_push(b->m->ctx, &b->m->breaks, sizeof *to);
+    if (!to) return NO_MEMORY;
+    *to = (l->x[k] - from) / rate;
   }
-  return 0;
+  return other;
 }
 
 /* The part of a table that is kept between events. */

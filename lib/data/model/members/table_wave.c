@@ -13,8 +13,9 @@
 static int wave(stf_model *m, const stf_lookup *of, stf_lookup *to)
 {
   const size_t n = of->count, count = 2 * n + 1;
-  double *x = stf_pool_array(m->pool, 2 * count, sizeof *x), *y = x + count;
+  double *x = stf_pool_array(m->pool, 2 * count, sizeof *x);
   if (!x) return STEIF_NO_MEMORY;
+  double *y = x + count;
   double sign = -1;
   for (size_t k = 0; k <= n; k++, sign = -sign) {
     const size_t gap = k == 0 ? 0 : k == n ? n - 2 : k - 1;
@@ -38,9 +39,10 @@ static double slope_of(const stf_lookup *of, size_t k)
 static int every_other(stf_model *m, const stf_lookup *of, int first, stf_lookup *to)
 {
   const size_t n = of->count, room = n + 2;
-  double *x = stf_pool_array(m->pool, 3 * room, sizeof *x), *y = x + room, *slope = y + room;
-  size_t count = 1;
+  double *x = stf_pool_array(m->pool, 3 * room, sizeof *x);
   if (!x) return STEIF_NO_MEMORY;
+  double *y = x + room, *slope = y + room;
+  size_t count = 1;
   x[0] = of->x[0], y[0] = of->y[0], slope[0] = first < 0 ? 0 : slope_of(of, 0);
   for (size_t k = (size_t)(first + 1); k + 1 < n; k += 2) { /* part k is another's */
     const double half = (of->x[k + 1] - of->x[k]) / 2;
