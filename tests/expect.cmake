@@ -1,7 +1,7 @@
 # What the tests of the program share: runs of steif with their exit codes and output, and JSON.
 # PROGRAM is the program, FOLDER where it runs.
 
-# expect(CODE words ... [OUT regex] [ERR regex]): run and compare; leaves `out` and `err`.
+# expect(CODE words ... [OUT regex] [ERR regex]): run and compare; leaves `out`.
 function(expect code)
   cmake_parse_arguments(want "" "OUT;ERR" "" ${ARGN})
   set(words ${want_UNPARSED_ARGUMENTS})

@@ -47,6 +47,7 @@ if(TARGET steif_program)
   house_test(endings -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/endings
              -DSANITIZE=${STEIF_SANITIZE})
   house_test(program -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/program)
+  house_test(habits -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/habits)
   house_test(impulses -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/impulses)
   house_test(workprec -DPROGRAM=$<TARGET_FILE:steif_program>)
   house_test(c2d -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/c2d)

@@ -89,8 +89,61 @@ time 0 to 5
 ")
 foreach(rtol 1e-6 1e-8 1e-10)
   expect(1 solve sliding_ball.steif auto --rtol ${rtol}
-         ERR "crowd together.*residual 0.. (The last 10 e|E)vents .?'line 8'.? of problem .* crowd together at")
+         ERR "crowd together.*residual 0.. (The last 10 e|E)vents .?'h < 0 .line 8.'.? of problem .* crowd together at")
 endforeach()
+# A model that is right says nothing, or that it is.
+file(WRITE ${FOLDER}/kinds.steif "state x = 1, y ~ 2, z
+x' = -z
+0 = y - x
+far: 0 = z - y
+when x < 0.5: stop
+output twice = 2*x
+time 0 to 1
+")
+expect(0 model kinds.steif --check)
+if(NOT out STREQUAL "")
+  message(SEND_ERROR "--check says: ${out}")
+endif()
+expect(0 model kinds.steif --check --json)
+member("ok" status)
+expect(0 model kinds.steif --json)
+set(kinds fixed guess free)
+set(names "x' (line 2)" "line 3" "far (line 4)")
+foreach(i 0 1 2)
+  list(GET kinds ${i} kind)
+  list(GET names ${i} name)
+  member("${kind}" unknown ${i} kind)
+  member("${name}" equation ${i} name)
+endforeach()
+member("twice" output 0 name)
+member("x < 0.5 (line 5)" event 0 name)
+file(APPEND ${FOLDER}/kinds.steif "w' = 1\n")
+expect(3 model kinds.steif --check ERR "unknown name 'w'")
+file(REMOVE ${FOLDER}/kinds.steif)
+file(WRITE ${FOLDER}/set_point.steif "state x = 0, y ~ 0
+discrete s = 0
+x' = y
+follow: 0 = x - s*(1 - exp(-t))
+at 0.5: s = 1
+time 0 to 2
+")
+# 1 - exp(-0.5) = 0.393: x jumps, and y has an impulse.
+foreach(method auto bdf radau:s=3)
+  expect(0 solve set_point.steif ${method}
+         OUT "jumped +t = 0.5: moved x by 0.393.*kept[ \n]+with[ \n]+their[ \n]+derivatives:[ \n]+follow[ \n]+.line[ \n]+4." OUT "y +0.8646")
+endforeach()
+file(WRITE ${FOLDER}/set_point.steif "state x = 0, z ~ 1
+discrete k = -1
+x' = z
+circle: 0 = z^2 + k
+at 0.5: k = 1
+time 0 to 1
+")
+foreach(method auto bdf)
+  expect(1 solve set_point.steif ${method}
+         ERR "No consistent values were found after the event or break at t = 0.5: .*circle .line 4.")
+endforeach()
+file(REMOVE ${FOLDER}/set_point.steif)
 file(REMOVE ${FOLDER}/sliding_ball.steif)
 
 # Remedies are options and verbs here, not members and functions of C.
@@ -398,6 +451,55 @@ expect(2 fit ${models}/lotka.steif radau:s=3 ERR "--data FILE.csv is needed")
 expect(2 fit ${models}/lotka.steif radau:s=3 --data x.csv --log --linear ERR "contradict")
 expect(3 fit ${models}/lotka.steif radau:s=3 --data ${FOLDER}/none.csv ERR "cannot read")
 expect(3 fit ${models}/lotka.steif radau:s=3 --data ${models}/rober.csv ERR "rober.csv, line 2, column 2: problem .* has no unknown 'y1'")
+# A model that names its data needs no method; given standard deviations make intervals normal, 1.96 to each side of log p.
+file(WRITE ${FOLDER}/d.csv "t {s},x {m}\n0.5,2.3\n1,1.8\n2,1.1\n4,0.4\n")
+file(WRITE ${FOLDER}/own.steif "param k = 0.5 {1/s}\nstate x = 3 {m}\nx' = -k*x\ndata \"d.csv\"\nfit k\ntime 0 to 5 {s}\n")
+expect(0 fit own.steif OUT "method +auto.*used +[a-z].*intervals +95 %, Student's t 3.182: sd of the data estimated")
+expect(0 fit own.steif --sd 0.05 OUT "probability +0.94.*intervals +95 %, normal: sd of the data as given")
+expect(0 fit own.steif --sd 0.05 --json)
+begins("0.01455" rows 0 sd)
+string(JSON variance GET "${out}" covariance 0 0)
+string(JSON relative GET "${out}" covariance_theta 0 0)
+if(NOT variance MATCHES "^0.000211" OR NOT relative MATCHES "^0.00082")
+  message(SEND_ERROR "fit: covariances ${variance} of p, ${relative} of log p")
+endif()
+file(WRITE ${FOLDER}/d.csv "t {h},x {m}\n0.5,2.3\n1,1.8\n")
+expect(3 fit own.steif ERR "d.csv, line 1, column 1: 't' is in {h}, and problem 'own.steif' has it in {s}; convert one")
+expect(2 fit own.steif auto auto ERR "one word too many: steif fit PROBLEM .METHOD. ")
+# A ball falls from h in sqrt(2 h/g); a run that an event ends has the derivatives of that, and of the speed sqrt(2 g h).
+file(WRITE ${FOLDER}/drop.steif "param h = 2, g = 9.81, e = 0.5\nstate y = h, v = 0\ny' = v\nv' = -g\nwhen y < 0:\n  v = -e*v\n  stop \"landed\"\nend\ntime 0 to 5\n")
+expect(0 sensitivity drop.steif radau:s=3 --points 5 --rtol 1e-9 --functional "int y" --check --json)
+begins("0.638550856814" t_event)
+begins("0.15963771" dt_event 0)
+begins("-0.0325459" dt_event 1)
+begins("0.0" dt_event 2)
+begins("-1.566045" S_event 1 0)
+begins("-0.319275" S_event 1 1)
+begins("-0.638550" S 1 1)
+begins("-6.26418390" rows 1 y)
+begins("0.6385508" gradient 0)
+begins("-0.043394" gradient 1)
+string(JSON disagreement GET "${out}" disagreement)
+if(NOT disagreement LESS 1e-8)
+  message(SEND_ERROR "sensitivity: at an event off differences by ${disagreement}")
+endif()
+expect(0 sensitivity drop.steif bdf OUT "event.*parameter +p +dt_event.*unknown +total_h")
+# A break that moves with p is met by steps of its own: differences of other runs agree.
+file(WRITE ${FOLDER}/drop.steif "param p = 0.7, a = 0.3\nstate x = 1\nx' = (if t < p then 1 else -0.4)\nat p + 0.01: x = x + a*p\ntime 0 to 3\n")
+foreach(end "" "--end;x")
+  expect(0 sensitivity drop.steif radau:s=3 ${end} --check --json)
+  string(JSON disagreement GET "${out}" disagreement)
+  if(NOT disagreement LESS 1e-8)
+    message(SEND_ERROR "sensitivity ${end}: at a break off differences by ${disagreement}")
+  endif()
+endforeach()
+file(WRITE ${FOLDER}/d.csv "t,x\n0.5,2.3\n1,1.8\n")
+file(WRITE ${FOLDER}/own.steif "param k = 0.5, n = 3 whole\nstate x = 3\nx' = -k*x/n\ntime 0 to 5\n")
+expect(2 fit own.steif --data d.csv --parameters n ERR "parameter 'n' of 'own.steif' is a whole number: it has no derivatives")
+expect(2 sensitivity own.steif bdf --parameters k,n ERR "parameter 'n' of 'own.steif' is a whole number")
+expect(2 sensitivity own.steif bdf --parameters k,k ERR "parameter 1 .'k'. is named twice")
+expect(2 sweep drop.steif auto --p pp=1,2 ERR "has no parameter 'pp'. the nearest is 'p'")
+file(REMOVE ${FOLDER}/d.csv ${FOLDER}/own.steif ${FOLDER}/drop.steif)
 # Nothing is known of these two: x' = -x by backward Euler is 1.1^-10 for e^-1, a relative error of 0.04801;
 # of Lorenz' equations at t = 100 no method in double precision has a digit.
 file(WRITE ${FOLDER}/decay.steif "state x = 1\nx' = -x\ntime 0 to 1\n")

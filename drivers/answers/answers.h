@@ -44,6 +44,8 @@ struct model_answer {
   steif_model_facts facts;
 };
 int model_present(struct call *call, const struct model_answer *a);
+/* Nothing, or with --json that it is. */
+int model_good(struct call *call);
 /* A model in C (steif_model_c) with a main that integrates it, on stdout. */
 int model_print(const char *text);
 
@@ -96,6 +98,11 @@ struct sensitivity_answer {
   bool checked;
   double disagreement;
   double integral, gradient[SENSITIVITIES]; /* of --functional, at the end */
+  bool by_event;                            /* an event has ended the run: */
+  double t_event, tau[SENSITIVITIES],
+    *total;       /* its time, dtau/dp, dy(tau(p); p)/dp by columns */
+  double *before; /* y before the event that came last */
+  double reach;   /* how far it may move within its step on the mesh of --check */
 };
 /* --parameters; the run, and what it shows: exit codes after a sentence. */
 int sensitivity_choose(struct call *call, struct sensitivity_answer *a);
@@ -107,6 +114,27 @@ void sensitivity_point(struct call *call, struct sensitivity_answer *a);
 int sensitivity_present(struct call *call, const struct sensitivity_answer *a);
 const char *sensitivity_name(const struct sensitivity_answer *a, int i, char *room);
 double sensitivity_scale(const struct sensitivity_answer *a, int i);
+/* A run that has met an event which ends it; its derivatives, NaN with a sentence where it has none; their rows. */
+void sensitivity_met(struct call *call, struct sensitivity_answer *a, steif_solver *s);
+int sensitivity_event(struct call *call, struct sensitivity_answer *a, steif_solver *s);
+void sensitivity_event_rows(steif_report *r, const struct call *call,
+                            const struct sensitivity_answer *a);
+/* Fits steif_options.on_event. */
+int sensitivity_before(steif_solver *s, double t, N_Vector y, const int *fired, void *answer);
+/* For --check: one more time; nonzero: no memory. The problem found once more, p_k moved by d: a model makes start and form
+ * follow. */
+int mesh_add(double **mesh, size_t *times, size_t *room, double t);
+int moved_problem(struct call *call, const steif_problem *problem, int k, double d,
+                  steif_problem *p);
+/* The mesh of a run that ends by an event, *mesh[0 .. *times - 1], which is to come to lie inside a step that others
+ * follow up to t1; returns how far the event may move within that step, or -1: no memory. */
+double event_mesh(double **mesh, size_t *times, double t0, double event, double t1);
+/* Differences of runs of a problem with breaks are of runs with steps of their own, and a thousandth of the tolerance:
+ * false where it has none, or steps are constant. */
+bool tighten(const steif_problem *p, steif_options *o);
+/* --check: fits steif_options.observe, and takes the mesh of the run; then the comparison. */
+int sensitivity_note(steif_solver *s, double t, N_Vector y, void *answer);
+int sensitivity_check(struct call *call, struct sensitivity_answer *a);
 void sensitivity_close(struct sensitivity_answer *a);
 
 struct energy_answer {

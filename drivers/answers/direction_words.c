@@ -1,6 +1,7 @@
 /* direction_words.c: directions of parameters, a number for each that is named.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "direction_words.h"
+#include "attributes.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,8 +16,9 @@ static int read_one(struct call *call, const steif_problem *p, const char *optio
     return bad_usage(call, "%s: '%.*s' is not NAME=NUMBER", option, (int)length, word);
   memcpy(name, word, before);
   name[before] = 0;
-  const int k = steif_parameter_find(call->ctx, p, name);
-  if (k < 0) return fail(call);
+  int wrong;
+  const int k = parameter_of(call, p, name, &wrong);
+  if (k < 0) return wrong;
   v[k] = strtod(equals + 1, &end);
   if (end != word + length || end == equals + 1 || !isfinite(v[k]))
     return bad_usage(call, "%s: '%.*s' is not NAME=NUMBER", option, (int)length, word);

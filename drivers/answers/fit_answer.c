@@ -1,6 +1,7 @@
 /* fit_answer.c: parameters found as rows, and what there is to know of them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fitted.h"
+#include <string.h>
 
 static void rows(steif_report *r, const struct fitted *a)
 {
@@ -25,7 +26,22 @@ static void matrices(steif_report *r, const struct call *call, const steif_fit *
   steif_report_matrix(r, "correlation", P, P, f->correlation);
   if (!call->json && !call->npz && !call->h5 && !call->mtx) return;
   steif_report_matrix(r, "covariance", P, P, f->covariance);
+  steif_report_matrix(r, "covariance_theta", P, P, f->covariance_theta);
   steif_report_matrix(r, "direction", P, P, f->direction);
+}
+
+/* How low and high came about. */
+static void intervals(steif_report *r, const steif_fit *f)
+{
+  char text[120];
+  if (f->known)
+    snprintf(text, sizeof text, "95 %%, normal: sd of the data as given");
+  else if (f->dof > 0)
+    snprintf(text, sizeof text, "95 %%, Student's t %.4g: sd of the data estimated",
+             f->quantile);
+  else
+    snprintf(text, sizeof text, "none: no degree of freedom tells the sd of the data");
+  steif_report_text(r, "intervals", text);
 }
 
 static void fill(steif_report *r, const struct call *call, const void *result)
@@ -33,7 +49,8 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   const struct fitted *a = result;
   const steif_fit *f = &a->fit;
   steif_report_text(r, "problem", call->word[0]);
-  steif_report_text(r, "method", call->word[1]);
+  steif_report_text(r, "method", a->method);
+  if (strcmp(a->method, f->used)) steif_report_text(r, "used", f->used);
   steif_report_text(r, "data", fitted_data(call, a));
   steif_report_whole(r, "measurements", (long)f->residuals);
   steif_report_text(r, "theta", f->log ? "log p" : "p / scale");
@@ -42,6 +59,8 @@ static void fill(steif_report *r, const struct call *call, const void *result)
   steif_report_real(r, "chi2", f->chi2);
   steif_report_whole(r, "dof", f->dof);
   if (f->dof > 0) steif_report_real(r, "ratio", f->chi2 / (double)f->dof);
+  if (f->known && f->dof > 0) steif_report_real(r, "probability", f->probability);
+  intervals(r, f);
   matrices(r, call, f);
   steif_report_whole(r, "undetermined", f->undetermined);
   if (f->starts > 1) steif_report_list(r, "starts", (size_t)f->starts, f->chi2_of);
@@ -75,8 +94,8 @@ int fitted_find(struct call *call, struct fitted *a)
                                .evaluations = (int)whole_of(call, "--evaluations")};
   int code = check_outputs(call);
   if (code) return code;
-  progress(call, "%s by %s", a->problem->name, call->word[1]);
-  const int found = steif_fit_find(call->ctx, a->problem, call->word[1], &a->data, &o, &a->fit);
+  progress(call, "%s by %s", a->problem->name, a->method);
+  const int found = steif_fit_find(call->ctx, a->problem, a->method, &a->data, &o, &a->fit);
   if (!a->fit.p) return fail(call);
   if (found) say(call, "%s", steif_message(call->ctx));
   if (found) code = exit_of(found);

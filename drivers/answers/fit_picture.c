@@ -59,7 +59,7 @@ static int solution(const struct call *call, struct fitted *a, struct picture *x
 {
   steif_options o = a->run;
   o.t1 = x->t[POINTS - 1];
-  steif_solver *s = steif_solver_new(call->ctx, a->problem, call->word[1], &o);
+  steif_solver *s = steif_solver_new(call->ctx, a->problem, a->method, &o);
   int code = s ? STEIF_OK : STEIF_BAD_INPUT;
   for (int i = 0; !code && i < POINTS; i++) {
     if (x->t[i] > a->problem->t0) code = steif_solve_to(s, x->t[i]);

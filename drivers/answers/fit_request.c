@@ -1,6 +1,7 @@
 /* fit_request.c: parameters with start values and bounds as a command line has them, and the measurements.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fitted.h"
+#include "attributes.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,8 +51,9 @@ static int named(struct call *call, struct fitted *a, const char *list)
   for (const char *at = list; *at;) {
     int code = item(call, "--parameters", &at, name, text);
     if (code) return code;
-    const int k = steif_parameter_find(call->ctx, a->problem, name);
-    if (k < 0) return fail(call);
+    int wrong;
+    const int k = parameter_of(call, a->problem, name, &wrong);
+    if (k < 0) return wrong;
     double start = a->problem->parameters->value[k];
     if (*text && (code = number(call, "--parameters", text, &start))) return code;
     if (a->count == FITTED) return bad_usage(call, "--parameters names more than %d", FITTED);
@@ -65,8 +67,9 @@ static int by_model(struct call *call, struct fitted *a)
 {
   const char *name;
   for (size_t i = 0; (name = steif_model_fitted(a->problem, i)); i++) {
-    const int k = steif_parameter_find(call->ctx, a->problem, name);
-    if (k < 0) return fail(call);
+    int wrong;
+    const int k = parameter_of(call, a->problem, name, &wrong);
+    if (k < 0) return wrong;
     if (a->count == FITTED) return bad_usage(call, "the model names more than %d", FITTED);
     add(a, k, a->problem->parameters->value[k]);
   }
@@ -134,8 +137,9 @@ static int bounds(struct call *call, struct fitted *a)
   for (const char *at = list ? list : ""; *at;) {
     int code = item(call, "--bounds", &at, name, text), i = 0;
     if (code) return code;
-    const int k = steif_parameter_find(call->ctx, a->problem, name);
-    if (k < 0) return fail(call);
+    int wrong;
+    const int k = parameter_of(call, a->problem, name, &wrong);
+    if (k < 0) return wrong;
     while (i < a->count && a->parameter[i] != k) i++;
     if (i == a->count) return bad_usage(call, "--bounds: %s is not fitted", name);
     if ((code = bound(call, a, i, text))) return code;

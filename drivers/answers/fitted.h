@@ -8,6 +8,7 @@
 enum { FITTED = 64 };
 struct fitted {
   steif_problem *problem;
+  const char *method; /* as asked for; auto where none is */
   steif_options run;
   int count, parameter[FITTED];
   double start[FITTED], low[FITTED], high[FITTED];

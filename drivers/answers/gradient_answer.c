@@ -15,7 +15,8 @@ struct gradient {
   struct gradient_functional functional;
   steif_gradient found;
   double *v, *product; /* of second derivatives; NULL: not asked for */
-  double *mesh;
+  double *mesh,
+    *most; /* for differences; how far parameters may be moved, NULL: as far as any */
   size_t times, room;
   bool checked;
   double disagreement;
@@ -28,24 +29,26 @@ static int note(steif_solver *s, double t, N_Vector y, void *user)
   struct gradient *a = user;
   (void)s, (void)y;
   if (a->times && !(t > a->mesh[a->times - 1])) return 0; /* an event, seen from both sides */
-  if (a->times == a->room) {
-    double *more = realloc(a->mesh, 2 * (a->room + 64) * sizeof *more);
-    if (!more) return 1;
-    a->mesh = more, a->room = 2 * (a->room + 64);
-  }
-  a->mesh[a->times++] = t;
-  return 0;
+  return mesh_add(&a->mesh, &a->times, &a->room, t);
 }
 
-/* Where an event has ended the run, others may end later: steps of growing length up to t1. */
-static int go_on(struct call *call, struct gradient *a)
+/* How far each parameter may be moved so that an event that ends the run stays in its step: by its derivatives. */
+static int find_shifts(struct call *call, struct gradient *a, double reach)
 {
-  const double t1 = a->options.t1;
-  double t = a->mesh[a->times - 1], h = a->times > 1 ? t - a->mesh[a->times - 2] : t1 - t;
-  for (; t < t1; h *= 2) {
-    t = t + h < t1 ? t + h : t1;
-    if (note(NULL, t, NULL, a)) return no_memory(call, "the mesh", "leave --check out");
+  const int P = a->found.parameters;
+  steif_options o = a->options;
+  o.sensitivities = 1;
+  a->most = malloc(((size_t)P + 1) * sizeof *a->most);
+  if (!a->most) return no_memory(call, "the steps of differences", "leave --check out");
+  steif_solver *s = steif_solver_new(call->ctx, a->problem, call->word[1], &o);
+  const int came = s ? steif_solve_to(s, o.t1) : steif_status(call->ctx);
+  for (int k = 0; k < P; k++) {
+    double tau = 0; /* where it is not known, steps are as everywhere */
+    if (came == STEIF_EVENT && steif_sensitivity_event(s, k, &tau, NULL)) tau = 0;
+    a->most[k] = tau != 0 ? reach / fabs(tau) : INFINITY;
   }
+  steif_forget(call->ctx);
+  steif_solver_free(&s);
   return EXIT_OK;
 }
 
@@ -56,10 +59,13 @@ static int find_mesh(struct call *call, struct gradient *a)
   if (note(NULL, a->problem->t0, NULL, a))
     return no_memory(call, "the mesh", "leave --check out");
   steif_solver *s = steif_solver_new(call->ctx, a->problem, call->word[1], &o);
-  const int done = s ? steif_solve_to(s, a->options.t1) : steif_status(call->ctx);
-  const int code = done && done != STEIF_EVENT ? fail(call) : EXIT_OK;
+  const int came = s ? steif_solve_to(s, o.t1) : steif_status(call->ctx);
+  const double tau = s ? steif_time(s) : 0;
   steif_solver_free(&s);
-  return code ? code : go_on(call, a);
+  if (came != STEIF_EVENT) return came ? fail(call) : EXIT_OK;
+  const double reach = event_mesh(&a->mesh, &a->times, a->problem->t0, tau, o.t1);
+  return reach < 0 ? no_memory(call, "the mesh", "leave --check out")
+                   : find_shifts(call, a, reach);
 }
 
 /* The values of a run on the mesh of the problem found once more, p_k moved by d, c times onto `sum`. */
@@ -67,17 +73,11 @@ static int moved(struct call *call, struct gradient *a, const steif_options *o, 
                  double c, double *sum)
 {
   steif_problem p;
-  double old;
-  const double p_k = a->problem->parameters->value[k] + d;
-  int code = find_problem(call, call->word[0], &p);
+  int code = moved_problem(call, a->problem, k, d, &p);
   if (code) return code;
-  const bool model = steif_model_parameter(&p, 0, &old) != NULL;
-  if (model ? steif_model_set(call->ctx, &p, p.parameters->name[k], p_k)
-            : steif_parameter_set(call->ctx, &p, k, p_k))
-    code = fail(call);
   steif_gradient g = {.memory = a->found.memory};
   a->functional.now = &p;
-  if (!code && steif_gradient_find(call->ctx, &p, call->word[1], o, &a->functional.of, &g))
+  if (steif_gradient_find(call->ctx, &p, call->word[1], o, &a->functional.of, &g))
     code = fail(call);
   a->functional.now = a->problem;
   for (int i = 0; !code && i < g.count; i++) sum[i] += c * g.value[i];
@@ -103,7 +103,8 @@ static int compare(struct call *call, struct gradient *a, const steif_options *o
     for (int k = 0; k < g->parameters; k++)
       size[i] = fmax(size[i], fabs(g->dp[i * g->parameters + k]) * scale_of(q, k));
   for (int k = 0; !code && k < g->parameters; k++) {
-    const double scale = scale_of(q, k), d = 2e-3 * scale;
+    const double scale = scale_of(q, k),
+                 d = fmin(2e-3 * scale, a->most ? a->most[k] : INFINITY);
     const double by[] = {d / 2, -d / 2, d, -d}, c[] = {8, -8, -1, 1};
     double quotient[FUNCTIONALS] = {0};
     for (int j = 0; !code && j < 4; j++)
@@ -120,6 +121,11 @@ static int check(struct call *call, struct gradient *a)
 {
   steif_options o = a->options;
   steif_gradient g = {.memory = a->found.memory};
+  if (tighten(a->problem, &o)) {
+    const int code = compare(call, a, &o, &a->found);
+    a->checked = !code;
+    return code;
+  }
   if (o.h <= 0) {
     const int code = find_mesh(call, a);
     if (code) return code;
@@ -244,6 +250,6 @@ int gradient_answer(struct call *call, const steif_problem *p)
   if (!code) code = present_result(call, fill, &a);
   steif_gradient_free(call->ctx, &a.found);
   gradient_functional_close(call, &a.functional);
-  free(a.mesh), free(a.v), free(a.product);
+  free(a.mesh), free(a.most), free(a.v), free(a.product);
   return code;
 }

@@ -14,14 +14,35 @@ static void parameters(steif_report *r, const steif_problem *p)
   }
 }
 
+enum { SHOWN = 40 };
+
 static void unknowns(steif_report *r, const steif_problem *p)
 {
-  const long shown = p->n < 40 ? (long)p->n : 40;
-  for (long i = 0; i < shown; i++) {
+  static const char *const kind[] = {
+    [STEIF_GUESS] = "guess", [STEIF_FIXED] = "fixed", [STEIF_FREE] = "free"};
+  for (sunindextype i = 0; i < p->n && i < SHOWN; i++) {
     steif_report_row(r, "unknown");
     steif_report_text(r, "unknown.name", p->names->unknown[i]);
+    steif_report_text(r, "unknown.kind", kind[steif_model_attribute(p, i)]);
     steif_report_real(r, "unknown.start", p->y0[i]);
     report_natural(r, "unknown.index", p->index ? p->index[i] : -1);
+  }
+}
+
+/* Equations, outputs, and what may happen, in the words of the text. */
+static void words(steif_report *r, const steif_problem *p)
+{
+  for (sunindextype i = 0; p->names->equation && i < p->n && i < SHOWN; i++) {
+    steif_report_row(r, "equation");
+    steif_report_text(r, "equation.name", p->names->equation[i]);
+  }
+  for (size_t i = 0; i < SHOWN && steif_model_output(p, i); i++) {
+    steif_report_row(r, "output");
+    steif_report_text(r, "output.name", steif_model_output(p, i));
+  }
+  for (int i = 0; i < p->events && i < SHOWN; i++) {
+    steif_report_row(r, "event");
+    steif_report_text(r, "event.name", p->event_list[i].name);
   }
 }
 
@@ -53,6 +74,19 @@ static void fill(steif_report *r, const struct call *call, const void *result)
     steif_report_text(r, "t1", NULL);
   parameters(r, a->p);
   unknowns(r, a->p);
+  words(r, a->p);
+}
+
+static void fill_good(steif_report *r, const struct call *call, const void *result)
+{
+  (void)call, (void)result;
+  steif_report_text(r, "status", "ok");
+  steif_report_text(r, "message", "ok");
+}
+
+int model_good(struct call *call)
+{
+  return call->json ? present_result(call, fill_good, NULL) : EXIT_OK;
 }
 
 int model_present(struct call *call, const struct model_answer *a)

@@ -1,6 +1,7 @@
 /* sensitivity_answer.c: derivatives by parameters as rows, and S at the end against differences.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
+#include "attributes.h"
 #include "integration.h"
 #include <math.h>
 #include <stdlib.h>
@@ -25,8 +26,9 @@ static int choose_named(struct call *call, struct sensitivity_answer *a, const c
       return bad_usage(call, "--parameters names more than %d", SENSITIVITIES);
     memcpy(name, at, length);
     name[length] = 0;
-    const int k = steif_parameter_find(call->ctx, a->problem, name);
-    if (k < 0) return fail(call);
+    int wrong;
+    const int k = parameter_of(call, a->problem, name, &wrong);
+    if (k < 0) return wrong;
     a->active[a->count++] = k;
   }
   return EXIT_OK;
@@ -114,7 +116,8 @@ static void finish(steif_report *r, const struct call *call, const struct sensit
 {
   if (strcmp(call->word[1], a->used)) steif_report_text(r, "used", a->used);
   if ((call->json || call->npz || call->h5 || call->mtx) && a->shown) matrix(r, a);
-  if (a->problem->quadrature && !a->outcome.code) {
+  sensitivity_event_rows(r, call, a);
+  if (a->problem->quadrature && a->outcome.code >= 0) {
     steif_report_real(r, "integral", a->integral);
     steif_report_list(r, "gradient", (size_t)a->count, a->gradient);
   }

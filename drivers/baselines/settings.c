@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { STEPS_LONGEST = 300000, SECONDS_LONGEST = 10 };
+enum { STEPS_LONGEST = 300000, SECONDS_LONGEST = 60 };
 static const double far = 100; /* tolerances */
 
 static const char *const words[] = {"right",

@@ -55,7 +55,7 @@ typedef struct settings {
 } settings;
 
 /* "ida" alone asks for all settings of IDA that make a difference for a DAE of this index; every other spec
- * is a setting itself. At most 300 000 steps and 10 seconds a run, where the options do not say less. */
+ * is a setting itself. At most 300 000 steps and 60 seconds a run, where the options do not say less. */
 bool settings_many(const char *method, const steif_problem *p);
 /* Setting i of IDA, NULL past the last. */
 const char *settings_at(size_t i);

@@ -26,6 +26,21 @@ sunindextype unknown_of(const steif_problem *p, const char *name)
   return k >= 1 && k <= p->n && !*end ? k - 1 : -1;
 }
 
+int parameter_of(struct call *call, const steif_problem *p, const char *name, int *code)
+{
+  const char *known;
+  double value;
+  const int k = steif_parameter_find(call->ctx, p, name);
+  for (size_t i = 0; k < 0 && (known = steif_model_parameter(p, i, &value)); i++) {
+    if (strcmp(known, name)) continue;
+    *code = bad_usage(call, "parameter '%s' of '%s' is a whole number: it has no derivatives",
+                      name, p->name);
+    return -1;
+  }
+  if (k < 0) *code = fail(call);
+  return k;
+}
+
 static int set(struct call *call, const steif_problem *p, int list, const char *name,
                int *attribute)
 {

@@ -18,5 +18,7 @@ int attributes_of(struct call *call, const steif_problem *p, int **attributes);
 
 /* The unknown of a name, or of y1, x1, ...; -1: there is none. */
 sunindextype unknown_of(const steif_problem *p, const char *name);
+/* The parameter of a name that has derivatives; -1 after a sentence: *code is the exit code. */
+int parameter_of(struct call *call, const steif_problem *p, const char *name, int *code);
 
 #endif

@@ -36,7 +36,7 @@ typedef struct outcome {
   {"--start", WORD, "S",                                                                       \
    "starting procedure of multistep methods: exact, ramp, constant, cq", NULL},                \
   {"--initial", CHOICE, "repair|check|given",                                                  \
-   "an inconsistent start of a DAE: moved to the nearest consistent one, an error, or kept",   \
+   "an inconsistent start of a DAE: moved to the nearest consistent one (linear: by its jump), an error, or kept",   \
    NULL},                                                                                      \
   {"--max-steps", COUNT, "N",                                                                  \
    "give up after N steps (default: 1000000; with --h: 1000000000)", NULL},                     \

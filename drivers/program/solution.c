@@ -89,6 +89,14 @@ static void fill_hidden(steif_report *r, const struct call *call, const outcome 
 
 const char *solution_method(const struct call *call) { return call->word[call->words - 1]; }
 
+/* Behind events and breaks. */
+static void fill_jumps(steif_report *r, const steif_repair *used)
+{
+  if (!used->jumps) return;
+  steif_report_text(r, "jumped", used->jumped);
+  if (used->jumps > 1) steif_report_whole(r, "jumps", used->jumps);
+}
+
 static void fill(steif_report *r, const struct call *call, const outcome *o, steif_solver *s,
                  const trajectory *tr)
 {
@@ -104,6 +112,7 @@ static void fill(steif_report *r, const struct call *call, const outcome *o, ste
     steif_report_text(r, "initial", steif_initial_used(s)->message);
   if (s && steif_initial_used(s)->index > 1)
     steif_report_whole(r, "index_found", steif_initial_used(s)->index);
+  if (s) fill_jumps(r, steif_initial_used(s));
   if (o->why[0]) steif_report_text(r, "failure", o->why);
   steif_report_real(r, "t", o->t);
   fill_steps(r, o, tr);
@@ -126,7 +135,7 @@ int solution_present(struct call *call, const outcome *o, steif_solver *s, traje
   const int code = rounded               ? EXIT_UNCERTIFIED
                    : o->code == STEIF_OK ? EXIT_OK
                                          : exit_of_run(call, o->code, o->message);
-  if (s) trajectory_stream(tr);
+  if (s) trajectory_end(tr, o->t, steif_solution(s));
   if (tr->shown_rows) putchar('\n');
   fill(tr->report, call, o, s, tr);
   int output = call->json || s ? show(call, tr->report) : EXIT_OK;

@@ -3,6 +3,8 @@
 #include "trajectory.h"
 #include "saved_note.h"
 #include "saved_run.h"
+#include <float.h>
+#include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,6 +86,34 @@ static int row_at(trajectory *tr, steif_solver *s, sunrealtype t, N_Vector y)
   return STEIF_OK;
 }
 
+/* Is the last row of time t, up to the rounding with which events are located? */
+static bool at_end(const trajectory *tr, double t)
+{
+  return fabs(tr->t[tr->count - 1] - t) <= 64 * DBL_EPSILON * fabs(t);
+}
+
+/* At the time of an event the solution is what holds after it, which is seen a moment later: the row at the end of
+ * a step waits for that. Of events that leave y alone, outputs may have changed. */
+static bool settled(trajectory *tr, double t, N_Vector y)
+{
+  if (!tr->waiting) return false;
+  const size_t last = tr->count - 1;
+  const bool same = at_end(tr, t);
+  double *row = tr->y + last * tr->n;
+  tr->waiting = false;
+  if (same) memcpy(row, N_VGetArrayPointer(y), tr->n * sizeof *row);
+  if (!tr->outputs) return same;
+  memcpy(N_VGetArrayPointer(tr->between), row, tr->n * sizeof *row);
+  steif_model_outputs(tr->problem, tr->t[last], tr->between, tr->output + last * tr->outputs);
+  return same;
+}
+
+void trajectory_end(trajectory *tr, double t, N_Vector y)
+{
+  settled(tr, t, y);
+  trajectory_stream(tr);
+}
+
 static int keep(trajectory *tr, steif_solver *s, sunrealtype t, N_Vector y)
 {
   const struct call *c = tr->call;
@@ -91,6 +121,7 @@ static int keep(trajectory *tr, steif_solver *s, sunrealtype t, N_Vector y)
   if (c->plot && !saved && trajectory_draw(tr, s, t, y)) return -1;
   if (tr->asked == 0)
     return c->csv || c->npz || c->h5 || (c->plot && saved) ? trajectory_keep(tr, t, y) : 0;
+  if (settled(tr, t, y)) return 0;
   for (; tr->next < tr->asked && tr->at[tr->next] <= t; tr->next++) {
     if (row_at(tr, s, t, y) != STEIF_OK) return -1;
     if (trajectory_keep(tr, tr->at[tr->next], tr->between)) return -1;
@@ -103,6 +134,7 @@ static int observe(steif_solver *s, sunrealtype t, N_Vector y, void *user)
   trajectory *tr = user;
   if (tr->live) tell(tr, t);
   const int code = keep(tr, s, t, y);
+  tr->waiting = tr->asked && tr->count && at_end(tr, t);
   trajectory_stream(tr);
   return code ? code : saved_run_tick(tr, s);
 }
@@ -183,8 +215,6 @@ int trajectory_open(struct call *call, const steif_problem *problem, steif_optio
   options->on_event = keep_event;
   options->jump = keep_jump;
   options->observer = tr;
-  if (given(call, "--events") && problem->events == 0)
-    return bad_usage(call, "%s has no events; bounce, rectifier and swing have", call->word[0]);
   const int code = attributes_of(call, problem, &tr->attributes);
   options->attributes = tr->attributes;
   return code ? code : ask(call, tr);

@@ -27,6 +27,7 @@ typedef struct trajectory {
   double h;              /* constant step; 0: others */
   double t0, t1, *t, *y; /* y by rows, n values each */
   size_t asked, next;    /* times asked for, those kept already; 0: every step is kept */
+  bool waiting; /* the last row is of the end of the last step: an event may change it */
   double *at;
   int *attributes;  /* of the start values; NULL: those of the problem */
   N_Vector between; /* the solution at one of them */
@@ -63,6 +64,8 @@ void trajectory_free(trajectory *tr);
 void trajectory_fill(steif_report *r, const trajectory *tr);
 /* The rows kept since the last call to --csv, and where times are asked for to the terminal. */
 void trajectory_stream(trajectory *tr);
+/* The run has ended at (t, y). */
+void trajectory_end(trajectory *tr, double t, N_Vector y);
 /* The rest of them, and --npz; --plot. */
 int trajectory_save(const struct call *call, trajectory *tr);
 int trajectory_plot(const struct call *call, const trajectory *tr, const char *title);

@@ -23,11 +23,13 @@ static void event_row(steif_report *r, const trajectory *tr, size_t i)
   const bool known = number < (size_t)p->event_time_count;
   char own[32];
   snprintf(own, sizeof own, "g%zu", which + 1);
-  const char *name = p->event_list ? p->event_list[which].name : NULL;
+  const char *name = p->event_list ? p->event_list[which].name : NULL,
+             *turn = steif_model_turn(p, (int)which, tr->event_direction[i] > 0 ? 1 : -1);
+  if (!turn) turn = tr->event_direction[i] > 0 ? "rising" : "falling";
   steif_report_row(r, "events");
   steif_report_real(r, "events.t", tr->event_t[i]);
   steif_report_text(r, "events.event", name ? name : own);
-  steif_report_text(r, "events.direction", tr->event_direction[i] > 0 ? "rising" : "falling");
+  steif_report_text(r, "events.direction", turn);
   report_maybe(r, "events.", "reference", known, known ? p->event_times[number] : 0);
   report_maybe(r, "events.", "error", known,
                known ? tr->event_t[i] - p->event_times[number] : 0);

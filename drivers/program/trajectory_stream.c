@@ -50,10 +50,12 @@ static void fail_csv(trajectory *tr)
   steif_forget(tr->call->ctx);
 }
 
+static size_t ready(const trajectory *tr) { return tr->count - tr->waiting; }
+
 static void to_csv(trajectory *tr)
 {
   if (!tr->csv) open_csv(tr);
-  for (; tr->csv && !tr->csv_code && tr->written < tr->count; tr->written++) {
+  for (; tr->csv && !tr->csv_code && tr->written < ready(tr); tr->written++) {
     const size_t i = tr->written;
     tr->line[0] = tr->t[i];
     memcpy(tr->line + 1, tr->y + i * tr->n, tr->n * sizeof *tr->line);
@@ -90,7 +92,7 @@ static void to_terminal(trajectory *tr)
   const int width = width_of(tr);
   progress(tr->call, NULL);
   if (!tr->shown_rows) printf("%*s  y%s\n", width, "t", tr->outputs ? "  outputs" : "");
-  for (; tr->shown_rows < tr->count; tr->shown_rows++) {
+  for (; tr->shown_rows < ready(tr); tr->shown_rows++) {
     const size_t i = tr->shown_rows;
     printf("%*.10g", width, tr->t[i]);
     list(tr->y + i * tr->n, tr->n, 12);
@@ -103,6 +105,6 @@ static void to_terminal(trajectory *tr)
 void trajectory_stream(trajectory *tr)
 {
   const struct call *c = tr->call;
-  if (c->csv && !tr->csv_code && (tr->written < tr->count || !tr->csv)) to_csv(tr);
-  if (tr->asked && !c->json && tr->shown_rows < tr->count) to_terminal(tr);
+  if (c->csv && !tr->csv_code && (tr->written < ready(tr) || !tr->csv)) to_csv(tr);
+  if (tr->asked && !c->json && tr->shown_rows < ready(tr)) to_terminal(tr);
 }

@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "over_ranks.h"
 #include <math.h>
+#include <steif/extension.h>
+#include <string.h>
 #include <time.h>
 
 /* What goes on in this process now. */
@@ -86,25 +88,51 @@ static void compare(const steif_problem *p, N_Vector y, N_Vector truth, ranks_ru
   N_VDestroy(off);
 }
 
+/* GMRES alone, of y' = f: no matrix is made. */
+static int without_matrices(steif_context *ctx, const steif_problem *p, steif_problem *to)
+{
+  if (!p->f || p->E || p->Ev)
+    return steif_fail(ctx, STEIF_UNSUPPORTED,
+                      "--linear krylov serves y' = f, and '%s' is another form: take mumps",
+                      p->name);
+  *to = *p;
+  to->storage = STEIF_KRYLOV;
+  to->jac = NULL, to->A = to->L = NULL, to->pattern = NULL;
+  to->nnz = 0;
+  return STEIF_OK;
+}
+
+/* With a solver over ranks in *m, whose preconditioner is timed. */
+static int with_matrices(steif_context *ctx, const steif_problem *p, const char *linear,
+                         N_Vector like, steif_mpi **m, steif_problem *to)
+{
+  if (!(*m = steif_mpi_open(ctx, p, linear, like))) return steif_status(ctx);
+  now.inner = steif_mpi_problem(*m);
+  *to = *now.inner;
+  to->precsetup = setup, to->precsolve = cycle;
+  if (to->precsolve_pair) to->precsolve_pair = cycle_pair;
+  return STEIF_OK;
+}
+
 void run_over_ranks(steif_context *ctx, const steif_problem *p, N_Vector like,
                     const char *linear, const char *method, const steif_options *options,
                     N_Vector truth, N_Vector end, ranks_run *out)
 {
   *out = (ranks_run){.error = NAN};
-  steif_mpi *m = steif_mpi_open(ctx, p, linear, like);
-  steif_problem timed = {0};
-  if (m) timed = *steif_mpi_problem(m), now.inner = steif_mpi_problem(m);
-  if (m) timed.precsetup = setup, timed.precsolve = cycle;
-  if (timed.precsolve_pair) timed.precsolve_pair = cycle_pair;
+  steif_mpi *m = NULL;
+  steif_problem own;
+  const int opened = strcmp(linear, "krylov") ? with_matrices(ctx, p, linear, like, &m, &own)
+                                              : without_matrices(ctx, p, &own);
   now.sums = 0, now.setup = now.cycle = 0;
   const double since = processor();
-  steif_solver *s = m ? steif_solver_new(ctx, &timed, method, options) : NULL;
+  steif_solver *s = opened ? NULL : steif_solver_new(ctx, &own, method, options);
   out->code = s ? steif_solve_to(s, p->t1) : steif_status(ctx);
   if (s) {
     out->sums = now.sums;
     out->seconds = most(processor() - since);
     out->setup_seconds = most(now.setup), out->cycle_seconds = most(now.cycle);
-    out->stats = *steif_statistics(s), out->linear = steif_mpi_statistics(m);
+    out->stats = *steif_statistics(s);
+    if (m) out->linear = steif_mpi_statistics(m);
     out->linear.memory = most(out->linear.memory);
     PMPI_Allreduce(MPI_IN_PLACE, &out->linear.sent, 1, MPI_LONG_LONG, MPI_SUM, MPI_COMM_WORLD);
     if (!out->code) compare(p, steif_solution(s), truth, out);

@@ -70,10 +70,11 @@ static int read_option(request *r, int argc, char **argv, int *i)
       return read_numbers(r, word, next, numbers[k].value, &one);
     }
   if (!strcmp(word, "--linear") && *next) return r->linear = argv[++*i], FINE;
-  return object(r,
-                "no option %s here; there are --rtol%s, --atol, --h, --t1, --linear amg|mumps, "
-                "--json [STEIF_UNKNOWN_NAME]",
-                word, comparing ? "s" : "");
+  return object(
+    r,
+    "no option %s here; there are --rtol%s, --atol, --h, --t1, --linear amg|mumps|krylov, "
+    "--json [STEIF_UNKNOWN_NAME]",
+    word, comparing ? "s" : "");
 }
 
 static int read_word(request *r, const char *word)

@@ -56,6 +56,8 @@ typedef struct steif_history {
   int prescribed;           /* steps are: no tolerance was to be met */
   int weighted;             /* norms scale component j by h^(number_j - 1) */
   const char *method;       /* for the sentence; NULL: "the method" */
+  int
+    restarted; /* the run went on at the last point after an event or break: its start is under suspicion */
 } steif_history;
 
 typedef struct steif_cause {

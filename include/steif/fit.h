@@ -18,12 +18,15 @@
  * makes the run fail is rejected, and its sentence kept. Bounds are kept by projection: a parameter that a step
  * takes to its bound stays there until the slope of chi2 leads inward.
  *
- * With J = dr/dtheta, the covariance of theta is (J^T J)^-1, times chi2 / dof where the standard deviations of
- * the measurements are not known. Singular values of J below 1e-8 of the largest belong to directions of theta that
+ * With J = dr/dtheta, the covariance of theta is C = (J^T J)^-1 where the standard deviations of the measurements are
+ * given: they are taken for known, and 95 % intervals are theta -+ 1.96 sqrt(C_ii), by the normal distribution. Else C is
+ * that times chi2 / dof, and the quantile of Student's t with dof degrees of freedom takes the place of 1.96. The
+ * covariance of p is that of theta times dp/dtheta, to first order. Singular values of J below 1e-8 of the largest belong to directions of theta that
  * the measurements do not determine: parameters with a part in them have the standard deviation infinity.
  *
  * Sources: J. J. More, The Levenberg-Marquardt algorithm, in LNM 630 (1978) 105-116, as MINPACK's lmder (through
- * cminpack, found when steif is built); G. A. F. Seber and C. J. Wild, Nonlinear Regression (1989) 5.1;
+ * cminpack, found when steif is built); G. A. F. Seber and C. J. Wild, Nonlinear Regression (1989) 2.1.2, 5.1;
+ * known and estimated variances: W. H. Press et al., Numerical Recipes, 3rd ed. (2007) 15.6;
  * points of several starts: J. H. Halton, Numer. Math. 2 (1960) 84-90.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -78,20 +81,26 @@ typedef struct steif_fit_options {
   void *reserved[8];
 } steif_fit_options;
 
-/* Matrices are count x count by rows, in theta: of log p, of p / scale else. */
+/* Matrices are count x count by rows. */
 typedef struct steif_fit {
-  int count, log;      /* log: 1, theta = log p */
-  sunrealtype *p, *sd; /* sd of p, to first order: p times that of log p */
-  /* 95 % intervals: sd, times sqrt(chi2/dof) where that is above 1 or sd of the data not known, times the quantile of
-   * Student's t; exp of that of log p. */
-  sunrealtype *low, *high;
-  int *bound; /* -1, 1: at the bound low, high, and taken as known there; 0 */
-  sunrealtype *covariance, *correlation;
+  int count, log;          /* log: 1, theta = log p */
+  sunrealtype *p, *sd;     /* sd of p, to first order: sqrt of the diagonal of its covariance */
+  sunrealtype *low, *high; /* 95 % intervals; those of log p, exp of it, where that is theta */
+  int *bound;              /* -1, 1: at the bound low, high, and taken as known there; 0 */
+  /* Of p; of parameters with a part in what the data do not determine, and of all where neither sd of the data nor a
+   * degree of freedom is there, infinity, NaN beside the diagonal. */
+  sunrealtype *covariance;
+  sunrealtype *correlation;      /* of p, which is that of theta; of what is determined */
+  sunrealtype *covariance_theta; /* of log p, or of p / scale; of what is determined */
   sunrealtype *singular; /* of J, descending; the last ones, 0, those of parameters at bounds */
   sunrealtype *direction; /* row k: the unit vector in theta of singular[k] */
   int undetermined; /* how many directions, the last but those, the data do not determine */
   sunrealtype chi2;
-  long dof; /* measurements less what they determine: the rank of J */
+  long dof;             /* measurements less what they determine: the rank of J */
+  int known;            /* 1: standard deviations of the measurements were given */
+  sunrealtype quantile; /* of the intervals: normal, or Student's; infinity: there are none */
+  sunrealtype
+    probability; /* of a chi2 as large or larger, where they were given and dof > 0; else NaN */
   size_t residuals;
   sunrealtype *residual;         /* r_j, in the order of the data */
   int starts, best;              /* best: which descent, from 0 */
@@ -101,6 +110,7 @@ typedef struct steif_fit {
   int exhausted;
   char message[1400]; /* one sentence or more: what was found, and what to doubt */
   char failure[500];  /* of the last run that failed; "" */
+  char used[200];     /* the method of the best run, steif_method_used: what "auto" took */
   void *reserved[8];
 } steif_fit;
 
@@ -117,6 +127,10 @@ STEIF_EXPORT void steif_fit_free(steif_context *ctx, steif_fit *fit);
 /* The t with P(|T| <= t) = probability, T of Student's distribution with dof >= 1 degrees of freedom, to 1e-9. */
 STEIF_EXPORT int steif_student(steif_context *ctx, sunrealtype probability, long dof,
                                sunrealtype *t);
+/* The probability of a value of at least chi2 >= 0 by the chi-square distribution with dof >= 1 degrees of freedom, to
+ * 1e-10 of itself up to a million of them. */
+STEIF_EXPORT int steif_chi_square(steif_context *ctx, sunrealtype chi2, long dof,
+                                  sunrealtype *probability);
 
 #ifdef __cplusplus
 }

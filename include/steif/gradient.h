@@ -20,6 +20,14 @@
  * adaptive runs one real factorisation serves steps of similar length: K^T w is solved by GMRES to rtol/1000, from the w of the
  * step before; elsewhere to rounding.
  *
+ * Krylov storage: (s E - A)^T of each shift is solved by GMRES, complex shifts with the conjugate transpose, and the
+ * equations of the step by sweeps with their residuals, to the same rtol/1000 or rounding, so that gradients are as near
+ * to forward derivatives as those of factors. Products E^T x and A^T x are problem.Etv and .Atv, else those of the
+ * matrices that Krylov storage keeps. Preconditioners: precsolve_transposed, else none; of matrices the transposed ILU(0).
+ * precsetup is called at every step on the way back, at its middle stage. Without Atv (and Etv where E is not I), problems
+ * that fill matrices, or differences of which a band or pattern tells, go back with the factors of these: jac, idajac, or E and A,
+ * with nnz where storage is Krylov.
+ *
  * lambda at t0 is the derivative by free start values; with algebraic equations only derivatives along
  * consistent starts mean something (parameters.start), others say what the step makes of inconsistent ones: Radau and
  * BDF do not read algebraic components, and of index 3 a velocity off the constraint is projected.
@@ -43,7 +51,7 @@
  *
  * "auto" takes what it would choose where that is served, else radau:s=5. Served: collocation (gauss, radau, radau1a,
  * lobatto3c), BDF with start=ramp, DIRK; dense, band and sparse matrices, serial vectors, any index that the method
- * integrates. STEIF_UNSUPPORTED: other methods, Krylov storage without jac (transposed products are not known), events
+ * integrates. STEIF_UNSUPPORTED: other methods, Krylov storage with neither transposed products nor matrices, events
  * that graze, two at once whose times differ for other y or p, reactions without derivatives, constraints,
  * options.reinitialise, options.sensitivities, starts that had to be repaired, constant steps of BDF that do not end at T.
  *
@@ -103,7 +111,8 @@ typedef struct steif_gradient {
 /* A run of the problem from t0 to options.t1 and back. options NULL: defaults; options.active: of which parameters starts
  * are differentiated, dp of others being NaN, as where starts are consistent for some only. Codes of the run;
  * STEIF_BAD_INPUT: no functional, a limit of memory below what one step and 3 images need (the sentence says how much);
- * STEIF_NOT_FINITE: names functional and time. After failures nothing is there to be freed. */
+ * STEIF_NOT_FINITE: names functional and time; STEIF_NO_CONVERGENCE: the
+ * equations of a step backwards, GMRES with the transposed preconditioner among them. After failures nothing is there to be freed. */
 STEIF_EXPORT int steif_gradient_find(steif_context *ctx, const steif_problem *problem,
                                      const char *method, const steif_options *options,
                                      const steif_functional *functional,

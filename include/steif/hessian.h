@@ -19,6 +19,8 @@
  * Costs beside those of a gradient: one factorisation of the stages' matrix a step, and at each stage four more fills of
  * the matrices and evaluations of F_p^T w; records of steps are twice as long.
  *
+ * Krylov storage: by Atv and Etv at the points of the differences, and exact Av (STEIF_UNSUPPORTED without it, or matrices).
+ *
  * Methods, problems and codes are those of steif_gradient_find; STEIF_UNSUPPORTED: events that change or end a run, breaks.
  *
  * Sources: D. B. Ozyurt and P. I. Barton, SIAM J. Sci. Comput. 26 (2005) 1725-1743; A. Griewank and A. Walther, Evaluating

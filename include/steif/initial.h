@@ -18,8 +18,8 @@ extern "C" {
 enum steif_attribute { STEIF_GUESS, STEIF_FIXED, STEIF_FREE };
 
 /* What a run does about its start (options.initial of solver.h). Of DAEs with adaptive steps and methods of
- * steif; linear systems have their jump (impulse.h), prescribed steps and baselines take the start as it
- * is.
+ * steif; prescribed steps and baselines take the start as it is. Linear systems of index 2 and more, and of index 1
+ * whose constraints stand in sums of equations, are moved by their jump from x(0-) (impulse.h), where it is certified.
  *   STEIF_REPAIR    index 1, any n: algebraic components move to fulfil the equations, by a damped Newton
  *                   iteration on the sparse matrix of y_a and y_d'; differential ones stay. Index 2 and 3:
  *                   stage by stage as above (consistent.h), positions by at most 1 % of the
@@ -39,6 +39,9 @@ typedef struct steif_repair {
   const sunrealtype *y; /* n: the start used; NULL: the one given */
   const int *number;    /* n: index of each component, where it was found; else NULL */
   char message[1200];   /* what moved, to fulfil which equation; "" when nothing was done */
+  /* Behind events and breaks other equations may hold: the same is done there. */
+  int jumps; /* how often unknowns with a derivative jumped there, by more than 10 tolerances */
+  char jumped[1200]; /* at the first of them: what moved, and the impulses */
 } steif_repair;
 
 #ifdef __cplusplus

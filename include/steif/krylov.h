@@ -18,6 +18,9 @@
  *                       norm of the right-hand side in the first: vectors over MPI make one sum over the
  *                       ranks for an iteration.
  *
+ * Gradients go back with transposed products and preconditioners, .Etv, .Atv and .precsolve_transposed of the problem
+ * (gradient.h).
+ *
  * Newton's tolerance (options.newton) means the same as with factors, except that the default of bdf is ten
  * times as large: what GMRES leaves is as small as that.
  *

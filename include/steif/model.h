@@ -88,6 +88,9 @@ STEIF_EXPORT int steif_model_describe(steif_context *ctx, const steif_problem *p
 /* Name and value of parameter i, in the order of the text; NULL past the end. */
 STEIF_EXPORT const char *steif_model_parameter(const steif_problem *problem, size_t i,
                                                sunrealtype *value);
+/* What the text says of the start of unknown i: enum steif_attribute, STEIF_FIXED of '=', STEIF_GUESS of '~', STEIF_FREE
+ * without a value; -1: no model, no such unknown. */
+STEIF_EXPORT int steif_model_attribute(const steif_problem *problem, sunindextype i);
 /* What reading did to the start: guesses ('~') that do not fulfil the equations, where they were and where they are,
  * beyond 1e-6 of their size, or why no consistent start was found; "": none moved, or no model. */
 STEIF_EXPORT const char *steif_model_start(const steif_problem *problem);
@@ -106,6 +109,17 @@ STEIF_EXPORT int steif_model_data_find(steif_context *ctx, const steif_problem *
                                        steif_model_data *data);
 /* Name of the parameter that `fit` names as number i, from 0; NULL past the end. */
 STEIF_EXPORT const char *steif_model_fitted(const steif_problem *problem, size_t i);
+/* What an event of a model means, 0 .. events - 1, when its function rises (direction > 0) or falls: "true" or "false",
+ * what the relation that its name shows has become; "rising" or "falling", the expression of its name, or the argument
+ * of abs, ramp, sign and step in it, or the first less the second of min and max; "time", of `at` and `every`; "changes",
+ * the part of floor, mod or of a table. NULL: no model, no such event. Names are in problem.event_list:
+ * "x < -1 (line 7)", with i = 3 beside the line in loops, or what `stop` says. */
+STEIF_EXPORT const char *steif_model_turn(const steif_problem *problem, int event,
+                                          int direction);
+/* The unit in braces after the declaration of a state, a parameter or an output, of an array for its elements ("u[3]"), or
+ * after that of time ("t"), into `unit`, cut to `room` bytes; "": there is none, or no model. */
+STEIF_EXPORT void steif_model_unit(const steif_problem *problem, const char *name, size_t room,
+                                   char *unit);
 /* Name of output i; NULL past the end. Their values at (t, y), as many as there are names. */
 STEIF_EXPORT const char *steif_model_output(const steif_problem *problem, size_t i);
 STEIF_EXPORT int steif_model_outputs(const steif_problem *problem, sunrealtype t, N_Vector y,

@@ -51,6 +51,16 @@ typedef struct steif_operator {
   sunrealtype tolerance; /* relative residual of a solve; 0: 1e-10 */
 } steif_operator;
 
+/* What an operator needs for solves with the transpose, with the `user` of the operator. `precondition` solves
+ * (re E^T - A^T) z = r approximately, re and what `prepare` has prepared as for the operator's own. */
+typedef struct steif_transposed {
+  int (*E)(N_Vector x, N_Vector out, void *user); /* E^T x; read unless E is the identity */
+  int (*A)(N_Vector x, N_Vector out, void *user); /* A^T x */
+  int (*precondition)(sunrealtype re, N_Vector r, N_Vector z, sunrealtype tolerance,
+                      void *user); /* NULL: none */
+  void *reserved[4];               /* 0 */
+} steif_transposed;
+
 /* Counters since the pencil was made. */
 typedef struct steif_pencil_stats {
   long analyses, factors, refactors, fallbacks; /* fallbacks are among the factors; operators: a
@@ -90,9 +100,14 @@ STEIF_EXPORT int steif_pencil_solve(steif_pencil *p, int k, int nrhs, N_Vector *
 /* The same with the transpose, from the same factors: (s_k E - A)^T x = b for a real shift. For a complex one the
  * conjugate transpose, (conj(s_k) E^T - A^T) x = b: a solve is a real linear map of the pairs (re, im), and this is
  * the transpose of that map, so that u . solve(v) = solve_transposed(u) . v over both parts.
- * STEIF_UNSUPPORTED: operators, of which no transposed products are known. */
+ * STEIF_UNSUPPORTED: operators whose transposed products are not known. */
 STEIF_EXPORT int steif_pencil_solve_transposed(steif_pencil *p, int k, int nrhs, N_Vector *re,
                                                N_Vector *im);
+
+/* The transposed products of an operator, copied, before its solves with the transpose, which are by GMRES with the
+ * tolerance of the operator. STEIF_BAD_INPUT: A or, where the operator has E, E is NULL; STEIF_UNSUPPORTED: a pencil
+ * of matrices, which transposes itself. */
+STEIF_EXPORT int steif_pencil_give_transposed(steif_pencil *p, const steif_transposed *t);
 
 /* out = E x or A x. */
 STEIF_EXPORT int steif_pencil_product(steif_pencil *p, char which, N_Vector x, N_Vector out);

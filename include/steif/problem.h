@@ -206,7 +206,15 @@ struct steif_problem {
   /* Called before handle_event, for handlers that must know which way the solution goes: y' of the step at the
    * event, of algebraic unknowns too, by a difference of its dense output. NULL: not needed. */
   steif_state event_slope;
-  void *reserved[13]; /* 0; members to come take their place, and later ones stand after them */
+  /* Krylov: E^T x and A^T x, for gradients (gradient.h) without matrices; Etv NULL: E = I. Symmetric matrices: the
+   * callbacks of Ev and Av. precsolve_transposed: z = P^{-T} b, with the P of precsolve. */
+  steif_product Etv, Atv;
+  steif_precsolve precsolve_transposed;
+  /* Event functions that change in t alone, such as the nodes of a table of mod(t, 24), have one sign, and f is smooth, for
+   * so long before and after a change: before a step g is evaluated so often ahead, at the present y, and the step
+   * ends at the first of these times that shows a change. Not of prescribed steps. 0: not known. */
+  sunrealtype event_spacing;
+  void *reserved[9]; /* 0; members to come take their place, and later ones stand after them */
 };
 
 /* The form, or 0 with the message set: complete, consistent, finite start values. */

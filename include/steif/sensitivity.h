@@ -50,9 +50,11 @@
  * f- and f+ being the slopes of y on both sides, f- that of dense output. Derivatives of g are differences of two
  * lengths, extrapolated, to about 1e-12; those of R come from parameters.reset or are such differences of
  * handle_event (and options.reinitialise), which must then be the same each time: problems with `begin` need
- * `save` and `restore`. At the time of an event S is that after it where the run restarts, else that before it. Breaks move
- * with p where parameters.break_slope says so. STEIF_UNSUPPORTED: events that graze (|g_y f- + g_t| below 1e-6 of
- * |g_y| |f-|), two of them at once whose times have different derivatives, functions without derivatives.
+ * `save` and `restore`. Algebraic unknowns of index 1 follow after events and breaks, in y and in S. Where
+ * unknowns with a derivative jump to new equations there, S is the derivative of the jump, by differences of order 4.
+ * At the time of an event S is that after it where the run restarts, else that before it. Breaks move with p where parameters.break_slope says so. STEIF_UNSUPPORTED: events that graze (|g_y f- + g_t| below 1e-6 of
+ * |g_y| |f-|), two of them, or one and a break where y' jumps, at once whose times have different derivatives, functions without
+ * derivatives.
  * Infinitely many events in a finite time end the run, as without S.
  *
  * Checkpoints, copies and restarts of such runs: STEIF_UNSUPPORTED.

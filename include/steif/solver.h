@@ -88,10 +88,12 @@ typedef struct steif_options {
   void *observer; /* user of these */
   /* Called before the integration restarts after problem.handle_event, and after a break of the problem
    * where steps of our own methods are adaptive, with rtol: make y(t+) of y and find its slope (yp holds 0
-   * and may stay so); returns a code. steif_reinitialise (jump.h) fits. NULL: after an event
-   * of a DAE whose start may be repaired, algebraic components follow from the others; of index 2 and 3 y is put on its
-   * constraints where that moves components of index 1 by some tolerances at most. Else y stays, and algebraic components
-   * that are then wrong may stop the run. */
+   * and may stay so); returns a code. steif_reinitialise (jump.h) fits. NULL: other equations may hold from there on, and
+   * y of a DAE whose start may be repaired (initial.h) is put where they do, as at a start: of index 1 unknowns with a
+   * derivative stay and the others follow; hidden constraints of index 2 and 3 that appear there make velocities and
+   * charges jump by impulses, positions move by 1 % at most. What jumps first is told by steif_initial_used(), and the
+   * index of the equations that hold decides on weights. STEIF_BAD_INPUT with the reason where index 2 or 3 has no such
+   * state or no unique one. Else y stays, and algebraic components that are then wrong may stop the run. */
   int (*reinitialise)(steif_context *ctx, const steif_problem *problem, sunrealtype t,
                       sunrealtype rtol, N_Vector y, N_Vector yp);
   enum steif_initial

@@ -213,12 +213,13 @@ static int setup(void *state, sunrealtype re, sunrealtype im)
   return steif_agree(r->ctx, r->like, told(g, "make a hierarchy"));
 }
 
-static int solve(void *state, sunrealtype re, sunrealtype im, bool transposed,
+/* A cycle for one right-hand side: a preconditioner has no more. */
+static int solve(void *state, sunrealtype re, sunrealtype im, bool transposed, int count,
                  const sunrealtype *const *b, sunrealtype *const *x)
 {
   amg *g = state;
   const HYPRE_Int here = (HYPRE_Int)g->r->own.rows;
-  (void)re, (void)im, (void)transposed;
+  (void)re, (void)im, (void)transposed, (void)count;
   if (!g->solver)
     return steif_fail(g->r->ctx, STEIF_BAD_INPUT, "AMG is asked to solve before its setup");
   if (here) HYPRE_IJVectorSetValues(g->b, here, g->row, b[0]);

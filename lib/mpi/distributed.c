@@ -175,7 +175,7 @@ static int solve(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b,
   const sunrealtype *from = N_VGetArrayPointer(b);
   sunrealtype *to = N_VGetArrayPointer(z);
   (void)t, (void)y, (void)yp, (void)r, (void)delta;
-  return m->with->solve(m->state, c, 0, false, &from, &to);
+  return m->with->solve(m->state, c, 0, false, 1, &from, &to);
 }
 
 static int solve_pair(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector *b,
@@ -186,22 +186,42 @@ static int solve_pair(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vect
   const sunrealtype *from[] = {N_VGetArrayPointer(b[0]), N_VGetArrayPointer(b[1])};
   sunrealtype *to[] = {N_VGetArrayPointer(z[0]), N_VGetArrayPointer(z[1])};
   (void)t, (void)y, (void)yp, (void)r, (void)delta;
-  return m->with->solve(m->state, c_re, c_im, false, from, to);
+  return m->with->solve(m->state, c_re, c_im, false, 1, from, to);
+}
+
+/* Own rows of the halves of all columns, b before x; the caller releases them. */
+static int own_parts(steif_mpi *m, int halves, N_Vector *b, N_Vector *x, sunrealtype ***parts)
+{
+  steif_context *ctx = m->rows.ctx;
+  *parts = steif_allocate(ctx, 2 * (size_t)halves + 1, sizeof **parts);
+  MPI_TRY(steif_agree(ctx, m->rows.like, *parts ? STEIF_OK : STEIF_NO_MEMORY));
+  for (int k = 0; k < halves; k++) {
+    (*parts)[k] = N_VGetArrayPointer(b[k]);
+    (*parts)[halves + k] = N_VGetArrayPointer(x[k]);
+  }
+  return STEIF_OK;
 }
 
 int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp, sunrealtype c_re,
-                    sunrealtype c_im, int transposed, N_Vector *b, N_Vector *x)
+                    sunrealtype c_im, int transposed, int count, N_Vector *b, N_Vector *x)
 {
+  steif_context *ctx = m->rows.ctx;
+  sunrealtype **parts = NULL;
   if (m->with != &back_end_mumps)
-    return steif_fail(m->rows.ctx, STEIF_UNSUPPORTED,
+    return steif_fail(ctx, STEIF_UNSUPPORTED,
                       "steif_mpi_solve needs the factors of \"mumps\", and there is \"%s\"",
                       m->with->name);
+  if (count < 1)
+    return steif_fail(ctx, STEIF_BAD_INPUT, "%d right-hand sides; give 1 or more", count);
   MPI_TRY(fill(m, t, y, yp));
   MPI_TRY(m->with->setup(m->state, c_re, c_im));
-  const sunrealtype *from[2] = {N_VGetArrayPointer(b[0])};
-  sunrealtype *to[2] = {N_VGetArrayPointer(x[0])};
-  if (c_im != 0) from[1] = N_VGetArrayPointer(b[1]), to[1] = N_VGetArrayPointer(x[1]);
-  return m->with->solve(m->state, c_re, c_im, transposed, from, to);
+  const int halves = c_im != 0 ? 2 * count : count;
+  int code = own_parts(m, halves, b, x, &parts);
+  if (!code)
+    code = m->with->solve(m->state, c_re, c_im, transposed, count,
+                          (const sunrealtype *const *)parts, parts + halves);
+  steif_release(ctx, parts);
+  return code;
 }
 
 /* -- opening ---------------------------------------------------------------------------------- */
@@ -220,6 +240,7 @@ static void pass_on(steif_mpi *m)
   q->jac = NULL, q->idajac = NULL, q->E = q->A = q->L = NULL;
   q->parameters = NULL, q->quadrature = NULL, q->build = NULL, q->destroy = NULL;
   q->precsetup = setup, q->precsolve = solve;
+  q->Etv = q->Atv = NULL, q->precsolve_transposed = NULL;
   q->precsolve_pair = m->with->complex ? solve_pair : NULL;
   if (!m->rows.identity && !p->Ev) q->Ev = rows_E;
   if (m->constant && !p->Av) q->Av = rows_A;

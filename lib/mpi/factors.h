@@ -29,8 +29,9 @@ typedef struct factors_calls {
   void (*analyse)(void *m, const rows *r, factors_setting *set, factors_answer *out);
   /* values: as many as entries; workspace: per cent beyond the estimate. */
   void (*factor)(void *m, sunrealtype *values, int workspace, factors_answer *out);
-  /* b: own rows; x and its row numbers from 1 as MUMPS spreads them. */
-  void (*solve)(void *m, bool transposed, sunrealtype *b, int *row_of_b, int count,
+  /* b: own rows of `columns` right-hand sides; x, `room` rows a column, and its row numbers from 1 as MUMPS spreads
+   * them. */
+  void (*solve)(void *m, bool transposed, int columns, sunrealtype *b, int *row_of_b, int count,
                 sunrealtype *x, int *row_of_x, int room, factors_answer *out);
   void (*close)(void *m, rows *r);
 } factors_calls;

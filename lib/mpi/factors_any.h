@@ -64,11 +64,11 @@ static void factor_any(void *state, sunrealtype *values, int workspace, factors_
   answer(m, out);
 }
 
-static void solve_any(void *state, bool transposed, sunrealtype *b, int *row_of_b, int count,
-                      sunrealtype *x, int *row_of_x, int room, factors_answer *out)
+static void solve_any(void *state, bool transposed, int columns, sunrealtype *b, int *row_of_b,
+                      int count, sunrealtype *x, int *row_of_x, int room, factors_answer *out)
 {
   STRUCTURE *m = state;
-  m->nrhs = 1;
+  m->nrhs = columns;
   m->rhs_loc = (NUMBER *)b, m->irhs_loc = row_of_b;
   m->nloc_rhs = count, m->lrhs_loc = count > 0 ? count : 1;
   m->sol_loc = (NUMBER *)x, m->isol_loc = row_of_x, m->lsol_loc = room;

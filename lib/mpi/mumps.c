@@ -1,35 +1,11 @@
-/* mumps.c: factors of c E - A over ranks, real and complex, a slot for each shift; refinement of our own, since that
- * of MUMPS does not work on spread solutions.
+/* mumps.c: factors of c E - A over ranks, real and complex, a slot for each shift.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "factors.h"
+#include "mumps.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { SLOTS = 4, WORKSPACE = 20, MOST_WORKSPACE = 160 };
-
-typedef struct slot {
-  const factors_calls *with;
-  void *m;
-  sunrealtype re, im;
-  bool ready;    /* for the values at hand */
-  long revision; /* of the pattern that was analysed */
-  long used;     /* when, for the choice of one to make anew */
-  sunrealtype *value, *x;
-  int *row_of_x, room;
-  int *give, *give_at, *get, *get_at; /* how x returns to its owners ... */
-  int *order, *place; /* ... own place of x sent as k-th; own row of the k-th that comes */
-  sunrealtype *out, *in;
-} slot;
-
-typedef struct mumps {
-  rows *r;
-  factors_setting set;
-  long revision, clock;
-  slot slot[2 * SLOTS]; /* real ones, then complex ones */
-  int *row_of_b;
-  sunrealtype *b, *d, *xr, *xi; /* right-hand side as MUMPS reads it, residuals */
-} mumps;
+enum { WORKSPACE = 20, MOST_WORKSPACE = 160 };
 
 static int start(rows *r, const steif_spec *spec, void **state)
 {
@@ -54,11 +30,12 @@ static void forget(mumps *s)
 {
   for (int i = 0; i < 2 * SLOTS; i++) drop(s, &s->slot[i]);
   void *const all[] = {s->set.row, s->set.column, s->set.place, s->row_of_b,
-                       s->b,       s->d,          s->xr,        s->xi};
+                       s->b,       s->d,          s->own};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) steif_release(s->r->ctx, all[i]);
   s->set.row = s->set.column = s->set.place = s->row_of_b = NULL;
   s->set.placed = false;
-  s->b = s->d = s->xr = s->xi = NULL;
+  s->b = s->d = s->own = NULL;
+  s->columns = 0;
 }
 
 static void finish(void *state)
@@ -78,10 +55,6 @@ static int pattern(mumps *s)
   if (r->own.rank == 0 &&
       !(s->set.place = steif_allocate(r->ctx, (size_t)r->own.n, sizeof(int))))
     return STEIF_NO_MEMORY;
-  sunrealtype **const each[] = {&s->b, &s->d, &s->xr, &s->xi};
-  for (int i = 0; i < 4; i++)
-    if (!(*each[i] = steif_allocate(r->ctx, 2 * here, sizeof(sunrealtype))))
-      return STEIF_NO_MEMORY;
   if (!s->set.row || !s->set.column || !s->row_of_b) return STEIF_NO_MEMORY;
   for (sunindextype i = 0; i < r->own.rows; i++) {
     s->row_of_b[i] = (int)(r->own.first + i + 1);
@@ -109,7 +82,7 @@ static int claim(mumps *s, slot *t)
 
 /* -- what MUMPS answers ----------------------------------------------------------------------- */
 
-static int told(const mumps *s, const factors_answer *a, const char *what, const slot *t)
+int mumps_told(const mumps *s, const factors_answer *a, const char *what, const slot *t)
 {
   steif_context *ctx = s->r->ctx;
   if (a->code == -10 || a->code == -6 || (a->code >= 0 && a->null_pivots > 0))
@@ -159,22 +132,24 @@ static int analyse(mumps *s, slot *t)
   t->with->analyse(t->m, s->r, &s->set, &a);
   s->r->stats.analyses++;
   t->revision = s->r->revision;
-  return told(s, &a, "analyse the pattern", t);
+  return mumps_told(s, &a, "analyse the pattern", t);
 }
 
-/* Room of the solution; it may grow with the pivots. */
-static int receive(mumps *s, slot *t, int count)
+int mumps_receive(mumps *s, slot *t, int count, int columns)
 {
   rows *r = s->r;
-  const size_t width = t->with->complex ? 2 : 1, need = (size_t)count + 1;
-  if (t->room > count) return STEIF_OK;
+  const size_t width = t->with->complex ? 2 : 1;
+  if (t->room > count && t->columns >= columns) return STEIF_OK;
+  const size_t need = t->room > count ? (size_t)t->room : (size_t)count + 1;
   void *const old[] = {t->x, t->row_of_x, t->order, t->out};
   for (int i = 0; i < 4; i++) steif_release(r->ctx, old[i]);
-  t->x = steif_allocate(r->ctx, width * need, sizeof *t->x);
+  t->x = steif_allocate(r->ctx, width * need * (size_t)columns, sizeof *t->x);
   t->out = steif_allocate(r->ctx, width * need, sizeof *t->out);
   t->row_of_x = steif_allocate(r->ctx, need, sizeof(int));
   t->order = steif_allocate(r->ctx, need, sizeof(int));
   t->room = t->x && t->out && t->row_of_x && t->order ? (int)need : 0;
+  t->columns = t->room ? columns : 0;
+  t->get_at[r->own.size] = -1;
   return t->room ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
@@ -190,8 +165,9 @@ static int factor(mumps *s, slot *t)
   }
   r->stats.setups++;
   r->stats.memory = fmax(r->stats.memory, a.memory);
-  MPI_TRY(told(s, &a, "factor", t));
-  const int code = steif_agree(r->ctx, r->like, receive(s, t, a.rows));
+  MPI_TRY(mumps_told(s, &a, "factor", t));
+  const int code =
+    steif_agree(r->ctx, r->like, mumps_receive(s, t, a.rows, t->columns > 0 ? t->columns : 1));
   t->ready = !code;
   return code;
 }
@@ -218,8 +194,7 @@ static slot *choose(mumps *s, sunrealtype re, sunrealtype im, sunrealtype part)
   return best;
 }
 
-/* Factors for the shift, or of one that differs by at most `part` of it. */
-static int serve(mumps *s, sunrealtype re, sunrealtype im, sunrealtype part, slot **found)
+int mumps_serve(mumps *s, sunrealtype re, sunrealtype im, sunrealtype part, slot **found)
 {
   rows *r = s->r;
   if (!s->set.row || s->revision != r->revision) {
@@ -251,117 +226,7 @@ static int changed(void *state)
 static int setup(void *state, sunrealtype re, sunrealtype im)
 {
   slot *t;
-  return serve(state, re, im, 0, &t);
-}
-
-/* -- solves ----------------------------------------------------------------------------------- */
-
-/* Who gets which entries of the solution as MUMPS spreads it: once for each factorisation. */
-static int find_way(mumps *s, slot *t, int count)
-{
-  const owners *o = &s->r->own;
-  int *wanted = steif_allocate(s->r->ctx, (size_t)count + 1, sizeof *wanted);
-  const int code = steif_agree(s->r->ctx, s->r->like, wanted ? STEIF_OK : STEIF_NO_MEMORY);
-  if (code) return steif_release(s->r->ctx, wanted), code;
-  memset(t->give, 0, (size_t)o->size * sizeof(int));
-  for (int k = 0; k < count; k++) t->give[rows_owner(o, t->row_of_x[k] - 1)]++;
-  MPI_Alltoall(t->give, 1, MPI_INT, t->get, 1, MPI_INT, o->comm);
-  t->give_at[0] = t->get_at[0] = 0;
-  for (int k = 0; k < o->size; k++) {
-    t->give_at[k + 1] = t->give_at[k] + t->give[k];
-    t->get_at[k + 1] = t->get_at[k] + t->get[k];
-  }
-  for (int k = 0; k < count; k++) {
-    const int to = (int)rows_owner(o, t->row_of_x[k] - 1), at = t->give_at[to]++;
-    t->order[at] = k;
-    wanted[at] = (int)(t->row_of_x[k] - 1 - o->start[to]);
-  }
-  for (int k = o->size; k > 0; k--) t->give_at[k] = t->give_at[k - 1];
-  t->give_at[0] = 0;
-  MPI_Alltoallv(wanted, t->give, t->give_at, MPI_INT, t->place, t->get, t->get_at, MPI_INT,
-                o->comm);
-  steif_release(s->r->ctx, wanted);
-  return STEIF_OK;
-}
-
-/* x += the correction, to its owners. */
-static void give_back(mumps *s, slot *t, int count, sunrealtype *const *x)
-{
-  const owners *o = &s->r->own;
-  const int width = t->with->complex ? 2 : 1;
-  MPI_Datatype number = width == 2 ? MPI_C_DOUBLE_COMPLEX : MPI_DOUBLE;
-  for (int k = 0; k < count; k++)
-    for (int w = 0; w < width; w++) t->out[width * k + w] = t->x[width * t->order[k] + w];
-  MPI_Alltoallv(t->out, t->give, t->give_at, number, t->in, t->get, t->get_at, number, o->comm);
-  for (sunindextype k = 0; k < o->rows; k++)
-    for (int w = 0; w < width; w++) x[w][t->place[k]] += t->in[width * k + w];
-}
-
-/* x += M^{-1} d, d the halves of the right-hand side. */
-static int correct(mumps *s, slot *t, bool transposed, const sunrealtype *const *d,
-                   sunrealtype *const *x)
-{
-  factors_answer a;
-  const owners *o = &s->r->own;
-  const int width = t->with->complex ? 2 : 1;
-  for (sunindextype i = 0; i < o->rows; i++)
-    for (int w = 0; w < width; w++) s->b[width * i + w] = d[w][i];
-  t->with->solve(t->m, transposed, s->b, s->row_of_b, (int)o->rows, t->x, t->row_of_x, t->room,
-                 &a);
-  s->r->stats.solves++;
-  MPI_TRY(told(s, &a, "solve", t));
-  if (t->get_at[o->size] < 0) MPI_TRY(find_way(s, t, t->give_at[o->size] = a.rows));
-  give_back(s, t, t->give_at[o->size], x);
-  return STEIF_OK;
-}
-
-/* d = b - M x, and its size by that of M, x and b. */
-static sunrealtype residual(mumps *s, const slot *t, const sunrealtype *const *b,
-                            sunrealtype *const *x, sunrealtype *const *d)
-{
-  rows *r = s->r;
-  const int width = t->with->complex ? 2 : 1;
-  sunrealtype most[4] = {0}; /* d, M, x, b */
-  halo_exchange(r, width, (const sunrealtype *const *)x);
-  for (sunindextype i = 0; i < r->own.rows; i++) {
-    sunrealtype re = b[0][i], im = width == 2 ? b[1][i] : 0, size = 0;
-    for (sunindextype k = r->row_at[i]; k < r->row_at[i + 1]; k++) {
-      const sunrealtype m = t->re * r->e[k] - r->a[k], n = t->im * r->e[k];
-      const sunrealtype u = r->one[r->local[k]], v = width == 2 ? r->two[r->local[k]] : 0;
-      re -= m * u - n * v, im -= m * v + n * u, size += hypot(m, n);
-    }
-    d[0][i] = re;
-    if (width == 2) d[1][i] = im;
-    most[0] = fmax(most[0], hypot(re, im)), most[1] = fmax(most[1], size);
-    most[2] = fmax(most[2], hypot(x[0][i], width == 2 ? x[1][i] : 0));
-    most[3] = fmax(most[3], hypot(b[0][i], width == 2 ? b[1][i] : 0));
-  }
-  MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, r->own.comm);
-  const sunrealtype all = most[1] * most[2] + most[3];
-  return all > 0 ? most[0] / all : 0;
-}
-
-/* Sweeps of refinement while they at least halve the residual. */
-static int solve(void *state, sunrealtype re, sunrealtype im, bool transposed,
-                 const sunrealtype *const *b, sunrealtype *const *x)
-{
-  mumps *s = state;
-  slot *t;
-  const size_t bytes = (size_t)s->r->own.rows * sizeof(sunrealtype);
-  MPI_TRY(serve(s, re, im, transposed ? 0 : 0.25, &t));
-  sunrealtype *d[2] = {s->d, s->d + s->r->own.rows}, *own[2] = {s->xr, s->xi};
-  for (int w = 0; w < 1 + t->with->complex; w++) memset(own[w], 0, bytes);
-  MPI_TRY(correct(s, t, transposed, b, own));
-  sunrealtype left = 0, before = INFINITY;
-  for (int sweep = 0; !transposed && sweep <= s->set.refine; sweep++) {
-    left = residual(s, t, b, own, d);
-    if (sweep == s->set.refine || left <= 1e-15 || !(left < 0.5 * before)) break;
-    before = left;
-    MPI_TRY(correct(s, t, false, (const sunrealtype *const *)d, own));
-  }
-  s->r->stats.backward_error = fmax(s->r->stats.backward_error, left);
-  for (int w = 0; w < 1 + t->with->complex; w++) memcpy(x[w], own[w], bytes);
-  return STEIF_OK;
+  return mumps_serve(state, re, im, 0, &t);
 }
 
 const back_end back_end_mumps = {
@@ -370,6 +235,6 @@ const back_end back_end_mumps = {
   .open = start,
   .changed = changed,
   .setup = setup,
-  .solve = solve,
+  .solve = mumps_solve,
   .close = finish,
 };

@@ -72,7 +72,8 @@ typedef struct back_end {
   int (*open)(rows *r, const steif_spec *spec, void **state);
   int (*changed)(void *state); /* values are new */
   int (*setup)(void *state, sunrealtype re, sunrealtype im);
-  int (*solve)(void *state, sunrealtype re, sunrealtype im, bool transposed,
+  /* `count` columns; b and x: halves of each one after the other */
+  int (*solve)(void *state, sunrealtype re, sunrealtype im, bool transposed, int count,
                const sunrealtype *const *b, sunrealtype *const *x);
   void (*close)(void *state);
 } back_end;

@@ -18,7 +18,9 @@ The library is found by the environment variable STEIF_LIBRARY, else beside this
 """
 from ._library import SteifError, version
 from ._linear import c2d, impulse, weak
-from ._parameters import fit, sensitivity, sweep
-from ._solve import Result, solve
+from ._parameters import fit, sensitivity
+from ._run import Result
+from ._solve import solve
+from ._sweep import sweep
 
 __all__ = ["solve", "sensitivity", "fit", "sweep", "impulse", "weak", "c2d", "Result", "SteifError", "version"]

@@ -15,6 +15,9 @@ class SteifError(RuntimeError):
         super().__init__(message)
         self.code = code
 
+    def __reduce__(self):  # for other processes
+        return type(self), (self.code, str(self))
+
 
 def _candidates():
     if os.environ.get("STEIF_LIBRARY"):
@@ -64,6 +67,7 @@ for _row in (
     ("steif_solve_to", INT, POINTER, REAL),
     ("steif_method_used", c.c_char_p, POINTER),
     ("steif_solution", POINTER, POINTER),
+    ("steif_dense", INT, POINTER, REAL, POINTER),
     ("steif_time", REAL, POINTER),
     ("steif_statistics", POINTER, POINTER),
     ("steif_record_new", POINTER, POINTER, WHOLE, INT),
@@ -73,9 +77,16 @@ for _row in (
     ("steif_record_values", POINTER, POINTER),
     ("steif_record_at", INT, POINTER, REAL, POINTER, POINTER),
     ("steif_model_output", c.c_char_p, POINTER, c.c_size_t),
+    ("steif_model_outputs", INT, POINTER, REAL, POINTER, POINTER),
+    ("steif_model_turn", c.c_char_p, POINTER, INT, INT),
+    ("steif_model_parse", INT, POINTER, c.c_char_p, c.c_char_p, POINTER, POINTER),
+    ("steif_model_start", c.c_char_p, POINTER),
+    ("steif_initial_used", POINTER, POINTER),
+    ("steif_parameter_find", INT, POINTER, POINTER, c.c_char_p),
     ("steif_model_fitted", c.c_char_p, POINTER, c.c_size_t),
     ("steif_problem_vary", INT, POINTER, POINTER, INT, POINTER, POINTER, POINTER),
     ("steif_sensitivity", INT, POINTER, REAL, INT, POINTER),
+    ("steif_sensitivity_event", INT, POINTER, INT, POINTER, POINTER),
     ("steif_measurements_read", INT, POINTER, POINTER, c.c_char_p, REAL, INT, INT, POINTER, POINTER),
     ("steif_measurements_free", None, POINTER, POINTER),
     ("steif_fit_find", INT, POINTER, POINTER, c.c_char_p, POINTER, POINTER, POINTER),
@@ -83,6 +94,7 @@ for _row in (
     ("steif_ensemble", INT, POINTER, c.c_longlong, POINTER, POINTER, POINTER),
     ("N_VGetArrayPointer", POINTER, POINTER),
     ("N_VClone", POINTER, POINTER),
+    ("N_VNew_Serial", POINTER, WHOLE, POINTER),
     ("N_VDestroy", None, POINTER),
     ("SUNDenseMatrix_Data", POINTER, POINTER),
     ("steif_sundials", POINTER, POINTER),
@@ -95,6 +107,7 @@ for _row in (
     ("SUNMatDestroy", None, POINTER),
     ("steif_structure_find", INT, POINTER, POINTER, POINTER, POINTER, POINTER),
     ("steif_structure_clear", None, POINTER, POINTER),
+    ("steif_linear_of", INT, POINTER, POINTER, POINTER),
     ("steif_impulse_find", INT, POINTER, POINTER, POINTER, POINTER, REAL, POINTER, POINTER, POINTER,
      POINTER, POINTER),
     ("steif_impulse_clear", None, POINTER, POINTER),
@@ -166,34 +179,6 @@ class Struct:
         return self._place(member, kind).value
 
 
-def sparse_columns(M, n, name):
-    """A matrix of scipy.sparse, or what NumPy makes one of, by columns: starts, rows, values."""
-    if M.shape != (n, n):
-        raise ValueError("%s has the shape %s, %s is needed" % (name, M.shape, (n, n)))
-    if hasattr(M, "tocsc"):
-        S = M.tocsc()
-        if not S.has_canonical_format:
-            S = S.copy()
-            S.sum_duplicates()
-        return S.indptr, S.indices, np.asarray(S.data, dtype=float)
-    columns, rows = np.nonzero(np.asarray(M).T)
-    return np.searchsorted(columns, np.arange(n + 1)), rows, np.asarray(M, dtype=float)[rows, columns]
-
-
-def fill_sparse(to, columns, name):
-    """Into a sparse matrix of the library, by columns."""
-    start, rows, values = columns
-    room = lib.SUNSparseMatrix_NNZ(to)
-    if values.size > room:
-        raise ValueError("%s has %d entries, at the start it had room for %d: give jac_sparsity with all "
-                         "places where there may be one" % (name, values.size, room))
-    for address, array, kind in ((lib.SUNSparseMatrix_IndexPointers(to), start, WHOLE),
-                                 (lib.SUNSparseMatrix_IndexValues(to), rows, WHOLE),
-                                 (lib.SUNSparseMatrix_Data(to), values, REAL)):
-        array = np.ascontiguousarray(array, dtype=kind)
-        c.memmove(address, array.ctypes.data, array.nbytes)
-
-
 class Context:
     """A context of the library; its last sentence becomes an exception."""
 
@@ -201,6 +186,10 @@ class Context:
         self.pointer = lib.steif_context_new(None)
         if not self.pointer:
             raise MemoryError("no memory for a context of libsteif")
+
+    def sentence(self):
+        """The last one, without the name of its code."""
+        return lib.steif_message(self.pointer).decode().split(" [STEIF_")[0]
 
     def error(self):
         return SteifError(lib.steif_status(self.pointer), lib.steif_message(self.pointer).decode())

@@ -1,10 +1,13 @@
 """E x' + F x = f: jumps and impulses, weak convergence, time grids; matrices of NumPy or scipy.sparse."""
 import ctypes as c
+import os
 
 import numpy as np
 
 from ._library import INT, POINTER, REAL, WHOLE, Context, SteifError, Struct, lib
-from ._solve import Result
+from ._run import Result
+from ._solve import opened
+from ._values import choice, memory, real, returned
 
 _FORCING = c.CFUNCTYPE(INT, REAL, INT, POINTER, POINTER)
 _CSC = 0  # CSC_MAT of SUNDIALS
@@ -15,7 +18,7 @@ _BREAKS = 64
 
 def _dense(name, matrix, rows=None, columns=None):
     """A matrix by columns; a vector of the right length counts as one column."""
-    M = np.asarray(matrix.toarray() if hasattr(matrix, "toarray") else matrix, dtype=float)
+    M = real(name, matrix.toarray() if hasattr(matrix, "toarray") else matrix)
     if M.ndim == 1:
         M = M[:, None] if columns in (None, 1) or rows == M.size else M[None, :]
     if M.ndim != 2 or (rows is not None and M.shape[0] != rows) or (
@@ -26,7 +29,7 @@ def _dense(name, matrix, rows=None, columns=None):
 
 
 def _vector(name, values, n):
-    x = np.ascontiguousarray(values, dtype=float).ravel()
+    x = np.array(real(name, values)).ravel()
     if x.size != n:
         raise ValueError("%s has %d values, %d are needed" % (name, x.size, n))
     return x
@@ -39,6 +42,8 @@ def _copy(address, values, kind):
 
 class _System:
     """E and F in the library, f as a callback; to be used in a with statement."""
+
+    x0, t0 = None, 0.0
 
     def __init__(self, E, F, f, breaks=()):
         shape = np.shape(E)
@@ -53,7 +58,7 @@ class _System:
     def __enter__(self):
         try:
             E, F, f = self.given
-            self.E, self.F = self._matrix(E), self._matrix(F)
+            self.E, self.F = self._matrix("E", E), self._matrix("F", F)
             self.callback, self.user = self._forcing(f)
         except BaseException:
             self.__exit__()
@@ -67,20 +72,21 @@ class _System:
             lib.steif_function_free(c.byref(POINTER(self.text)))
         self.context.close()
 
-    def _matrix(self, matrix):
+    def _matrix(self, name, matrix):
         sun, n = lib.steif_sundials(self.context.pointer), self.n
         if hasattr(matrix, "tocsc"):
-            S = matrix.tocsc().astype(float)
+            S = matrix.tocsc().copy()
             S.sum_duplicates()
+            values = real(name, S.data)
             M = lib.SUNSparseMatrix(n, n, max(S.nnz, 1), _CSC, sun)
             if M:
-                _copy(lib.SUNSparseMatrix_Data(M), S.data, float)
+                _copy(lib.SUNSparseMatrix_Data(M), values, float)
                 _copy(lib.SUNSparseMatrix_IndexValues(M), S.indices, WHOLE)
                 _copy(lib.SUNSparseMatrix_IndexPointers(M), S.indptr, WHOLE)
         else:
             M = lib.SUNDenseMatrix(n, n, sun)
             if M:
-                _copy(lib.SUNDenseMatrix_Data(M), _dense("matrix", matrix, n, n).ravel("F"), float)
+                _copy(lib.SUNDenseMatrix_Data(M), _dense(name, matrix, n, n).ravel("F"), float)
         if not M:
             raise MemoryError("no memory for a matrix of %d x %d" % (n, n))
         self.matrices.append(M)
@@ -109,7 +115,7 @@ class _System:
                 values = value(t, order)
                 if values is None:
                     return 1  # this derivative is not known
-                out[:] = values
+                out[:] = returned("f(t, order)", values, (self.n,)) if np.ndim(values) else real("f(t, order)", values)
                 return 0
             except BaseException as reason:  # raised again by `check`
                 self.raised = self.raised or reason
@@ -144,6 +150,48 @@ class _System:
         return linear
 
 
+class _Model(_System):
+    """A linear model or problem of the collection, by the same names."""
+
+    def __init__(self, spec, p):
+        self.raised, self.text, self.matrices, self.given = None, None, [], (spec, p)
+        self.context, self.problem = Context(), None
+
+    def __enter__(self):
+        spec, p = self.given
+        context, linear = self.context.pointer, Struct("linear")
+        try:
+            self.problem = opened(self.context, spec, p)
+            self.check(lib.steif_linear_of(context, self.problem.address, linear.address))
+        except BaseException:
+            self.__exit__()
+            raise
+        self.E, self.F = linear.get("E", POINTER), linear.get("F", POINTER)
+        self.matrices += [self.E, self.F]
+        self.callback, self.user = linear.get("f", POINTER), linear.get("user", POINTER)
+        self.n, self.t0 = self.problem.get("n", WHOLE), self.problem.get("t0", REAL)
+        start = self.problem.get("y0", POINTER)
+        self.x0 = memory(start, (self.n,)).copy() if start else None
+        return self
+
+    def __exit__(self, *reason):
+        if self.problem is not None:
+            lib.steif_problem_clear(self.context.pointer, self.problem.address)
+        super().__exit__(*reason)
+
+
+def _system(E, F, f, p):
+    if not isinstance(E, (str, os.PathLike)):
+        if p is not None:
+            raise ValueError("p belongs to models and problems by name; E and F are matrices here")
+        if F is None:
+            raise ValueError("E and F are needed, or the name of a linear model or problem in the place of E")
+        return _System(E, F, f)
+    if F is not None or f is not None:
+        raise ValueError("%r has its own F and f: leave them None" % (E,))
+    return _Model(E, p)
+
+
 def _structure(system, analysis, r):
     """The index and what else the matrices tell; the struct goes to steif_impulse_find, too."""
     found, context = Struct("structure"), system.context.pointer
@@ -154,13 +202,15 @@ def _structure(system, analysis, r):
     return found
 
 
-def impulse(E, F, x0, f=None, *, t=0.0, algorithm="auto"):
+def impulse(E, F=None, x0=None, f=None, *, t=None, p=None, algorithm="auto"):
     """The start of E x' + F x = f from any values x0 = x(0-): x(0+) and the impulses at t.
 
     E, F: NumPy arrays, or matrices of scipy.sparse, n x n with a regular pencil s E + F.
     f: None (0), n constant values, a text such as "sin(t); 0; exp(-t)" with an expression for each
     equation, or a function f(t, order) that returns the derivative of this order (None: unknown); orders up
     to index - 1 are asked for.
+    impulse("circuit.steif", p={"C": 2}): a linear model, its text, or a problem of the collection in the place of E;
+    x0 and t (else 0) are then by default its start, p other values of its parameters.
 
     Returns a Result: x_plus (n), impulses (index - 1 rows of n: row i belongs to the i-th derivative of
     Dirac's delta), index, certified, message, and x_minus, finite and infinite (numbers of eigenvalues),
@@ -169,8 +219,11 @@ def impulse(E, F, x0, f=None, *, t=0.0, algorithm="auto"):
     """
     if algorithm not in _ALGORITHMS:
         raise ValueError("algorithm must be one of %s" % ", ".join(_ALGORITHMS))
-    with _System(E, F, f) as system:
-        start, r = _vector("x0", x0, system.n), Result()
+    with _system(E, F, f, p) as system:
+        if x0 is None and system.x0 is None:
+            raise ValueError("x0 is needed: the values x(0-), %d of them" % system.n)
+        start, r = _vector("x0", system.x0 if x0 is None else x0, system.n), Result()
+        t = system.t0 if t is None else t
         analysis, answer = Struct("analysis"), Struct("impulse")
         analysis.set("algorithm", INT, _ALGORITHMS.index(algorithm))
         context, found = system.context.pointer, _structure(system, analysis, r)
@@ -197,7 +250,7 @@ def _convention(context, query, method, start, convention):
         query.set("convention", INT, _CONVENTIONS.index(convention))
         return convention
     usual = INT(0)
-    if lib.steif_convention_usual(context.pointer, method.encode(), start and start.encode(),
+    if lib.steif_convention_usual(context.pointer, choice("method", method), start and start.encode(),
                                   c.byref(usual)):
         raise context.error()
     query.set("convention", INT, usual.value)
@@ -206,7 +259,7 @@ def _convention(context, query, method, start, convention):
 
 def _weak_query(method, start, h, halvings, component):
     query = Struct("weak_query")
-    query.set("method", POINTER, c.c_char_p(method.encode()))
+    query.set("method", POINTER, c.c_char_p(choice("method", method)))
     if start is not None:
         query.set("start", POINTER, c.c_char_p(start.encode()))
     query.set("h", REAL, 0.0 if h is None else float(h))
@@ -247,8 +300,8 @@ def weak(method, E, F=None, x0=None, f=None, *, h=None, halvings=4, component=No
     Returns a Result: converges (True, False, or None: undecided), message, and arrays h, value, error, order,
     rounding, usable over the runs, exact, index, convention, source, note, mesh.
     """
-    if not 2 <= halvings <= 20:
-        raise ValueError("halvings must lie within 2 and 20, not %s: three runs give a verdict" % halvings)
+    if not isinstance(halvings, (int, np.integer)) or not 2 <= halvings <= 20:
+        raise ValueError("halvings must be a whole number from 2 to 20, not %r: three runs give a verdict" % halvings)
     if isinstance(E, str):
         context = Context()
         try:
@@ -330,7 +383,7 @@ def c2d(A, B=None, C=None, D=None, *, dt, scheme="zoh", E=None):
                 raise SteifError(-8, "E x' = A x + B u has no finite part")
             P = part.array("polynomial", terms, s.get("m", INT), outputs)
             r.polynomial = [P[j].T for j in range(terms)]
-        if lib.steif_c2d(context.pointer, s.address, scheme.encode(), float(dt), d.address):
+        if lib.steif_c2d(context.pointer, s.address, choice("scheme", scheme), float(dt), d.address):
             raise context.error()
         n, m, p = _matrices(r, d.inner("form", "state_space"))
         for member in ("B0", "Bm", "B1"):

@@ -1,17 +1,19 @@
-"""Parameters of a problem: derivatives of its solution, fits to measurements, many runs at once."""
+"""Parameters of a problem: derivatives of its solution, fits to measurements."""
 import ctypes as c
+import difflib
 import inspect
 import os
 
 import numpy as np
 
 from ._library import INT, POINTER, REAL, WHOLE, Context, Struct, lib
-from ._solve import Result, _Interrupt, _known, _own, _refuse, _times, _tolerances
+from ._outputs import output_names
+from ._run import _ON_EVENT, Interrupt, Result
+from ._solve import checked_times, forget, is_named, known, own, refuse, tolerances, words
+from ._values import choice, real
 
 _OK, _EVENT, _NO_CONVERGENCE = 0, 2, -6  # of base.h
 _SCALES = ("auto", "log", "linear")  # enum steif_fit_scale
-_MEMBER = c.CFUNCTYPE(INT, POINTER, c.c_longlong, POINTER, POINTER, POINTER)
-_DONE = c.CFUNCTYPE(INT, POINTER, c.c_longlong, POINTER, POINTER, INT, POINTER, POINTER)
 
 
 def _names_of(f, count):
@@ -27,23 +29,28 @@ def _names_of(f, count):
 class _Parametrised:
     """A problem with its parameters: a callback f(t, y, *p), or one of the library by its name."""
 
-    def __init__(self, context, f, t_span, y0, p, jac, jac_sparsity, mass):
-        self.context, self.named = context, isinstance(f, (str, bytes, os.PathLike))
+    def __init__(self, context, f, t_span, y0, p, jac, jac_sparsity, mass, endless=False):
+        self.context, self.named = context, is_named(f)
         if self.named:
-            _refuse(f, y0=y0, jac=jac, jac_sparsity=jac_sparsity, mass=mass)
-            self.run, self.t0, self.t1 = _known(context, f, t_span)
-            self._of_the_library(p)
+            refuse(f, y0=y0, jac=jac, jac_sparsity=jac_sparsity, mass=mass)
+            self.run, self.t0, self.t1 = known(context, f, t_span, p, endless)
+            self._of_the_library()
         else:
             if p is None:
                 raise ValueError("the parameters p of f(t, y, *p) are missing")
-            self.value = np.array(p, dtype=float).ravel()
-            self.run, self.t0, self.t1 = _own(f, t_span, y0, self.value, jac, jac_sparsity, mass, None)
+            if hasattr(p, "items"):
+                raise ValueError("p of f(t, y, *p) must be the values in their order, not a dict")
+            self.value = np.array(real("p", p)).ravel()
+            if not self.value.size:
+                raise ValueError("p is empty: f(t, y, *p) needs one parameter at least")
+            self.run, self.t0, self.t1 = own(f, t_span, y0, self.value, jac, jac_sparsity, mass, None)
             self.names = _names_of(f, self.value.size)
             self._own_struct()
 
-    def _of_the_library(self, p):
+    def _of_the_library(self):
         address = self.run.problem.get("parameters", POINTER)
         if not address:
+            self.close()
             raise ValueError("this problem has no parameters")
         table = Struct("parameters", address=address)
         count = table.get("count", INT)
@@ -51,41 +58,34 @@ class _Parametrised:
         names = table.get("name", POINTER)
         self.names = ([name.decode() for name in (c.c_char_p * count).from_address(names)] if names
                       else ["p%d" % (k + 1) for k in range(count)])
-        if p is not None:
-            self._vary(dict(p))
-
-    def _vary(self, p):
-        """The problem with other values, in the place of the one at hand."""
-        for name in p:
-            if name not in self.names:
-                raise ValueError("no parameter %r; there are %s" % (name, ", ".join(self.names)))
-        old, names, values = self.run.problem, _words(p), _reals(p.values())
-        new = Struct("problem")
-        code = lib.steif_problem_vary(self.context.pointer, old.address, len(p), names,
-                                      values.ctypes.data, new.address)
-        if code:
-            raise self.context.error()
-        lib.steif_problem_clear(self.context.pointer, old.address)
-        self.run.problem = new
-        self._of_the_library(None)
 
     def _own_struct(self):
-        table, words = Struct("parameters"), _words(self.names)
+        table, names = Struct("parameters"), words(self.names)
         table.set("count", INT, self.value.size)
         table.set("value", POINTER, self.value.ctypes.data)
-        table.set("name", POINTER, words)
+        table.set("name", POINTER, names)
         self.run.problem.set("parameters", POINTER, table.address)
         self.run.problem.kept["parameters"] = table, self.value
+
+    def number(self, one):
+        """Of a name, or a number from 0."""
+        if isinstance(one, str):
+            k = lib.steif_parameter_find(self.context.pointer, self.run.problem.address, one.encode())
+            if k < 0:
+                raise ValueError("%s; there are %s" % (self.context.sentence(), ", ".join(self.names[:12])))
+            return k
+        if isinstance(one, (bool, np.bool_)) or not isinstance(one, (int, np.integer)) or not 0 <= one < len(self.names):
+            raise ValueError("%r is no parameter: give one of the names %s, or a number from 0 to %d" % (
+                one, ", ".join(self.names[:12]), len(self.names) - 1))
+        return int(one)
 
     def numbers(self, which):
         """Of names, numbers from 0, or None: all."""
         if which is None:
             return np.arange(len(self.names), dtype=c.c_int)
-        found = []
-        for one in [which] if isinstance(which, (str, int)) else which:
-            if isinstance(one, str) and one not in self.names:
-                raise ValueError("no parameter %r; there are %s" % (one, ", ".join(self.names)))
-            found.append(self.names.index(one) if isinstance(one, str) else int(one))
+        found = [self.number(one) for one in ([which] if isinstance(which, (str, int)) else which)]
+        if not found or len(set(found)) < len(found):
+            raise ValueError("by must name parameters, one at least and each once, got %r" % (which,))
         return np.array(found, dtype=c.c_int)
 
     def fitted(self):
@@ -97,14 +97,15 @@ class _Parametrised:
 
     def measured(self, key):
         """Of an unknown its number, of output k of a model n + k."""
-        if isinstance(key, str):
-            names = list(self.run.names or ["y%d" % (i + 1) for i in range(self.run.n)])
-            while (output := lib.steif_model_output(self.run.problem.address, len(names) - self.run.n)):
-                names.append(output.decode())
-            if key not in names:
-                raise ValueError("no unknown %r; there are %s" % (key, ", ".join(names[:12])))
+        names = list(self.run.names or ["y%d" % (i + 1) for i in range(self.run.n)]) + output_names(self.run.problem)
+        if isinstance(key, str) and key in names:
             return names.index(key)
-        return int(key)
+        if isinstance(key, (int, np.integer)) and not isinstance(key, bool) and 0 <= key < len(names):
+            return int(key)
+        near = difflib.get_close_matches(str(key), names, 1, 0.5)
+        raise ValueError("no unknown %r; there are %s%s%s" % (
+            key, ", ".join(names[:12]), ", ... (%d)" % len(names) if len(names) > 12 else "",
+            "; did you mean %r?" % near[0] if near else ", by number from 0 to %d" % (len(names) - 1)))
 
     def check(self, code):
         if self.run.raised:
@@ -114,15 +115,7 @@ class _Parametrised:
 
     def close(self):
         if self.named:
-            lib.steif_problem_clear(self.context.pointer, self.run.problem.address)
-
-
-def _words(names):
-    return (c.c_char_p * max(len(names), 1))(*[str(name).encode() for name in names])
-
-
-def _reals(values):
-    return np.ascontiguousarray(list(values), dtype=float)
+            forget(self.context, self.run)
 
 
 # -- derivatives ------------------------------------------------------------------------------------
@@ -138,19 +131,25 @@ def sensitivity(f, t_span=None, y0=None, *, p=None, by=None, method="radau:s=5",
     t_eval  times of the output; None: the end
     method  collocation, BDF or DIRK, cvodes or idas; and the other arguments of `solve`
 
-    Returns a Result: t, y (n x points), S (parameters x n x points), names (of the parameters), nsteps, method.
+    Returns a Result: t, y (n x points), S (parameters x n x points), names (of the parameters), nsteps, method, status
+    (0: the end was reached, 1: an event has ended the run), message. Where an event has, t ends with its time t_event,
+    y and S with what they are before what it does, S being the derivative at that fixed time; dt_event (one for each
+    parameter) is the derivative of t_event, and S_event (parameters x n) that of y at the event as it moves,
+    S + y' dt_event. dt_event and S_event are nan where an event grazes. moved and notes are as of `solve`.
     """
     context, problem = Context(), None
     try:
         problem = _Parametrised(context, f, t_span, y0, p, jac, jac_sparsity, mass)
         run, which = problem.run, problem.numbers(by)
-        _tolerances(run, rtol, atol, run.n)
+        if problem.t1 <= problem.t0:
+            raise ValueError("t_span is the one point %g: derivatives need an interval" % problem.t0)
+        tolerances(run, rtol, atol, run.n)
         for member, kind, value in (("t1", REAL, problem.t1), ("sensitivities", INT, 1),
                                     ("active_count", INT, which.size)):
             run.options.set(member, kind, value)
         run.options.set("active", POINTER, which.ctypes.data)
-        times = _times(t_eval, problem.t0, problem.t1)
-        with _Interrupt(run.options):
+        times = checked_times(t_eval, problem.t0, problem.t1)
+        with Interrupt(run.options, alone=problem.named):
             return _derivatives(problem, method, [problem.t1] if times is None else times, which)
     finally:
         if problem is not None:
@@ -158,25 +157,58 @@ def sensitivity(f, t_span=None, y0=None, *, p=None, by=None, method="radau:s=5",
         context.close()
 
 
+def _before_events(run):
+    """A list that holds y before the event that came last."""
+    seen = []
+
+    def told(solver, t, y, fired, user):
+        seen[:] = [np.array(run.read(y))]
+
+    run.options.set("on_event", POINTER, _ON_EVENT(run.guarded(told)))
+    return seen
+
+
+def _at_event(problem, solver, work, view, which, r):
+    """The derivatives of the time of the event that has ended a run, and of y there."""
+    r.t_event, r.dt_event = float(r.t[-1]), np.full(which.size, np.nan)
+    r.S_event, dt = np.full((which.size, problem.run.n), np.nan), REAL()
+    for j, k in enumerate(which):
+        if lib.steif_sensitivity_event(solver, int(k), c.byref(dt), work):
+            r.message += "; no dt_event: " + lib.steif_message(problem.context.pointer).decode()
+            break
+        r.dt_event[j], r.S_event[j] = dt.value, view
+
+
 def _derivatives(problem, method, times, which):
     run, pointer = problem.run, problem.context.pointer
-    solver = lib.steif_solver_new(pointer, run.problem.address, method.encode(), run.options.address)
+    before = _before_events(run)
+    solver = lib.steif_solver_new(pointer, run.problem.address, choice("method", method), run.options.address)
     if not solver:
         problem.check(lib.steif_status(pointer))
     work = lib.N_VClone(lib.steif_solution(solver))
     try:
         r, view = Result(), np.frombuffer((REAL * run.n).from_address(lib.N_VGetArrayPointer(work)))
         r.t, r.y = np.array(times, dtype=float), np.zeros((run.n, len(times)))
-        r.S = np.zeros((which.size, run.n, len(times)))
+        r.S, r.status, r.message = np.zeros((which.size, run.n, len(times))), 0, "ok"
         for i, t in enumerate(r.t):
-            problem.check(lib.steif_solve_to(solver, t) if t > problem.t0 else 0)
-            r.y[:, i] = run.arrays.vector(lib.steif_solution(solver), run.n)
+            code = lib.steif_solve_to(solver, t) if t > problem.t0 else 0
+            problem.check(0 if code == _EVENT else code)
+            r.y[:, i] = run.read(lib.steif_solution(solver))
+            if code == _EVENT:
+                r.status, r.message = 1, lib.steif_message(pointer).decode()
+                r.t, r.y, r.S = r.t[:i + 1], r.y[:, :i + 1], r.S[:, :, :i + 1]
+                r.t[i] = t = lib.steif_time(solver)
+                r.y[:, i] = before[0]
             for j, k in enumerate(which):
                 problem.check(lib.steif_sensitivity(solver, t, int(k), work))
                 r.S[j, :, i] = view
+            if code == _EVENT:
+                _at_event(problem, solver, work, view, which, r)
+                break
         stats = Struct("stats", address=lib.steif_statistics(solver))
         r.nsteps, r.method = stats.get("steps", c.c_long), lib.steif_method_used(solver).decode()
         r.names = [problem.names[k] for k in which]
+        r.moved, r.notes = run.started(solver)
         return r
     finally:
         lib.N_VDestroy(work)
@@ -188,25 +220,34 @@ def _derivatives(problem, method, times, which):
 
 def _columns(problem, t, data, sd):
     """Measurements one by one: times, values, standard deviations or None, components."""
-    t = np.asarray(t, dtype=float).ravel()
+    t = np.array(real("t", t)).ravel()
     keys = list(data) if isinstance(data, dict) else list(range(np.atleast_2d(data).shape[0]))
-    rows = [np.asarray(data[k] if isinstance(data, dict) else np.atleast_2d(data)[k], dtype=float)
-            for k in keys]
+    rows = [real("data", data[k] if isinstance(data, dict) else np.atleast_2d(data)[k]) for k in keys]
     if any(row.shape != t.shape for row in rows):
         raise ValueError("data must have %d values for each unknown, one for each time" % t.size)
     if not isinstance(data, dict) and len(rows) != problem.run.n:
         raise ValueError("data has %d rows, there are %d unknowns; a dict {unknown: values} names some"
                          % (len(rows), problem.run.n))
-    widths = None
-    if sd is not None:
-        widths = [np.broadcast_to(np.asarray(sd[k] if isinstance(sd, dict) else sd, dtype=float)
-                                  if isinstance(sd, dict) or np.ndim(sd) < 2 else np.asarray(sd)[i],
-                                  t.shape) for i, k in enumerate(keys)]
+    if t.size and (np.min(t) < problem.t0 or np.max(t) > problem.t1 > problem.t0):
+        raise ValueError("times of measurements lie outside of the interval from %g to %g: give t_span"
+                         % (problem.t0, problem.t1))
+    widths = None if sd is None else [_deviations(sd, i, k, t) for i, k in enumerate(keys)]
     given = [np.isfinite(row) for row in rows]
     pick = lambda parts: np.concatenate([np.asarray(part)[g] for part, g in zip(parts, given)])
     component = [np.full(t.shape, problem.measured(k)) for k in keys]
     return (pick([t] * len(rows)), pick(rows), None if widths is None else pick(widths),
             pick(component).astype(WHOLE))
+
+
+def _deviations(sd, i, key, t):
+    """Of row i of the data: one number, as many as there are times, or a row of an array like data."""
+    if isinstance(sd, dict) and key not in sd:
+        raise ValueError("sd has nothing of %r: give a number or an array for each key of data" % (key,))
+    own = sd[key] if isinstance(sd, dict) else sd
+    own = real("sd", own if isinstance(sd, dict) or np.ndim(sd) < 2 or i >= len(sd) else sd[i])
+    if own.shape not in ((), (1,), t.shape):
+        raise ValueError("sd has the shape %s, one number or %d, one for each time, are needed" % (own.shape, t.size))
+    return np.broadcast_to(own, t.shape)
 
 
 def _measurements(problem, t, data, sd):
@@ -233,13 +274,15 @@ def _fit_options(problem, which, start, bounds, scale, starts):
     o = Struct("fit_options")
     o.set("run", POINTER, problem.run.options.address)
     o.set("count", INT, which.size)
-    low, high = np.full(which.size, -np.inf), np.full(which.size, np.inf)
-    for i, k in enumerate(which):
-        a, b = (bounds or {}).get(problem.names[k], (None, None))
-        low[i], high[i] = (-np.inf if a is None else a), (np.inf if b is None else b)
-    unknown = set(bounds or {}) - {problem.names[k] for k in which}
-    if unknown:
-        raise ValueError("bounds of %s, which is not fitted" % ", ".join(sorted(unknown)))
+    low, high, places = np.full(which.size, -np.inf), np.full(which.size, np.inf), list(which)
+    for name, pair in (bounds or {}).items():
+        k = problem.number(name)
+        if k not in places:
+            raise ValueError("bounds of %s, which is not fitted: name it in by" % name)
+        if np.shape(pair) != (2,):
+            raise ValueError("bounds of %s must be (low, high), None for no bound, got %r" % (name, pair))
+        at = places.index(k)
+        low[at], high[at] = (limit if value is None else value for value, limit in zip(pair, (-np.inf, np.inf)))
     for member, array in (("parameter", which), ("low", low), ("high", high), ("start", start)):
         o.set(member, POINTER, array.ctypes.data)
         o.kept[member] = array
@@ -259,31 +302,41 @@ def fit(f, t=None, data=None, *, p=None, y0=None, t_span=None, by=None, sd=None,
     p       values to begin with; of a named problem a dict of those that are to be others
     t_span  None: of f from 0 to the last time, of a named problem its own
     by      names or numbers of the parameters to find; None: those that a model names, `fit k`, else all
-    sd      standard deviations: one number, an array like data, or {unknown: number or array}; None: not known
+    sd      standard deviations: one number, an array like data, or {unknown: number or array}; None: not known.
+            Given ones are taken for known: covariances are not scaled by chi2/dof, and intervals are normal, 1.96 sd
+            to each side; else they are estimated by chi2/dof, and intervals are those of Student's t
     bounds  {name: (low, high)}, None for no bound
     scale   "log", "linear", or "auto": log where starts and bounds are positive
     starts  descents, the others from points between the bounds
 
-    Returns a Result: p, names, sd, low, high (95 % intervals), covariance and correlation (of log p, or p over its
-    size: `log` says which), chi2, dof, residual, undetermined, runs, success, message.
+    Returns a Result: p, names, sd, low, high (95 % intervals), covariance and correlation of p (sd is the root of the
+    diagonal; inf and nan where the data do not tell), covariance_theta (of log p where `log`, else of p over its size),
+    chi2, dof, probability (of a chi2 as large, where sd is given; else nan), known_sd, residual, undetermined, runs,
+    method (what "auto" took), success, message.
     """
+    if bounds is not None and not hasattr(bounds, "items"):
+        raise ValueError("bounds must be a dict, {name: (low, high)}, got %r" % (bounds,))
     if scale not in _SCALES:
         raise ValueError("scale must be one of %s" % ", ".join(_SCALES))
     context, problem, found, data_read, own = Context(), None, Struct("fit"), None, False
-    named = isinstance(f, (str, bytes, os.PathLike))
+    named = is_named(f)
     if data is None and not named:
         raise ValueError("data is missing: only a model names its own")
+    if t is None and not isinstance(data, (str, bytes, os.PathLike, type(None))):
+        raise ValueError("t is missing: the times of the measurements")
     if t_span is None and not named:
-        t_span = (0.0, float(np.max(t)))
+        if t is None or not np.size(t):
+            raise ValueError("t_span is missing: (t0, t1), from the start to the last time of the file")
+        t_span = (0.0, float(np.max(real("t", t))))
     try:
-        problem = _Parametrised(context, f, t_span, y0, p, jac, jac_sparsity, mass)
+        problem = _Parametrised(context, f, t_span, y0, p, jac, jac_sparsity, mass, endless=True)
         which = problem.numbers(problem.fitted() if by is None else by)
-        _tolerances(problem.run, rtol, atol, problem.run.n)
+        tolerances(problem.run, rtol, atol, problem.run.n)
         problem.run.options.set("t1", REAL, problem.t1)
         data_read, own = _measurements(problem, t, data, sd)
         options = _fit_options(problem, which, problem.value[which].copy(), bounds, scale, starts)
-        with _Interrupt(problem.run.options):
-            code = lib.steif_fit_find(context.pointer, problem.run.problem.address, method.encode(),
+        with Interrupt(problem.run.options, alone=problem.named):
+            code = lib.steif_fit_find(context.pointer, problem.run.problem.address, choice("method", method),
                                       data_read.address, options.address, found.address)
         if code != _NO_CONVERGENCE:
             problem.check(code)
@@ -301,86 +354,13 @@ def _fitted(found, code, names):
     r, count = Result(), found.get("count", INT)
     for member in ("p", "sd", "low", "high"):
         setattr(r, member, found.array(member, count))
-    for member in ("covariance", "correlation"):
+    for member in ("covariance", "correlation", "covariance_theta"):
         setattr(r, member, found.array(member, count, count))
     r.residual = found.array("residual", found.get("residuals", c.c_size_t))
     r.names, r.log, r.chi2 = names, bool(found.get("log", INT)), found.get("chi2", REAL)
     r.dof, r.runs = found.get("dof", c.c_long), found.get("runs", c.c_long)
+    r.known_sd, r.probability = bool(found.get("known", INT)), found.get("probability", REAL)
+    r.method = found.text("used")
     r.undetermined, r.message = found.get("undetermined", INT), found.text("message")
     r.success = code == _OK
     return r
-
-
-# -- many runs --------------------------------------------------------------------------------------
-
-
-def _told(run, work):
-    """A callback whose code counts; an exception is raised again after the runs."""
-
-    def call(*arguments):
-        try:
-            return work(*arguments)
-        except BaseException as reason:
-            run.raised = run.raised or reason
-            return -1
-
-    return call
-
-
-def sweep(f, values, *, t1=None, method="auto", rtol=1e-6, atol=None, threads=0):
-    """End values of a named problem, or model file, for many values of its parameters, on all cores.
-
-    values   {name: one value for each run}; all of one length
-    threads  0: as many as there are cores
-
-    Returns a Result: y (n x runs, NaN where a run failed), status (of each, 0: fine), values, names.
-    """
-    columns = {name: np.asarray(column, dtype=float).ravel() for name, column in values.items()}
-    lengths = {column.size for column in columns.values()}
-    if len(lengths) != 1 or not min(lengths):
-        raise ValueError("values must hold one number for each run, the same for all parameters")
-    count, context, problem = lengths.pop(), Context(), None
-    try:
-        problem, start, end = _known(context, f, None)
-        end = end if t1 is None else float(t1)
-        _tolerances(problem, rtol, atol, problem.n)
-        problem.options.set("t1", REAL, end)
-        r = Result()
-        r.y, r.status = np.full((problem.n, count), np.nan), np.zeros(count, dtype=int)
-        r.values, r.names = columns, problem.names
-        names, rows = _words(columns), np.ascontiguousarray(np.array(list(columns.values())).T)
-
-        def member(ctx, i, to, options, user):
-            other = Struct("problem")
-            code = lib.steif_problem_vary(ctx, to, len(columns), names, rows[i].ctypes.data,
-                                          other.address)
-            if not code:
-                c.memmove(to, other.address, other.size)
-            return code
-
-        def done(ctx, i, own, solver, code, record, user):
-            r.status[i] = code
-            if solver and code in (_OK, _EVENT):
-                r.y[:, i] = (REAL * problem.n).from_address(
-                    lib.N_VGetArrayPointer(lib.steif_solution(solver)))
-            return 0
-
-        calls = _MEMBER(_told(problem, member)), _DONE(_told(problem, done))
-        e, interrupt = Struct("ensemble_options"), _Interrupt(problem.options)
-        for name, kind, value in (("problem", POINTER, c.c_char_p(os.fspath(f).encode())),
-                                  ("method", POINTER, c.c_char_p(method.encode())),
-                                  ("options", POINTER, problem.options.address),
-                                  ("stop", POINTER, c.addressof(interrupt.flag)),
-                                  ("threads", INT, int(threads))):
-            e.set(name, kind, value)
-        with interrupt:
-            code = lib.steif_ensemble(context.pointer, count, calls[0], calls[1], e.address)
-        if problem.raised:
-            raise problem.raised
-        if code:
-            raise context.error()
-        return r
-    finally:
-        if problem is not None:
-            lib.steif_problem_clear(context.pointer, problem.problem.address)
-        context.close()

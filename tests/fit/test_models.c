@@ -71,6 +71,57 @@ static void what_a_model_says_is_used(void)
   steif_context_free(&ctx);
 }
 
+/* The header of a file beside a model with units; the code of reading it. */
+static int read_units(steif_context *ctx, const char *header, steif_measurements *data)
+{
+  static const char text[] =
+    "param k = 1 {1/s}\nstate x = 1 {m}, u[i in 1:2] = 1 {K}\nstate z = 1\n"
+    "x' = -k*x\nz' = -z\nfor i in 1:2\nu[i]' = -u[i]\nend\n"
+    "output w = 2*x {mm}\ntime 0 to 1 {s}\n";
+  char folder[256], path[300];
+  steif_problem p;
+  CU_ASSERT_FATAL(!steif_model_parse(ctx, text, "units", NULL, &p));
+  CHECK(folder_make(folder, sizeof folder) != NULL);
+  snprintf(path, sizeof path, "%s/u.csv", folder);
+  FILE *file = fopen(path, "w");
+  fprintf(file, "%s\n0.5,1,2\n", header);
+  fclose(file);
+  const int code = steif_measurements_read(ctx, &p, path, 0, 0, 0, NULL, data);
+  remove(path), remove(folder);
+  steif_problem_clear(ctx, &p);
+  return code;
+}
+
+static void units_are_read(void)
+{
+  static const char *const good[] = {
+    "t {s},x {m},w {mm}", "t,x,w",       "t{s}, x{m} ,\"w {mm}\"",
+    "t {s},x,z {any}",    "t {},x {},w", "t {s},u[1] {K},u[2] {K}",
+    "t,x {m},sd_x {m}"};
+  static const struct {
+    const char *header, *part;
+  } bad[] = {
+    {"t {h},x,w",
+     "line 1, column 1: 't' is in {h}, and problem 'units' has it in {s}; convert one"},
+    {"t,x {mm},w", "line 1, column 2: 'x' is in {mm}, and problem 'units' has it in {m}"},
+    {"t,x,w {m}", "line 1, column 3: 'w' is in {m}, and problem 'units' has it in {mm}"},
+    {"t,x,u[2] {m}", "column 3: 'u[2]' is in {m}, and problem 'units' has it in {K}"},
+    {"t,x,sd_x {mm}", "column 3: 'x' is in {mm}, and problem 'units' has it in {m}"}};
+  steif_context *ctx = steif_context_new(NULL);
+  steif_measurements data;
+  for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+    CHECK(!read_units(ctx, good[i], &data) && data.count > 0);
+    if (!data.count) printf("\n  '%s': %s", good[i], steif_message(ctx));
+    steif_measurements_free(ctx, &data);
+  }
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    CHECK(read_units(ctx, bad[i].header, &data) == STEIF_BAD_INPUT && !data.count);
+    CHECK(strstr(steif_message(ctx), bad[i].part) != NULL);
+    if (!strstr(steif_message(ctx), bad[i].part)) printf("\n  %s", steif_message(ctx));
+  }
+  steif_context_free(&ctx);
+}
+
 static void wrong_words_are_told(void)
 {
   static const struct {
@@ -105,6 +156,7 @@ static void wrong_words_are_told(void)
   steif_context_free(&ctx);
 }
 
-CU_TestInfo tests_of_models[] = {{"what a model says is used", what_a_model_says_is_used},
+CU_TestInfo tests_of_models[] = {{"units are read", units_are_read},
+                                 {"what a model says is used", what_a_model_says_is_used},
                                  {"wrong words are told", wrong_words_are_told},
                                  CU_TEST_INFO_NULL};

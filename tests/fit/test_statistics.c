@@ -30,6 +30,39 @@ static void quantiles_of_student(void)
   steif_context_free(&ctx);
 }
 
+/* Of one, two and four degrees of freedom erfc(sqrt(x)), e^-x and (1 + x) e^-x with x = chi2/2; the others: SciPy 1.10,
+ * scipy.stats.chi2.sf. */
+static void chi_square(void)
+{
+  static const struct {
+    double chi2;
+    long dof;
+    double probability;
+  } known[] = {{18.307038053275146, 10, 0.05},       {30, 19, 0.05179845889302389},
+               {30, 20, 0.06985366069940986},        {1, 30, 1},
+               {1200, 1000, 1.2255942330622893e-05}, {999333.3333, 1000000, 0.681193168809064}};
+  steif_context *ctx = steif_context_new(NULL);
+  double Q = 0;
+  for (double x = 1e-30; x < 300; x = x < 1e-3 ? 1000 * x : 1.3 * x) {
+    CHECK(!steif_chi_square(ctx, 2 * x, 1, &Q));
+    CLOSE(Q, erfc(sqrt(x)), 1e-11);
+    CHECK(!steif_chi_square(ctx, 2 * x, 2, &Q));
+    CLOSE(Q, exp(-x), 1e-11);
+    CHECK(!steif_chi_square(ctx, 2 * x, 4, &Q));
+    CLOSE(Q, (1 + x) * exp(-x), 1e-11);
+  }
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    CHECK(!steif_chi_square(ctx, known[i].chi2, known[i].dof, &Q));
+    CLOSE(Q, known[i].probability, 1e-10);
+  }
+  CHECK(!steif_chi_square(ctx, 0, 3, &Q) && Q == 1);
+  CHECK(!steif_chi_square(ctx, INFINITY, 3, &Q) && Q == 0);
+  CHECK(steif_chi_square(ctx, -1, 3, &Q) == STEIF_BAD_INPUT);
+  CHECK(steif_chi_square(ctx, NAN, 3, &Q) == STEIF_BAD_INPUT);
+  CHECK(steif_chi_square(ctx, 1, 0, &Q) == STEIF_BAD_INPUT);
+  steif_context_free(&ctx);
+}
+
 /* A = U diag(s) V^T of two rotations and a column that is a multiple of another. */
 static void singular_values(void)
 {
@@ -46,5 +79,6 @@ static void singular_values(void)
 }
 
 CU_TestInfo tests_of_statistics[] = {{"quantiles of Student", quantiles_of_student},
+                                     {"chi-square distribution", chi_square},
                                      {"singular values", singular_values},
                                      CU_TEST_INFO_NULL};

@@ -74,10 +74,11 @@ static void dense_output_has_its_order(void)
 static void dense_output_meets_both_ends(void)
 {
   static const char *const methods[] = {
-    "radau:s=3", "gauss:s=2",   "lobatto3c:s=3", "bdf:p=4", "dirk:hw43", "dirk:crouzeix23",
-    "rk4",       "dirk:trbdf2", "rodas4",        "rodas5p", "dopri87"};
+    "radau:s=3",       "gauss:s=2", "lobatto3c:s=3", "bdf:p=4", "dirk:hw43",
+    "dirk:crouzeix23", "rk4",       "dirk:trbdf2",   "rodas4",  "rodas5p",
+    "dopri87",         "exprb32",   "exprb43"};
   steif_context *ctx = steif_context_new(NULL);
-  for (int m = 0; m < 11; m++)
+  for (int m = 0; m < 13; m++)
     for (int chosen = 0; chosen < 2; chosen++) {
       steif_method_info info;
       steif_options o = steif_defaults();
@@ -99,6 +100,61 @@ static void dense_output_meets_both_ends(void)
       N_VDestroy(y), N_VDestroy(before);
       steif_solver_free(&s);
     }
+  steif_context_free(&ctx);
+}
+
+/* y' = k y, k = 3 up to an event at 1.3 and -2 from there on. Long steps of methods that evaluate f for dense output,
+ * which has changed when they are asked. */
+static double growth;
+
+static int grows(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  (void)t, (void)user;
+  N_VScale(growth, y, ydot);
+  return 0;
+}
+
+static int passes(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  (void)y, (void)user;
+  g[0] = t - 1.3;
+  return 0;
+}
+
+static int turns(sunrealtype t, N_Vector y, const int *fired, void *user)
+{
+  (void)t, (void)y, (void)fired, (void)user;
+  growth = -2;
+  return STEIF_RESTART;
+}
+
+static void times_before_an_event_are_as_they_were(void)
+{
+  static const char *const methods[] = {"dopri87", "exprb32", "exprb43", "radau:s=3",
+                                        "bdf",     "cvode",   "arkode"};
+  static const sunrealtype one = 1;
+  steif_context *ctx = steif_context_new(NULL);
+  for (int m = 0; m < 7; m++) {
+    const steif_problem p = {.name = "turning",
+                             .n = 1,
+                             .t1 = 2,
+                             .y0 = &one,
+                             .f = grows,
+                             .events = 1,
+                             .event = passes,
+                             .handle_event = turns};
+    steif_options o = steif_defaults();
+    o.rtol = 1e-7;
+    growth = 3;
+    steif_solver *s = steif_solver_new(ctx, &p, methods[m], &o);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(s);
+    for (int k = 1; k <= 20; k++) {
+      const double t = 0.1 * k, exact = t < 1.3 ? exp(3 * t) : exp(3.9 - 2 * (t - 1.3));
+      CHECK(!steif_solve_to(s, t));
+      CLOSE(NV_Ith_S(steif_solution(s), 0), exact, 5e-5);
+    }
+    steif_solver_free(&s);
+  }
   steif_context_free(&ctx);
 }
 
@@ -294,6 +350,7 @@ CU_TestInfo tests_of_dense[] = {
   {"dense output has its order", dense_output_has_its_order},
   {"algebraic components have their order", algebraic_components_have_their_order},
   {"dense output meets both ends", dense_output_meets_both_ends},
+  {"times before an event", times_before_an_event_are_as_they_were},
   {"times between steps are dense output", times_between_steps_are_dense_output},
   {"outside the last step is refused", outside_the_last_step_is_refused},
   {"stages make the step", stages_make_the_step},

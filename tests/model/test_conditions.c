@@ -184,6 +184,40 @@ static void plateaus_without_events(void)
   }
 }
 
+/* The ball of 1 m with e = 0.8 is slower than 0.01 m/s after 28 bounces, 4.42945 0.8^28 = 0.00857; what is true of the
+ * speed it leaves with is no reason to stop at the first. It comes down at T + 2 T (e + ... + e^28), T = sqrt(2/g). */
+static void a_bounce_is_over_for_other_conditions(void)
+{
+  static const char *const bounce[] = {"v = -e*v", "\n  h = 0\n  v = -e*v\nend"};
+  const double T = sqrt(2 / 9.81);
+  double end = T, power = 1;
+  for (int k = 1; k <= 28; k++) end += 2 * T * (power *= 0.8);
+  for (int i = 0; i < 4; i++) {
+    char text[400];
+    const char *stop = "when h < 0 and v > -0.01: s = t\n";
+    snprintf(
+      text, sizeof text,
+      "param g = 9.81, e = 0.8\nstate z = 0, h = 1, v = 0\ndiscrete s = 0, over = 0\n"
+      "z' = 0\nh' = v\nv' = -g\n%swhen h < 0: %s\n%swhen s > 1 and over < 0.5:\n  z = s\n"
+      "  over = 1\nend\ntime 0 to 4.063\n",
+      i / 2 ? "" : stop, bounce[i % 2], i / 2 ? stop : "");
+    fixture_reaches(text, end, 1e-6);
+  }
+}
+
+/* From exactly 0: x = 2 - t, n counts; a speed that an assignment has made 0, and friction after that. */
+static void what_leaves_zero_fires(void)
+{
+  fixture_reaches("state k = 0, v = 0\ndiscrete a = 0\nk' = 0\nv' = -a\nat 1: a = 1\n"
+                  "when v < 0: k = k + 1\ntime 0 to 2\n",
+                  1, 1e-12);
+  fixture_reaches(
+    "state k = 0, x = 1, v = -1\ndiscrete a = 0, m = 0\nk' = 0\nx' = v\nv' = -a\n"
+    "when x < 0: v = 0\nat 2: a = 1\nwhen v < 0 and a > 0.5:\n  k = k + 1\n  a = 0\n"
+    "  v = 0\nend\ntime 0 to 3\n",
+    1, 1e-12);
+}
+
 /* Pulses of one unit, whatever the argument of the table: the integral is their number, in units of the argument. The daily
  * profile has 3 + 2 + 3 + 5 in four hours. */
 static void tables_have_events_for_any_argument(void)
@@ -197,6 +231,10 @@ static void tables_have_events_for_any_argument(void)
   fixture_reaches(PULSES ", x[i in 1:5] = i/10\nfor i in 1:5\nx[i]' = 1 + p(x[i])\nend\n"
                          "e' = p(x[3])\ntime 0 to 50\n",
                   1, 1e-7);
+  fixture_reaches(
+    "table q = (0, 0), (5, 0), (5.05, 4.5), (5.1, 0), (24, 0) linear\nstate e = 0\n"
+    "e' = q(mod(t, 24))\ntime 0 to 239\n",
+    2.25, 1e-6); /* ten peaks, each far narrower than the steps around it */
   fixture_reaches("table q = (0, 3), (1, 1), (2, 5) linear\nstate e = 0\n"
                   "e' = q(mod(t, 4) - 1)\ntime 0 to 40\n",
                   130, 1e-6);
@@ -267,6 +305,8 @@ CU_TestInfo tests_of_conditions[] = {
   {"conditions are counted once", conditions_are_counted_once},
   {"plateaus without events", plateaus_without_events},
   {"plateaus and touches", plateaus_and_touches},
+  {"a bounce is over for other conditions", a_bounce_is_over_for_other_conditions},
+  {"what leaves zero fires", what_leaves_zero_fires},
   {"tables have events for any argument", tables_have_events_for_any_argument},
   {"events in any order", events_in_any_order},
   {"algebraic signs leave zero", algebraic_signs_leave_zero},

@@ -99,19 +99,71 @@ static void switches_in_loops(void)
   fixture_close(&s);
 }
 
-/* h stands in line 2 as well, where it is no condition. */
+/* Names of events, with what they have become when their functions rise and fall, in the order of the text. */
 static void are_named_by_what_they_are(void)
 {
+  static const char text[] =
+    "param n = 2 whole\ntable p = (0, 1), (5, 2), (9, 0) steps\n"
+    "state u[i in 1:n] = 0.5, h = 2, v = 0\nfunction lim(w) = if w >= 9 then 9 else w\n"
+    "for i in 1:n\n  u[i]' = if not (u[i] - h < 1.5*(v + 1)) then 1 else 0\nend\n"
+    "h' = v + 0*p(h) + 0*floor(h)\nv' = -1 + 0*lim(h) + 0*min(h,\n  v) + sign(v)*0\n"
+    "when h < 1 or (v>5 and h <= 2): v = v/2\nwhen h - 2*(v) rising: v = v\n"
+    "when abs(h) - 3 falling: v = v\nwhen h < 0: stop \"on the ground\"\nat 1, 2: v = v\n"
+    "every 3 from 4: v = v\ntime 0 to 9\n";
+  static const struct {
+    const char *name, *rises, *falls;
+  } e[] = {{"u[i] - h < 1.5*(v + 1) (line 6, i = 1)", "false", "true"},
+           {"u[i] - h < 1.5*(v + 1) (line 6, i = 2)", "false", "true"},
+           {"p(h) (line 8)", "changes", "changes"},
+           {"floor(h) (line 8)", "changes", "changes"},
+           {"w >= 9 (line 4)", "true", "false"},
+           {"min(h, v) (line 9)", "rising", "falling"},
+           {"sign(v) (line 10)", "falling", "rising"}, /* g = -v, and v */
+           {"sign(v) (line 10)", "rising", "falling"},
+           {"h < 1 (line 11)", "false", "true"},
+           {"v>5 (line 11)", "false", "true"},
+           {"h <= 2 (line 11)", "true", "false"},
+           {"h - 2*(v) (line 12)", "falling", "rising"},
+           {"on the ground", "false", "true"}, /* and where abs(h) has its kink */
+           {"abs(h) - 3 (line 13)", "rising", "falling"},
+           {"at 1, 2 (line 15)", "time", "time"},
+           {"every 3 from 4 (line 16)", "time", "time"}};
+  const int count = sizeof e / sizeof *e;
   fixture s;
-  CU_ASSERT_FATAL(!fixture_text(&s,
-                                "state h = 2, v = 0\nh' = v\nv' = -1 + 0*h\n"
-                                "when h < 1: v = v/2\nwhen h < 0: stop \"on the ground\"\n"
-                                "when h < -1: stop\ntime 0 to 9\n",
-                                ""));
-  CHECK(s.p.events == 3);
-  CHECK(!strcmp(s.p.event_list[0].name, "line 4"));
-  CHECK(!strcmp(s.p.event_list[1].name, "on the ground"));
-  CHECK(!strcmp(s.p.event_list[2].name, "line 6"));
+  CU_ASSERT_FATAL(!fixture_text(&s, text, ""));
+  CU_ASSERT_EQUAL_FATAL(s.p.events, count);
+  for (int i = 0; i < count; i++) {
+    CU_ASSERT_STRING_EQUAL(s.p.event_list[i].name, e[i].name);
+    CU_ASSERT_STRING_EQUAL(steif_model_turn(&s.p, i, 1), e[i].rises);
+    CU_ASSERT_STRING_EQUAL(steif_model_turn(&s.p, i, -1), e[i].falls);
+  }
+  CHECK(!steif_model_turn(&s.p, count, 1) && !steif_model_turn(&s.p, -1, 1));
+  fixture_close(&s);
+}
+
+/* Event k is at the number that is written k/10, and at none beside it. */
+static int is_where_it_is_written(steif_solver *solver, sunrealtype t, N_Vector y,
+                                  const int *fired, void *user)
+{
+  (void)solver, (void)y, (void)fired;
+  CHECK(t == ++*(int *)user / 10.0);
+  return 0;
+}
+
+static void times_are_as_written(void)
+{
+  fixture s;
+  int count = 0;
+  CU_ASSERT_FATAL(
+    !fixture_text(&s, "state x = 0\nx' = 1\nevery 0.1: x = 0\ntime 0 to 40.05\n", ""));
+  steif_options o = steif_defaults();
+  o.on_event = is_where_it_is_written;
+  o.observer = &count;
+  steif_solver *solver = steif_solver_new(s.ctx, &s.p, "bdf", &o);
+  CU_ASSERT_PTR_NOT_NULL_FATAL(solver);
+  CHECK(!steif_solve_to(solver, 40.05));
+  CHECK(count == 400);
+  steif_solver_free(&solver);
   fixture_close(&s);
 }
 
@@ -252,6 +304,7 @@ CU_TestInfo tests_of_events[] = {
   {"conditions of time", conditions_of_time_are_breaks},
   {"a short pulse", a_short_pulse_is_seen},
   {"at and every", times_come},
+  {"times as they are written", times_are_as_written},
   {"events cause events", events_cause_events},
   {"true at the start", a_condition_true_at_the_start_does_not_fire},
   {"switches in loops", switches_in_loops},

@@ -41,5 +41,23 @@ static void errors_grow_again(void)
   }
 }
 
-CU_TestInfo tests_of_growth[] = {{"errors that grow again", errors_grow_again},
-                                 CU_TEST_INFO_NULL};
+/* e^500 = 1.4e217, whose square is no number. */
+static void squares_that_overflow(void)
+{
+  static const char *const methods[] = {"auto",      "radau:s=3", "radau:s=5", "gauss:s=3",
+                                        "dirk:hw43", "rodas4",    "bdf",       "dopri87"};
+  fixture s;
+  double y[1];
+  CU_ASSERT_FATAL(fixture_text(&s, "state x = 1\nx' = x\ntime 0 to 500\n", "") == STEIF_OK);
+  for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
+    CHECK(fixture_run(&s, methods[k], 1e-8, y) == STEIF_OK);
+    CLOSE(y[0], exp(500), 1e-4);
+  }
+  fixture_close(&s);
+}
+
+CU_TestInfo tests_of_growth[] = {
+  {"errors that grow again", errors_grow_again},
+  {"squares that overflow", squares_that_overflow},
+  CU_TEST_INFO_NULL,
+};

@@ -256,7 +256,25 @@ static void guesses_between_solutions_are_refused(void)
   fixture_close(&s);
 }
 
+static void equations_are_named_by_the_text(void)
+{
+  static const char text[] =
+    "param n = 2 whole\nstate u[i in 1:n] = i, w[i in 1:n], z = 0, x = 1\nstate x' = 0\n"
+    "for i in 1:n\n  u[i]' = w[i]\n  sum: 0 = w[i] + u[i]\nend\n3*z' = 1\n"
+    "spring: x'' = -x\ntime 0 to 1\n";
+  static const char *const name[] = {
+    "u[1]' (line 5)", "u[2]' (line 5)", "sum (line 6, element 1)", "sum (line 6, element 2)",
+    "z' (line 8)",    "velocity of x",  "spring (line 9)"};
+  fixture s;
+  CU_ASSERT_FATAL(!fixture_text(&s, text, ""));
+  CU_ASSERT_EQUAL_FATAL(s.p.n, sizeof name / sizeof *name);
+  CU_ASSERT_PTR_NOT_NULL_FATAL(s.p.names->equation);
+  for (int i = 0; i < s.p.n; i++) CU_ASSERT_STRING_EQUAL(s.p.names->equation[i], name[i]);
+  fixture_close(&s);
+}
+
 CU_TestInfo tests_of_interface[] = {
+  {"equations are named by the text", equations_are_named_by_the_text},
   {"references belong to parameters", references_belong_to_parameters},
   {"moved guesses are told", moved_guesses_are_told},
   {"guesses between two solutions are refused", guesses_between_solutions_are_refused},

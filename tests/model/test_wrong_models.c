@@ -44,6 +44,12 @@ static const wrong models[] = {
    "m.steif:3:11: u[0] does not exist (i = 1; u runs from 1 to 100); begin the loop at 2 or "
    "add "
    "'boundary u[0] = ...'"},
+  {"state u[i in 1:4, j in 1:3] = 0\nfor i in 1:4\nfor j in 1:3\n  u[i,j]' = "
+   "u[i,j-1]\nend\nend\n"
+   "time 0 to 1\n",
+   "",
+   "m.steif:4:13: u[1,0] does not exist (i = 1, j = 1; its second index runs from 1 to 3); end "
+   "the loop earlier or add 'boundary u[i in 1:4, 0] = ...'"},
   {"state u[1:9] = 0\nfor i in 1:5\n  u[2*i]' = u[2*i]\nend\ntime 0 to 1\n", "",
    "m.steif:3:3: u[10] does not exist (i = 5; u runs from 1 to 9); end the loop at 4 or add "},
   {"state u[i in 1:3] = 0\nfor i in 1:10^12\nu[i]' = 0\nend\n", "",

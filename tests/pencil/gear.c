@@ -98,13 +98,13 @@ double gear_residual(const gear *g, steif_shift s, const double *xr, const doubl
   return worst / (norm * x_max + b_max);
 }
 
-static int times(const double *M, int n, N_Vector x, N_Vector out)
+static int times(const double *M, int n, bool transposed, N_Vector x, N_Vector out)
 {
   const double *from = N_VGetArrayPointer(x);
   double *to = N_VGetArrayPointer(out);
   for (int i = 0; i < n; i++) {
     to[i] = 0;
-    for (int j = 0; j < n; j++) to[i] += M[i + n * j] * from[j];
+    for (int j = 0; j < n; j++) to[i] += (transposed ? M[j + n * i] : M[i + n * j]) * from[j];
   }
   return 0;
 }
@@ -112,13 +112,25 @@ static int times(const double *M, int n, N_Vector x, N_Vector out)
 static int times_E(N_Vector x, N_Vector out, void *user)
 {
   const gear *g = user;
-  return times(g->E, g->n, x, out);
+  return times(g->E, g->n, false, x, out);
 }
 
 static int times_A(N_Vector x, N_Vector out, void *user)
 {
   const gear *g = user;
-  return times(g->A, g->n, x, out);
+  return times(g->A, g->n, false, x, out);
+}
+
+static int turned_E(N_Vector x, N_Vector out, void *user)
+{
+  const gear *g = user;
+  return times(g->E, g->n, true, x, out);
+}
+
+static int turned_A(N_Vector x, N_Vector out, void *user)
+{
+  const gear *g = user;
+  return times(g->A, g->n, true, x, out);
 }
 
 steif_operator gear_operator(gear *g)
@@ -128,4 +140,9 @@ steif_operator gear_operator(gear *g)
                           .user = g,
                           .dimension = 2 * GEAR_MOST,
                           .tolerance = 1e-11};
+}
+
+steif_transposed gear_transposed(const gear *g)
+{
+  return (steif_transposed){.E = g->identity ? NULL : turned_E, .A = turned_A};
 }

@@ -33,5 +33,6 @@ double gear_residual(const gear *g, steif_shift s, const double *xr, const doubl
                      const double *br, const double *bi);
 /* The operator of g for vectors with host arrays. */
 steif_operator gear_operator(gear *g);
+steif_transposed gear_transposed(const gear *g);
 
 #endif

@@ -68,6 +68,25 @@ class Impulse(unittest.TestCase):
         np.testing.assert_allclose(r.x_plus, at % 3 == 0, atol=1e-12)
         np.testing.assert_allclose(r.impulses[0], at % 3 == 1, atol=1e-12)
 
+    def test_models_and_problems_by_name(self):
+        # v = 4/(1 + C), and the impulse of i is the charge C v that the second capacitor takes.
+        text = "param C = 3\nstate v1 = 4, v2 = 0, i = 0\nv1' = -i\nC*v2' = i\n0 = v1 - v2\n"
+        r = steif.impulse(text)
+        np.testing.assert_allclose(r.x_plus, [1, 1, 0], atol=1e-12)
+        np.testing.assert_allclose(r.impulses, [[0, 0, 3]], atol=1e-12)
+        r = steif.impulse(text, x0=[2, 2, 5], p={"C": 1}, t=7)
+        np.testing.assert_allclose(r.x_plus, [2, 2, 0], atol=1e-12)
+        self.assertEqual((r.index, r.certified), (2, True))
+        r = steif.impulse("switchrlc")  # charge: (2*5 + 3*1)/5
+        np.testing.assert_allclose(r.x_plus[:2], [2.6, 2.6], rtol=1e-12)
+        for wrong, words in ((("rober",), "form ode"), (("switchrlc", np.eye(5)), "its own F"),
+                             ((np.eye(2),), "E and F are needed"), ((np.eye(2), np.eye(2)), "x0 is needed"),
+                             (("state x = 1",), "a line for each statement")):
+            with self.assertRaisesRegex((ValueError, steif.SteifError), words):
+                steif.impulse(*wrong)
+        with self.assertRaisesRegex(ValueError, "p belongs to models"):
+            steif.impulse(np.eye(2), np.eye(2), [1, 1], p={"C": 1})
+
     def test_failures_say_why(self):
         with self.assertRaisesRegex(steif.SteifError, "singular"):
             steif.impulse(np.zeros((2, 2)), np.zeros((2, 2)), [1, 1])

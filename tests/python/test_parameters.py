@@ -36,6 +36,26 @@ class Sensitivity(unittest.TestCase):
                 for e in (-d, d)]
         np.testing.assert_allclose(s.S[0, :, -1], (ends[1] - ends[0]) / (2 * d), rtol=1e-5)
 
+    def test_an_event_ends_the_run(self):
+        # y = h - g t^2/2 is 0 at sqrt(2 h/g), where v = -sqrt(2 g h) turns to -e v: y and S are those before that.
+        h, g = 2, 9.81
+        text = ("param h = 2, g = 9.81, e = 0.5\nstate y = h, v = 0\ny' = v\nv' = -g\n"
+                "when y < 0:\n v = -e*v\n stop \"landed\"\nend\ntime 0 to 5\n")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "drop.steif")
+            with open(path, "w") as file:
+                file.write(text)
+            s = steif.sensitivity(path, t_eval=[0.2, 0.4, 3.0], method="radau:s=3", rtol=1e-9)
+        tau = math.sqrt(2 * h / g)
+        self.assertEqual((s.status, s.S.shape), (1, (3, 2, 3)))
+        self.assertIn("landed", s.message)
+        np.testing.assert_allclose(s.t, [0.2, 0.4, tau], rtol=1e-10)
+        self.assertAlmostEqual(s.t_event, tau, 10)
+        np.testing.assert_allclose(s.dt_event, [tau / (2 * h), -tau / (2 * g), 0], rtol=1e-8, atol=1e-12)
+        np.testing.assert_allclose(s.y[1, -1], -g * tau, rtol=1e-9)
+        np.testing.assert_allclose(s.S[:, 1, -1], [0, -tau, 0], rtol=1e-8, atol=1e-10)
+        np.testing.assert_allclose(s.S_event[:, 1], [-g * tau / (2 * h), -tau / 2, 0], rtol=1e-8, atol=1e-10)
+
     def test_bad_requests(self):
         with self.assertRaisesRegex(ValueError, "no parameter 'q'"):
             steif.sensitivity(chain, (0, 1), [1, 0], p=[1, 2], by="q")
@@ -70,6 +90,17 @@ class Fit(unittest.TestCase):
         self.assertGreater(r.high[0], k)
         slope = np.sum((np.exp(-found * t) - data) * t * np.exp(-found * t))
         self.assertLess(abs(slope), 1e-8)
+
+    def test_covariances_and_intervals(self):
+        data = second(self.t, 0.9, 0.25) + 0.01 * np.cos(7 * self.t)
+        for sd in (0.01, None):
+            r = steif.fit(chain, self.t, {1: data}, p=[0.3, 0.1], y0=[1, 0], sd=sd)
+            self.assertEqual((r.log, r.known_sd), (True, sd is not None))
+            np.testing.assert_allclose(np.sqrt(np.diag(r.covariance)), r.sd, rtol=1e-12)
+            np.testing.assert_allclose(r.covariance, np.outer(r.p, r.p) * r.covariance_theta, rtol=1e-12)
+            quantile = np.log(r.high / r.p) / np.sqrt(np.diag(r.covariance_theta))
+            np.testing.assert_allclose(quantile, 1.959964 if sd else 2.364624, rtol=1e-6)  # t of 7
+            self.assertEqual(math.isnan(r.probability), sd is None)
 
     def test_an_output_is_measured(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -106,8 +137,12 @@ class Fit(unittest.TestCase):
         self.assertAlmostEqual(r.p[1], 0.24, 12)
         with self.assertRaisesRegex(ValueError, "9 values"):
             steif.fit(chain, self.t, {1: [1, 2]}, p=[1, 2], y0=[1, 0])
-        with self.assertRaisesRegex(ValueError, "not fitted"):
+        with self.assertRaisesRegex(ValueError, "no parameter 'q'"):
             steif.fit(chain, self.t, data, p=[1, 2], y0=[1, 0], bounds={"q": (0, 1)})
+        with self.assertRaisesRegex(ValueError, "bounds of m, which is not fitted"):
+            steif.fit(chain, self.t, data, p=[1, 2], y0=[1, 0], by=["k"], bounds={"m": (0, 1)})
+        with self.assertRaisesRegex(ValueError, "low, high"):
+            steif.fit(chain, self.t, data, p=[1, 2], y0=[1, 0], bounds={"m": 3})
         with self.assertRaisesRegex(ValueError, "no unknown 'z'"):
             steif.fit(chain, self.t, {"z": self.t}, p=[1, 2], y0=[1, 0])
 
@@ -130,8 +165,34 @@ class Sweep(unittest.TestCase):
         self.assertTrue(np.isnan(r.y[:, 1]).all() and np.isfinite(r.y[:, 0]).all())
         with self.assertRaisesRegex(ValueError, "same for all"):
             steif.sweep("rober", {"k1": [1, 2], "k2": [1]})
-        r = steif.sweep("rober", {"q": [1.0]}, t1=1)
-        self.assertLess(r.status[0], 0)
+
+    def test_what_cannot_run_is_told_before(self):
+        for wrong, sentence in ((lambda: steif.sweep("rober", {"K1": [1.0]}, t1=1), "did you mean 'k1'"),
+                                (lambda: steif.sweep("rober", {"K1": [math.nan]}, t1=1), "did you mean 'k1'"),
+                                (lambda: steif.sweep(chain, {"k": [1]}), "name of a problem"),
+                                (lambda: steif.sweep("rober", [1, 2]), "must be a dict"),
+                                (lambda: steif.sweep("rober", {"k1": [1]}, t1=-1), "after the start"),
+                                (lambda: steif.sweep("heat", {"n": [10, 20]}, t1=0.1), "10 unknowns and .* 400"),
+                                (lambda: steif.sensitivity("rober", (0, 1), by="K1"), "did you mean 'k1'"),
+                                (lambda: steif.sensitivity("rober", (0, 1), p={"K1": 1}), "did you mean 'k1'"),
+                                (lambda: steif.sensitivity("rober", (0, 1), p=[1]), "must be a dict"),
+                                (lambda: steif.sensitivity("rober", (0, 1), by=-1), "number from 0 to 2"),
+                                (lambda: steif.sensitivity("rober", (0, 0)), "interval"),
+                                (lambda: steif.fit("rober", [1, 2], {"y1": [1, 1]}, p={"K1": 1}), "did you mean 'k1'"),
+                                (lambda: steif.fit("rober", [1, 2], {"Y1": [1, 1]}), "did you mean 'y1'"),
+                                (lambda: steif.fit(chain, [1], {0: [1]}, p=[1, 2], y0=[1, 0], sd={1: 1}), "sd has nothing"),
+                                (lambda: steif.fit(chain, [1, 2], {0: [1, 2]}, p=[1, 2], y0=[1, 0], sd=[1, 2, 3]),
+                                 "sd has the shape"),
+                                (lambda: steif.fit(chain, [-1, 2], {0: [1, 2]}, p=[1, 2], y0=[1, 0]), "give t_span"),
+                                (lambda: steif.sensitivity(chain, (0, 1), [1, 0], p=[]), "p is empty"),
+                                (lambda: steif.fit("rober", None, {"y1": [1, 1]}), "t is missing")):
+            with self.assertRaisesRegex(ValueError, sentence):
+                wrong()
+        with self.assertRaisesRegex(steif.SteifError, "did you mean 'radau'"):
+            steif.sweep("rober", {"k1": [0.04]}, t1=1, method="radua")
+        r = steif.sweep("rober", {"k1": [0.04, math.nan]}, t1=1)
+        self.assertEqual(r.messages[0], "")
+        self.assertIn("k1", r.messages[1])
 
 
 if __name__ == "__main__":

@@ -81,8 +81,8 @@ static void same_matrix(const char *name, int implicit, int colours, sunrealtype
     N_VAddConst(y, 0.5, y), N_VConst(1, x), N_VConst(0, w);
     steif_mpi *m = steif_mpi_open(ctx, &b.p, "mumps", b.like);
     steif_mpi *known = steif_mpi_open(ctx, b.whole, "mumps", b.like);
-    const int done = m && known && !steif_mpi_solve(m, 0, y, w, 30, 0, 0, &x, &v) &&
-                     !steif_mpi_solve(known, 0, y, w, implicit ? 60 : 30, 0, 0, &x, &w);
+    const int done = m && known && !steif_mpi_solve(m, 0, y, w, 30, 0, 0, 1, &x, &v) &&
+                     !steif_mpi_solve(known, 0, y, w, implicit ? 60 : 30, 0, 0, 1, &x, &w);
     if (ALL(done)) {
       const steif_mpi_stats stats = steif_mpi_statistics(m);
       const long sweeps = 1 + (implicit ? 2 : 1) * stats.colours,
@@ -155,7 +155,7 @@ static void refused(const char *what, const char *name, int expected, const char
     if (!strcmp(what, "one has none") && last) b.p.pattern = NULL;
     steif_mpi *m = steif_mpi_open(ctx, &b.p, "mumps", b.like);
     const int code =
-      m ? steif_mpi_solve(m, 0, b.like, b.like, 1, 0, 0, &x, &x) : steif_status(ctx);
+      m ? steif_mpi_solve(m, 0, b.like, b.like, 1, 0, 0, 1, &x, &x) : steif_status(ctx);
     if (!(ALL(code == expected) & ALL(strstr(steif_message(ctx), word) != NULL)) && rank == 0)
       printf("  %s %s: %d, %s\n", what, name, code, steif_message(ctx));
     ALL(same(ctx));

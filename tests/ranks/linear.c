@@ -9,28 +9,6 @@
 #include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-int failures, rank, ranks;
-
-int everywhere(int condition, const char *text, const char *file, int line)
-{
-  int all = !!condition;
-  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-  if (!all && rank == 0) printf("%s:%d: not on all ranks: %s\n", file, line, text);
-  failures += !all;
-  return all;
-}
-
-int same(steif_context *ctx)
-{
-  char first[1100] = "";
-  snprintf(first, sizeof first, "%d %s", steif_status(ctx), steif_message(ctx));
-  char own[1100];
-  memcpy(own, first, sizeof own);
-  MPI_Bcast(first, sizeof first, MPI_CHAR, 0, MPI_COMM_WORLD);
-  if (strcmp(own, first)) printf("rank %d: %s\n", rank, own);
-  return !strcmp(own, first);
-}
-
 /* A pencil with entries far from the diagonal, not symmetric; E diagonal, singular in one row. */
 typedef struct pencil {
   sunindextype n, rows, first;
@@ -147,31 +125,39 @@ static sunrealtype distance(const pencil *k, N_Vector *x, int halves)
   return most;
 }
 
-/* Real and complex shifts, one analysis for each kind, algebraic row, transposed; n = 2 leaves ranks without rows. */
-static void solves(sunindextype n)
+/* b, and of column c > 0 it times c + 1, with the other sign where c is odd. */
+static sunrealtype times(int c) { return c % 2 ? -1 - c : 1 + c; }
+
+/* Real and complex shifts, one analysis for each kind, algebraic row, transposed; n = 2 leaves ranks without rows.
+ * `count` right-hand sides at once, x in their place. */
+static void solves(sunindextype n, int count)
 {
+  enum { MOST = 19 };
   static const sunrealtype shift[][2] = {{3, 0}, {0.5, 0}, {2, 1.5}, {0, 40}};
   steif_context *ctx = steif_context_new(NULL);
   pencil k = pencil_of(n);
   const steif_problem p = problem_of(&k);
-  N_Vector like = steif_mpi_vector(ctx, MPI_COMM_WORLD, k.rows);
-  N_Vector b[] = {N_VClone(like), N_VClone(like)}, x[] = {N_VClone(like), N_VClone(like)};
+  N_Vector like = steif_mpi_vector(ctx, MPI_COMM_WORLD, k.rows), b[2 * MOST];
+  for (int i = 0; i < 2 * count; i++) b[i] = N_VClone(like);
   ALL(steif_mpi_first(like) == k.first);
   steif_mpi *m = steif_mpi_open(ctx, &p, "mumps", like);
-  if (ALL(m != NULL))
-    for (int transposed = 0; transposed < 2; transposed++)
-      for (int i = 0; i < 4; i++) {
-        const sunrealtype re = shift[i][0], im = shift[i][1];
-        right_side(&k, re, im, transposed, b);
-        const int code = steif_mpi_solve(m, 0, like, like, re, im, transposed, b, x);
-        if (!ALL(code == STEIF_OK) || !ALL(distance(&k, x, im != 0 ? 2 : 1) < 1e-11))
-          printf("  rank %d, shift %g %g, transposed %d: %s\n", rank, re, im, transposed,
-                 steif_message(ctx));
-      }
-  if (m)
-    ALL(steif_mpi_statistics(m).fills == 1 && steif_mpi_statistics(m).backward_error < 1e-14);
+  for (int i = 0; ALL(m != NULL) && i < 8; i++) {
+    const sunrealtype re = shift[i % 4][0], im = shift[i % 4][1];
+    const int halves = im != 0 ? 2 : 1;
+    right_side(&k, re, im, i / 4, b);
+    for (int c = halves; c < halves * count; c++)
+      N_VScale(times(c / halves), b[c % halves], b[c]);
+    const int code = steif_mpi_solve(m, 0, like, like, re, im, i / 4, count, b, b);
+    for (int c = 0; c < halves * count; c++) N_VScale(1 / times(c / halves), b[c], b[c]);
+    for (int c = 0; c < count; c++)
+      if (!ALL(!code && distance(&k, b + halves * c, halves) < 1e-11))
+        printf("  shift %g %g, transposed %d: %s\n", re, im, i / 4, steif_message(ctx));
+  }
+  const steif_mpi_stats told = m ? steif_mpi_statistics(m) : (steif_mpi_stats){0};
+  ALL(told.fills == 1 && told.backward_error < 1e-14);
+  ALL(m && steif_mpi_solve(m, 0, like, like, 3, 0, 0, 0, b, b) == STEIF_BAD_INPUT);
   steif_mpi_free(&m);
-  for (int w = 0; w < 2; w++) N_VDestroy(b[w]), N_VDestroy(x[w]);
+  for (int i = 0; i < 2 * count; i++) N_VDestroy(b[i]);
   N_VDestroy(like);
   steif_context_free(&ctx);
 }
@@ -187,7 +173,7 @@ static void wrong(int which, int alone, const char *spec, int expected)
   N_Vector b[] = {N_VClone(like), NULL}, x[] = {N_VClone(like), NULL};
   N_VConst(1, b[0]);
   steif_mpi *m = steif_mpi_open(ctx, &p, spec, like);
-  const int code = m ? steif_mpi_solve(m, 0, like, like, 1, 0, 0, b, x) : steif_status(ctx);
+  const int code = m ? steif_mpi_solve(m, 0, like, like, 1, 0, 0, 1, b, x) : steif_status(ctx);
   if (!ALL(code == expected) && rank == 0)
     printf("  case %d, %s: %d, %s\n", which, spec, code, steif_message(ctx));
   ALL(same(ctx));
@@ -263,7 +249,7 @@ static void little_memory(void)
   N_Vector b = N_VClone(like);
   N_VConst(1, b);
   steif_mpi *m = steif_mpi_open(ctx, p, "mumps:memory=1", like);
-  ALL(m && steif_mpi_solve(m, 0, like, like, 1, 0, 0, &b, &b) == STEIF_NO_MEMORY);
+  ALL(m && steif_mpi_solve(m, 0, like, like, 1, 0, 0, 1, &b, &b) == STEIF_NO_MEMORY);
   ALL(same(ctx));
   steif_mpi_free(&m);
   N_VDestroy(b);
@@ -385,7 +371,7 @@ int main(int argc, char **argv)
   MPI_Comm_rank(MPI_COMM_WORLD, &rank), MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   ALL(early);
   const char *part = argc > 1 ? argv[1] : "solves bad runs differences";
-  if (strstr(part, "solves")) solves(60), solves(2), little_memory();
+  if (strstr(part, "solves")) solves(60, 1), solves(60, 19), solves(2, 3), little_memory();
   if (strstr(part, "differences")) test_differences();
   if (strstr(part, "memory")) test_one_rank_short();
   if (strstr(part, "bad")) bad_input(), sizes(), not_over_ranks();

@@ -28,7 +28,8 @@ static void try_with(size_t more)
   getrlimit(RLIMIT_AS, &old);
   limit = old, limit.rlim_cur = address_space() + more;
   if (rank == ranks - 1) setrlimit(RLIMIT_AS, &limit);
-  const int code = m ? steif_mpi_solve(m, 0, like, like, 1, 0, 0, &b, &b) : steif_status(ctx);
+  const int code =
+    m ? steif_mpi_solve(m, 0, like, like, 1, 0, 0, 1, &b, &b) : steif_status(ctx);
   setrlimit(RLIMIT_AS, &old);
   if (!ALL(code == STEIF_NO_MEMORY) && rank == 0)
     printf("  %zu MB: %d, %s\n", more >> 20, code, steif_message(ctx));

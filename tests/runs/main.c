@@ -3,10 +3,11 @@
 #include "suite.h"
 
 extern CU_TestInfo tests_of_ends[], tests_of_ida[], tests_of_renewed[], tests_of_run[],
-  tests_of_steady[], tests_of_storage[];
+  tests_of_starts[], tests_of_steady[], tests_of_storage[];
 
 SUITE_MAIN({.pName = "ends", .pTests = tests_of_ends}, {.pName = "ida", .pTests = tests_of_ida},
            {.pName = "renewed", .pTests = tests_of_renewed},
            {.pName = "run", .pTests = tests_of_run},
+           {.pName = "starts", .pTests = tests_of_starts},
            {.pName = "steady", .pTests = tests_of_steady},
            {.pName = "storage", .pTests = tests_of_storage})

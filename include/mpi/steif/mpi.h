@@ -79,10 +79,12 @@ STEIF_EXPORT steif_mpi_stats steif_mpi_statistics(const steif_mpi *m);
 /* After the solvers that use it; NULL is accepted. On all ranks, before MPI_Finalize. */
 STEIF_EXPORT void steif_mpi_free(steif_mpi **m);
 
-/* x = (c E - A)^{-1} b, or the transposed (not conjugated) one, by MUMPS, for own rows of x and b and the (t, y, yp)
- * given; c_im 0: x[1] and b[1] are not read. `spec` must have been "mumps". STEIF_SINGULAR: it is. */
+/* x = (c E - A)^{-1} b, or the transposed (not conjugated) one, by MUMPS, for `count` >= 1 right-hand sides, own rows of
+ * x and b, and the (t, y, yp) given. c_im = 0: b and x are `count` vectors; else their real and imaginary parts by turns,
+ * 2 count of them. Several at once cost less than one after the other: 16 go through the factors together. x may be b.
+ * `spec` must have been "mumps". STEIF_SINGULAR: it is; STEIF_BAD_INPUT: count. */
 STEIF_EXPORT int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp,
-                                 sunrealtype c_re, sunrealtype c_im, int transposed,
+                                 sunrealtype c_re, sunrealtype c_im, int transposed, int count,
                                  N_Vector *b, N_Vector *x);
 
 /* Problems of the collection over ranks: "heat2d:n=32", "heat3d:n=20", "bruss2d:n=32", "bruss3d:n=12"; whole grid

@@ -274,6 +274,11 @@ static int nothing(stf_search *c)
                 "No cause was found at t = %.9g with step %.3g: F is finite and smooth there, "
                 "its Jacobian is right (or not given); %s",
                 c->point->t, c->scene->h, c->diagnosis.message);
+  if (c->point->system.form == STEIF_DESCRIPTOR && c->diagnosis.index > 1)
+    stf_point_say(c->cause->message,
+                  ". Methods divide rounding by powers of h where constraints "
+                  "stand in sums of equations: take the method descriptor, "
+                  "which is for linear systems of any index");
   return STEIF_OK;
 }
 

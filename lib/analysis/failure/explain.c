@@ -192,17 +192,25 @@ int stf_cause_singular(stf_search *c)
   return STEIF_OK;
 }
 
-/* allowed: of the error of y at the start. */
+/* The start of a linear problem: its impulses outlive many short steps. */
+static bool from_problem(const stf_search *c)
+{
+  return c->point->problem.linear && !c->scene->restarted;
+}
+
+/* allowed: of the error of y at the start, or where the run has started anew. */
 static int from_start(stf_search *c, sunrealtype *allowed, steif_start *start)
 {
   const steif_history *s = c->scene;
   const size_t n = c->point->n;
-  const bool linear = c->point->problem.linear, kept = s->count > 0;
-  const sunrealtype *y = kept ? s->y : c->point->y0, *yp = kept ? s->yp : c->point->yp0;
+  const bool linear = from_problem(c), kept = s->count > 0;
+  const size_t at = s->restarted ? s->count - 1 : 0;
+  const sunrealtype *y = kept ? s->y + at * n : c->point->y0,
+                    *yp = kept ? s->yp + at * n : c->point->yp0;
   const steif_point q = {.y = linear ? NULL : y, /* NULL: the start of the problem */
                          .yp = linear ? NULL : yp,
                          .t = linear ? s->t0
-                              : kept ? s->t[0]
+                              : kept ? s->t[at]
                                      : c->point->t,
                          .size = c->point->floor,
                          .equation = c->point->equation,
@@ -222,19 +230,56 @@ static int from_start(stf_search *c, sunrealtype *allowed, steif_start *start)
   return code;
 }
 
+static void say_start(stf_search *c, const steif_start *start, bool visible, size_t at,
+                      sunrealtype weights)
+{
+  char y[STEIF_SPEC_WORD], e[STEIF_SPEC_WORD];
+  char *m = c->cause->message;
+  const bool anew = c->scene->restarted;
+  if (anew)
+    stf_point_say(m, "After the event or break at t = %.9g the solution", c->point->t);
+  else
+    stf_point_say(m, "Start");
+  stf_point_say(m, " is inconsistent with %s%s: %s is off by %.3g (%.2g weights). ",
+                visible ? "equation " : "a hidden constraint",
+                visible ? stf_point_equation(c->point, (size_t)start->worst, e) : "",
+                stf_point_unknown(c->point, at, y), -start->moved[at], weights);
+  if (anew)
+    stf_point_say(m,
+                  "It jumps there, and derivatives of what jumps are impulses: set what jumps "
+                  "in the event, take options.reinitialise = steif_reinitialise, or make the "
+                  "change in a short time instead; steif_consistent says: ");
+  else
+    stf_point_say(m, "Call steif_consistent first%s; it says: ",
+                  from_problem(c)
+                    ? ", or take the method descriptor, which makes the jump and its impulses"
+                    : "");
+  stf_point_say(m, "%s", start->message);
+}
+
+/* The equations as they are behind an event may have no solution near the one before. */
+static void say_none(stf_search *c)
+{
+  c->cause->kind = STEIF_CAUSE_START;
+  stf_point_say(c->cause->message,
+                "No consistent values were found after the event or break at t = %.9g: %s",
+                c->point->t, steif_message(c->point->ctx));
+  steif_forget(c->point->ctx);
+}
+
 int stf_cause_start(stf_search *c)
 {
   steif_start start = {0};
-  char y[STEIF_SPEC_WORD], e[STEIF_SPEC_WORD];
-  const bool linear =
-    c->point->problem.linear; /* impulses of the start outlive many short steps */
-  if (c->scene->steps > 1 && !linear) return STEIF_OK;
+  const bool linear = from_problem(c), anew = c->scene->restarted;
+  if (c->scene->steps > 1 && !linear && !anew) return STEIF_OK;
   STEIF_TRY(stf_cause_diagnose(c));
   if (c->diagnosis.index < 1) return STEIF_OK;
   sunrealtype *allowed = stf_pool_array(c->point->pool, c->point->n, sizeof *allowed);
   if (!allowed) return STEIF_NO_MEMORY;
   const int code = from_start(c, allowed, &start);
-  if (code) return code == STEIF_NO_MEMORY ? code : STEIF_OK;
+  if (code == STEIF_NO_MEMORY) return code;
+  if (code && anew) say_none(c);
+  if (code) return STEIF_OK;
   sunrealtype most = 10;
   const size_t n = c->point->n;
   size_t at = n;
@@ -248,15 +293,7 @@ int stf_cause_start(stf_search *c)
     cause->kind = STEIF_CAUSE_START, cause->unknown = (sunindextype)at;
     cause->equation = visible ? start.worst : -1;
     cause->value[0] = start.moved[at], cause->value[1] = most;
-    stf_point_say(
-      cause->message,
-      "Start is inconsistent with %s%s: %s is off by %.3g (%.2g "
-      "weights). Call steif_consistent first%s; it says: %s",
-      visible ? "equation " : "a hidden constraint",
-      visible ? stf_point_equation(c->point, (size_t)start.worst, e) : "",
-      stf_point_unknown(c->point, at, y), -start.moved[at], most,
-      linear ? ", or take the method descriptor, which makes the jump and its impulses" : "",
-      start.message);
+    say_start(c, &start, visible, at, most);
   }
   steif_start_clear(&start);
   return STEIF_OK;

@@ -14,7 +14,7 @@ typedef struct record {
   const steif_problem *problem;
   size_t n, count, room;
   sunrealtype *t, *y, *yp; /* room times, room x n values by rows */
-  bool ode;
+  bool ode, restarted;     /* the last point came a second time */
   N_Vector slope;
 } record;
 
@@ -50,7 +50,8 @@ static int keep(steif_solver *s, sunrealtype t, N_Vector y, void *user)
 {
   record *r = user;
   (void)s;
-  if (r->count > 0 && !(t > r->t[r->count - 1])) r->count--; /* the same time anew */
+  r->restarted = r->count > 0 && !(t > r->t[r->count - 1]);
+  if (r->restarted) r->count--; /* the same time anew */
   if (r->count == r->room) thin(r);
   const size_t k = r->count++;
   r->t[k] = t;
@@ -162,7 +163,8 @@ static int explain(steif_solver *s, const record *r, steif_failure *f)
                                  !s->engine && (step->method->traits & STF_EXPLICIT),
                                .prescribed = !s->engine && !step->adaptive,
                                .weighted = s->problem->index != NULL,
-                               .method = s->method};
+                               .method = s->method,
+                               .restarted = r->restarted && r->count > 1};
   STEIF_TRY(residuals(s->ctx, r, &q, f));
   STEIF_TRY(steif_explain(s->ctx, s->problem, &q, &scene, &f->cause));
   say(f, s->problem);

@@ -43,6 +43,7 @@ typedef struct stf_descent {
   long runs, failed, iterations;
   int stopped; /* the code of a failed run that other parameters do not cure; 0 */
   char failure[500];
+  char used[200]; /* the method of the last good run */
 } stf_descent;
 
 /* --- measurements.c --- */

@@ -251,10 +251,11 @@ static int prepare(stf_descent *d, const steif_fit_options *o, steif_fit *f)
   f->reserved[0] = pool;
   f->count = d->P, f->log = d->log, f->residuals = d->data->count;
   f->starts = o->starts > 0 ? o->starts : 1;
-  sunrealtype **const array[] = {&f->p,        &f->sd,         &f->low,         &f->high,
-                                 &f->singular, &f->covariance, &f->correlation, &f->direction,
-                                 &f->residual, &f->chi2_of};
-  const size_t size[] = {P, P, P, P, P, P * P, P * P, P * P, f->residuals, (size_t)f->starts};
+  sunrealtype **const array[] = {
+    &f->p,         &f->sd,         &f->low,         &f->high,
+    &f->singular,  &f->covariance, &f->correlation, &f->covariance_theta,
+    &f->direction, &f->residual,   &f->chi2_of};
+  const size_t S = P * P, size[] = {P, P, P, P, P, S, S, S, S, f->residuals, (size_t)f->starts};
   for (size_t i = 0; i < sizeof array / sizeof *array; i++)
     if (!(*array[i] = room(pool, size[i]))) return STEIF_NO_MEMORY;
   f->bound = stf_pool_array(pool, P, sizeof *f->bound);
@@ -268,6 +269,7 @@ static int find(stf_descent *d, const steif_fit_options *o, steif_fit *f)
   const int code = descend_all(d, f);
   f->runs = d->runs, f->failed = d->failed;
   memcpy(f->failure, d->failure, sizeof f->failure);
+  memcpy(f->used, d->used, sizeof f->used);
   if (!code) STEIF_TRY(stf_fit_judge(d, f));
   if (!code) stf_fit_say(d, f);
   return code;

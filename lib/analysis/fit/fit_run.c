@@ -102,6 +102,7 @@ static int attempt(stf_descent *d)
   for (int i = 0; i < d->P; i++) STEIF_TRY(set(d, d->parameter[i], d->p[i]));
   steif_solver *s = steif_solver_new(d->ctx, d->problem, d->method, &d->run);
   const int code = s ? follow(d, s) : steif_status(d->ctx);
+  if (!code) snprintf(d->used, sizeof d->used, "%s", steif_method_used(s));
   steif_solver_free(&s);
   return code;
 }

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const sunrealtype unlikely = 3.09; /* normal deviations: probability 1e-3 */
+static const sunrealtype unlikely = 1e-3; /* a probability */
 
 static void add(steif_fit *f, const char *format, ...) STEIF_PRINTF(2, 3);
 static void add(steif_fit *f, const char *format, ...)
@@ -26,38 +26,20 @@ const char *stf_fit_name(const stf_descent *d, int i, char *room)
   return room;
 }
 
-/* E. B. Wilson and M. M. Hilferty, Proc. Nat. Acad. Sci. 17 (1931) 684-688: the cube root of chi2/dof is nearly
- * normal. */
-static void judge(const stf_descent *d, steif_fit *f)
+/* What the standard deviations given let expect of chi2/dof. */
+static void weigh(steif_fit *f)
 {
-  add(f, "chi2 = %.6g with %ld degrees of freedom", f->chi2, f->dof);
-  if (f->exhausted < 0) {
-    add(f, ", the best of %ld runs when the search was stopped%s; go on from here", f->runs,
-        f->exhausted == STEIF_TIME_LIMIT ? " by max_seconds" : "");
-    return;
-  }
-  if (f->exhausted) {
-    add(f,
-        ", and still falling: %d runs of a descent were not enough; go on from here, or raise "
-        "options.evaluations",
-        d->evaluations);
-    return;
-  }
-  if (f->dof < 1) {
-    add(f, ": no more measurements than parameters, and no intervals");
-    return;
-  }
-  const sunrealtype dof = (sunrealtype)f->dof, ratio = f->chi2 / dof, spread = 2 / (9 * dof);
-  const sunrealtype z = (cbrt(ratio) - (1 - spread)) / sqrt(spread);
-  if (!d->data->sd)
-    add(f, "; the standard deviation of the measurements comes out as %.3g", sqrt(ratio));
-  else if (z > unlikely)
-    add(f,
-        ": chi2/dof = %.4g is far above 1, so this is a local minimum, or the model does not "
-        "describe the data, or their standard deviations are too small: try other values to "
-        "begin with, or several starts",
-        ratio);
-  else if (z < -unlikely)
+  const sunrealtype ratio = f->chi2 / (sunrealtype)f->dof, large = f->probability;
+  if (large < unlikely)
+    add(
+      f,
+      ": chi2/dof = %.4g is far above 1 (one as large has the probability %.2g), so this is a "
+      "local minimum, or the model does not describe the data, or their standard deviations "
+      "are too small: try other values to begin with, or several starts; sd and intervals "
+      "stand on the standard deviations given, and by the scatter of the data were %.3g times "
+      "as wide",
+      ratio, large, sqrt(ratio));
+  else if (1 - large < unlikely)
     add(
       f,
       ": chi2/dof = %.3g is far below 1, so the standard deviations of the data are too large",
@@ -66,7 +48,28 @@ static void judge(const stf_descent *d, steif_fit *f)
     add(f,
         ": chi2/dof = %.3g is what the standard deviations let expect (one as large has the "
         "probability %.2g)",
-        ratio, erfc(z / sqrt(2)) / 2);
+        ratio, large);
+}
+
+static void judge(const stf_descent *d, steif_fit *f)
+{
+  add(f, "chi2 = %.6g with %ld degrees of freedom", f->chi2, f->dof);
+  if (f->exhausted < 0)
+    add(f, ", the best of %ld runs when the search was stopped%s; go on from here", f->runs,
+        f->exhausted == STEIF_TIME_LIMIT ? " by max_seconds" : "");
+  else if (f->exhausted)
+    add(f,
+        ", and still falling: %d runs of a descent were not enough; go on from here, or raise "
+        "options.evaluations",
+        d->evaluations);
+  else if (f->dof < 1)
+    add(f, ": no more measurements than parameters, and no %s",
+        f->known ? "way to judge the model" : "intervals");
+  else if (f->known)
+    weigh(f);
+  else
+    add(f, "; the standard deviation of the measurements comes out as %.3g",
+        sqrt(f->chi2 / (sunrealtype)f->dof));
 }
 
 static void undetermined(const stf_descent *d, steif_fit *f)

@@ -7,6 +7,8 @@
 
 static const sunrealtype undetermined = 1e-8; /* of the largest singular value */
 static const sunrealtype part = 1e-3;         /* of a unit vector: less is none */
+static const sunrealtype normal =
+  1.959963984540054; /* 97.5 % lie below; M. Abramowitz and I. A. Stegun, table 26.6, with more digits */
 
 /* sum_k v_ki v_kj / sigma_k^2 over what is determined. */
 static sunrealtype covariance(const steif_fit *f, int i, int j)
@@ -68,32 +70,51 @@ static void decompose(stf_descent *d, steif_fit *f)
   f->dof = (long)d->data->count - (P - fixed - f->undetermined);
 }
 
+/* dp/dtheta. */
+static sunrealtype unit_of(const stf_descent *d, const steif_fit *f, int i)
+{
+  return d->log ? f->p[i] : d->unit[i];
+}
+
+/* Without a degree of freedom nothing tells the standard deviation of the data, where it is not given. */
 static void spread(const stf_descent *d, steif_fit *f)
 {
   const int P = f->count;
-  const sunrealtype known = d->data->sd || f->dof < 1 ? 1 : f->chi2 / (sunrealtype)f->dof;
+  const bool told = d->data->sd || f->dof > 0;
+  const sunrealtype known = d->data->sd || !told ? 1 : f->chi2 / (sunrealtype)f->dof;
   for (int i = 0; i < P; i++)
-    for (int j = 0; j < P; j++) f->covariance[i * P + j] = known * covariance(f, i, j);
+    for (int j = 0; j < P; j++) f->covariance_theta[i * P + j] = known * covariance(f, i, j);
   for (int i = 0; i < P; i++)
     for (int j = 0; j < P; j++) {
-      const sunrealtype a = f->covariance[i * P + i], b = f->covariance[j * P + j];
-      const sunrealtype c = f->covariance[i * P + j] / sqrt(a) / sqrt(b);
-      f->correlation[i * P + j] = i == j ? 1 : a > 0 && b > 0 ? c : 0;
+      const sunrealtype both = f->covariance_theta[i * P + j];
+      const sunrealtype a = f->covariance_theta[i * P + i], b = f->covariance_theta[j * P + j];
+      const bool undefined =
+        !(told || f->bound[i] || f->bound[j]) || loose(f, i) || loose(f, j);
+      f->correlation[i * P + j] = i == j ? 1 : a > 0 && b > 0 ? both / sqrt(a) / sqrt(b) : 0;
+      f->covariance[i * P + j] = !undefined ? both * unit_of(d, f, i) * unit_of(d, f, j)
+                                 : i == j   ? INFINITY
+                                            : NAN;
     }
+}
+
+/* How many standard deviations a 95 % interval has to each side: Student's t where that of the data is an estimate. */
+static int quantile(const stf_descent *d, steif_fit *f)
+{
+  f->known = d->data->sd != NULL, f->probability = NAN;
+  f->quantile = f->known ? normal : INFINITY;
+  if (f->dof < 1) return STEIF_OK;
+  return f->known ? steif_chi_square(d->ctx, f->chi2, f->dof, &f->probability)
+                  : steif_student(d->ctx, 0.95, f->dof, &f->quantile);
 }
 
 static int intervals(const stf_descent *d, steif_fit *f)
 {
-  sunrealtype t = INFINITY, factor = 1;
-  if (f->dof > 0) {
-    STEIF_TRY(steif_student(d->ctx, 0.95, f->dof, &t));
-    const sunrealtype ratio = f->chi2 / (sunrealtype)f->dof;
-    if (d->data->sd && ratio > 1) factor = sqrt(ratio);
-  }
+  STEIF_TRY(quantile(d, f));
   for (int i = 0; i < f->count; i++) {
-    const sunrealtype theta = loose(f, i) ? INFINITY : sqrt(f->covariance[i * f->count + i]);
-    const sunrealtype p = f->p[i], half = theta > 0 ? t * factor * theta : 0;
-    f->sd[i] = theta * (d->log ? p : d->unit[i]);
+    const int at = i * f->count + i;
+    const sunrealtype theta = loose(f, i) ? INFINITY : sqrt(f->covariance_theta[at]);
+    const sunrealtype p = f->p[i], half = theta > 0 ? f->quantile * theta : 0;
+    f->sd[i] = sqrt(f->covariance[at]);
     f->low[i] = d->log ? p * exp(-half) : p - half * d->unit[i];
     f->high[i] = d->log ? p * exp(half) : p + half * d->unit[i];
   }

@@ -43,10 +43,14 @@ typedef struct cell {
   size_t length; /* without blanks and quotes around it */
 } cell;
 
-/* The cell at `at`, which goes past it: to the next one, or NULL behind the last of the line. */
+/* The cell at `at`, which goes past it: to the next one, or NULL behind the last of the line. Commas within quotes
+ * belong to it, "u[1,2]". */
 static cell next_cell(const char **at)
 {
-  const char *from = *at, *to = from + strcspn(from, ",\n");
+  const char *from = *at + strspn(*at, " \t");
+  const size_t quoted = *from == '"' ? strcspn(from + 1, "\"\n") : 0;
+  const char *to = from + (quoted && from[quoted + 1] == '"' ? quoted + 2 : 0);
+  to += strcspn(to, ",\n");
   *at = *to == ',' ? to + 1 : NULL;
   while (from < to && isspace((unsigned char)*from)) from++;
   while (to > from && isspace((unsigned char)to[-1])) to--;
@@ -104,9 +108,32 @@ static int find_measured(const table *T, int column, const char *name, sunindext
                 near);
 }
 
+/* Takes "{unit}" from the end of a cell: its words, "" where there is none. */
+static void take_unit(cell *c, size_t room, char *unit)
+{
+  const char *brace = c->length ? memchr(c->text, '{', c->length) : NULL;
+  *unit = 0;
+  if (!brace || c->text[c->length - 1] != '}') return;
+  snprintf(unit, room, "%.*s", (int)(c->text + c->length - brace) - 2, brace + 1);
+  c->length = (size_t)(brace - c->text);
+  while (c->length && isspace((unsigned char)c->text[c->length - 1])) c->length--;
+}
+
+/* A unit that is not the one of the model, where both are told. */
+static int check_unit(const table *T, int column, const char *name, const char *unit)
+{
+  char own[STEIF_SPEC_WORD], shown[STF_SHOWN];
+  steif_model_unit(T->problem, name, sizeof own, own);
+  if (!*own || !*unit || !strcmp(own, unit)) return STEIF_OK;
+  return REFUSE(T, column, STEIF_BAD_INPUT,
+                "'%s' is in {%s}, and problem '%s' has it in {%s}; convert one", name,
+                stf_input_shown(unit, shown), T->problem->name, own);
+}
+
 static int one_name(table *T, int column, cell c)
 {
-  char name[STEIF_SPEC_WORD];
+  char name[STEIF_SPEC_WORD], unit[STEIF_SPEC_WORD];
+  take_unit(&c, sizeof unit, unit);
   snprintf(name, sizeof name, "%.*s", (int)c.length, c.text);
   const bool sd = !strncmp(name, "sd_", 3);
   T->sd_of[column] = T->sd_at[column] = -1, T->sd[column] = 0, T->component[column] = -1;
@@ -119,8 +146,9 @@ static int one_name(table *T, int column, cell c)
       T, column, STEIF_BAD_INPUT,
       "the first line is 't' and names of unknowns, not '%s'; rename the column of the times",
       name);
-  if (column == 0) return STEIF_OK;
+  if (column == 0) return check_unit(T, column, name, unit);
   STEIF_TRY(find_measured(T, column, sd ? name + 3 : name, &T->component[column]));
+  STEIF_TRY(check_unit(T, column, sd ? name + 3 : name, unit));
   for (int k = 1; k < column; k++)
     if (T->component[k] == T->component[column] && (T->sd_of[k] >= 0) == sd)
       return REFUSE(T, column, STEIF_BAD_INPUT, "'%s' stands in column %d too", name, k + 1);

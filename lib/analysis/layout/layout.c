@@ -23,7 +23,7 @@ static const struct {
   AT(problem, E), AT(problem, A), AT(problem, user), AT(problem, storage), AT(problem, nnz), AT(problem, nnz_E),
   AT(problem, pattern), AT(problem, index), AT(problem, dae_index), AT(problem, linear),
   AT(problem, names), AT(problem, events), AT(problem, event), AT(problem, event_list),
-  AT(problem, parameters),
+  AT(problem, parameters), AT(problem, begin), AT(problem, save), AT(problem, restore),
 
   SIZE(pattern), AT(pattern, column), AT(pattern, row),
   SIZE(names), AT(names, equation), AT(names, unknown),
@@ -31,7 +31,7 @@ static const struct {
 
   SIZE(options), AT(options, rtol), AT(options, atol), AT(options, atols), AT(options, h),
   AT(options, h0), AT(options, h_max), AT(options, t1), AT(options, max_steps),
-  AT(options, observe), AT(options, observer), AT(options, on_event), AT(options, stop),
+  AT(options, observe), AT(options, observer), AT(options, on_event), AT(options, jump), AT(options, stop),
 
   AT(options, sensitivities), AT(options, active_count), AT(options, active),
 
@@ -44,11 +44,13 @@ static const struct {
   SIZE(fit), AT(fit, count), AT(fit, log), AT(fit, p), AT(fit, sd), AT(fit, low), AT(fit, high),
   AT(fit, covariance), AT(fit, correlation), AT(fit, undetermined), AT(fit, chi2), AT(fit, dof),
   AT(fit, residuals), AT(fit, residual), AT(fit, runs), AT(fit, message),
+  AT(fit, covariance_theta), AT(fit, known), AT(fit, probability), AT(fit, used),
   SIZE(ensemble_options), AT(ensemble_options, problem), AT(ensemble_options, method),
   AT(ensemble_options, options), AT(ensemble_options, threads), AT(ensemble_options, stop),
 
   SIZE(stats), AT(stats, steps), AT(stats, rejected), AT(stats, nfe), AT(stats, nje),
-  AT(stats, nlu), AT(stats, nsolve), AT(stats, cpu_s),
+  AT(stats, nlu), AT(stats, nsolve), AT(stats, cpu_s), AT(stats, rounding),
+  SIZE(repair), AT(repair, moved), AT(repair, index), AT(repair, y), AT(repair, message), AT(repair, jumps), AT(repair, jumped),
 
   SIZE(linear), AT(linear, E), AT(linear, F), AT(linear, f), AT(linear, user),
   SIZE(analysis), AT(analysis, algorithm),

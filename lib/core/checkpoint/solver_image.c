@@ -153,6 +153,7 @@ static void keep_run(steif_solver *s, stf_image *m)
   stf_step_keep(&s->step, m);
   stf_method_keep(&s->step, m);
   stf_rounding_keep(s, m);
+  stf_mode_keep(s, m);
   keep_final(s, m);
   stf_keep(m, s->invariants, (size_t)count * sizeof *s->invariants);
   stf_keep_presence(m, s->events, "event detection");

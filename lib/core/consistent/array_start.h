@@ -29,9 +29,10 @@ int stf_use_index(struct stf_repair *repair, const stf_evidence *evidence,
 /* Weights of least movement in the norm of E: with masses on its diagonal M (v(t+) - v(t-)) = -G^T Lambda, as
  * after an impact. */
 void stf_start_inertia(const stf_view *view, sunrealtype *weight);
-/* The same by stages alone: STEIF_UNSUPPORTED where the structure is not regular at the point and beside it. */
+/* The same by stages alone: STEIF_UNSUPPORTED where the structure is not regular at the point and beside it. number (n;
+ * NULL: not wanted): index of each unknown there. */
 int stf_start_beside(steif_context *ctx, const steif_problem *problem, const steif_point *at,
-                     stf_start_nodes *nodes, steif_start *start);
+                     stf_start_nodes *nodes, steif_start *start, int *number);
 /* steif_consistent with these weights. */
 int stf_start_project(steif_context *ctx, const steif_problem *problem, const steif_point *at,
                       steif_start *start);

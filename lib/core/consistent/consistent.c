@@ -173,7 +173,7 @@ int stf_start_project(steif_context *ctx, const steif_problem *problem, const st
 }
 
 /* Structure and system Jacobian only. */
-static int find_beside(stf_point *s, stf_start_nodes *nodes, steif_start *start)
+static int find_beside(stf_point *s, stf_start_nodes *nodes, steif_start *start, int *number)
 {
   stf_evidence e = {.point = s};
   const steif_diagnosis none = {.index = -1};
@@ -189,17 +189,19 @@ static int find_beside(stf_point *s, stf_start_nodes *nodes, steif_start *start)
     inertia.weight = weight;
     code = stf_start_with(&e, &none, &inertia, nodes, start);
   }
+  for (size_t j = 0; !code && number && j < s->n; j++)
+    number[j] = e.offsets.component_index[j] < 1 ? 1 : e.offsets.component_index[j];
   stf_evidence_free(&e);
   return code;
 }
 
 int stf_start_beside(steif_context *ctx, const steif_problem *problem, const steif_point *at,
-                     stf_start_nodes *nodes, steif_start *start)
+                     stf_start_nodes *nodes, steif_start *start, int *number)
 {
   stf_point point;
   *start = (steif_start){0};
   STEIF_TRY(stf_point_open(ctx, problem, at, &point));
-  const int code = find_beside(&point, nodes, start);
+  const int code = find_beside(&point, nodes, start, number);
   stf_point_close(&point);
   return code;
 }

@@ -134,6 +134,15 @@ static int leave(stf_repair *r, const char *why)
 
 static const char as_given[] = "it stays as given, and the first step jumps";
 
+static bool descriptor(const stf_repair *r) { return r->point.system.form == STEIF_DESCRIPTOR; }
+
+/* Who has the pencil finds where it jumps to. */
+static int linear(stf_repair *r, sunrealtype jump)
+{
+  r->jumps = jump > 1 && r->policy != STEIF_AS_GIVEN;
+  return STEIF_OK;
+}
+
 static int diagnosed(stf_repair *r, bool wanted)
 {
   stf_evidence evidence;
@@ -146,7 +155,9 @@ static int diagnosed(stf_repair *r, bool wanted)
   if (!code) code = stf_first_jump(r, &jump);
   const bool ordered =
     r->point.n <= STEIF_DIAGNOSE_LARGEST || stf_evidence_certified(&evidence);
-  if (!code && r->policy == STEIF_AS_GIVEN)
+  if (!code && descriptor(r))
+    code = linear(r, jump);
+  else if (!code && r->policy == STEIF_AS_GIVEN)
     code = jump > 1 ? leave(r, as_given) : STEIF_OK;
   else if (!code && (jump > 1 || any_fixed(r)) && ordered && d.index >= 0)
     code = by_stages(r, &evidence, &d);
@@ -164,6 +175,7 @@ static int higher_index(stf_repair *r)
   const bool declared = r->given->index || r->given->dae_index == 1;
   sunrealtype jump = INFINITY;
   if (declared) STEIF_TRY(stf_first_jump(r, &jump));
+  if (declared && descriptor(r)) return linear(r, jump);
   if (declared && r->policy == STEIF_AS_GIVEN) return jump > 1 ? leave(r, as_given) : STEIF_OK;
   return jump > 1 ? diagnosed(r, !declared) : STEIF_OK;
 }

@@ -24,6 +24,8 @@ typedef struct stf_repair {
   const sunrealtype *atols;
   steif_problem problem;
   steif_repair report;
+  bool
+    jumps; /* linear, and not consistent: its jump, by `descriptor`, is the start to be used */
   bool unsolved; /* not consistent, and no start found: the run tries it all the same */
   /* work */
   stf_point point;
@@ -31,8 +33,9 @@ typedef struct stf_repair {
   sunrealtype *y, *yp, *weight; /* n each; weight: rtol |y| + atol */
   bool *algebraic;              /* n: the column of E is zero */
   size_t count;                 /* of those */
-  stf_view_factor first;        /* of index 1, at the point given; pencil NULL: not there */
-  int factors;                  /* made so far */
+  int *mode; /* n: .index of `problem` since an event or a break; NULL: as at the start */
+  stf_view_factor first; /* of index 1, at the point given; pencil NULL: not there */
+  int factors;           /* made so far */
 } stf_repair;
 
 /* Look at the start of `given`: repair->problem and repair->report. The point stays open, as long as the pool

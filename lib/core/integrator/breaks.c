@@ -21,14 +21,31 @@ static bool at_break(const steif_solver *s)
   return s->next_break < p->break_count && s->step.t == p->breaks[s->next_break];
 }
 
-/* The state after a break, as after an event. */
+/* The state after a break, as after an event; shown where it has jumped. */
 static int reinitialise(steif_solver *s)
 {
   stf_step *step = &s->step;
+  const int jumps = s->repair.report.jumps;
+  if (!s->options.reinitialise) {
+    STEIF_TRY(stf_mode_place(s, step->t, step->y));
+    if (s->repair.report.jumps > jumps) stf_observe(s, s->end, step->y);
+    return STEIF_OK;
+  }
   N_VConst(0, step->yp);
   STEIF_TRY(
     s->options.reinitialise(s->ctx, s->problem, step->t, s->options.rtol, step->y, step->yp));
   step->yp_known = N_VMaxNorm(step->yp) > 0;
+  return STEIF_OK;
+}
+
+int stf_break_shown(steif_solver *s)
+{
+  const stf_step *step = &s->step;
+  if (s->engine || !step->restart || !at_break(s) || s->end >= s->t1 || s->options.reinitialise)
+    return STEIF_OK;
+  N_VScale(1, step->y, s->dense);
+  STEIF_TRY(stf_mode_show(s, nextafter(step->t, INFINITY), s->dense));
+  s->shown = s->dense;
   return STEIF_OK;
 }
 
@@ -41,7 +58,7 @@ static int restart(steif_solver *s)
   step->t = nextafter(step->t, INFINITY);
   step->yp_known = s->events && s->events->settled;
   if (s->events) s->events->settled = false;
-  if (broken && s->options.reinitialise) STEIF_TRY(reinitialise(s));
+  if (broken) STEIF_TRY(reinitialise(s));
   if (!step->yp_known && step->system.form == STEIF_ODE) {
     const int code = stf_system_rhs(&step->system, step->t, step->y, step->yp);
     if (code < 0) return code;

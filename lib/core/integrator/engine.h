@@ -54,6 +54,9 @@ typedef struct steif_engine {
   int (*dense)(stf_run *run, void *state, sunrealtype t, N_Vector y);
   /* The next step begins anew from (run->t, run->y); run->yp holds slopes, or 0 where unknown. */
   int (*renew)(stf_run *run, void *state);
+  /* For starts of other methods: x := x(t+) of a linear system from x(t-), n values; *certified: it is. NULL: no. */
+  int (*jump)(steif_context *ctx, const steif_problem *problem, sunrealtype t, sunrealtype *x,
+              bool *certified);
   void (*close)(stf_run *run, void *state);
   /* Carry the columns from the start on; column i at a time of the last step; what they have cost. NULL: no. */
   int (*carry)(stf_run *run, void *state);

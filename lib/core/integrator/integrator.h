@@ -122,7 +122,9 @@ int stf_look_at_index(steif_solver *s);
 /* An M(t) or M(t, y) of M y' = f is looked for: s->problem becomes
  * F(t, y, y') = 0 and *form that, or the engine is told, or STEIF_UNSUPPORTED. */
 int stf_look_at_mass(steif_solver *s, int *form, N_Vector y, N_Vector yp);
-/* The start of a DAE, for methods of ours with adaptive steps; linear systems have their jump. */
+/* stf_repair_start, and the jump of a linear system. */
+int stf_start_repaired(stf_repair *repair);
+/* The start of a DAE, for methods of ours with adaptive steps. */
 int stf_look_at_start(steif_solver *s, int form);
 
 /* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. `rows`: of absolute tolerances. */
@@ -179,8 +181,20 @@ bool stf_recomputes(const steif_solver *s);
 int stf_recompute_shown(steif_solver *s);
 /* y at t, and y', on the constraints of the mode behind an event: dense output is off them by a tolerance, which short
  * steps would divide by h, and unknowns of index 2 and 3 without a derivative belong to the mode before. *known: they
- * are found, and all others stay within some tolerances; else y is left alone. */
+ * are found, all others stay within some tolerances and no index is another one; else y is left alone. */
 int stf_recompute_mode(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool *known);
+/* events/modes.c: y at t, where a mode of a DAE begins, behind an event or a break: put where its equations hold, and
+ * y' too where it is *known; the index of the mode is that of s->problem from then on. */
+int stf_mode_place(steif_solver *s, sunrealtype t, N_Vector y);
+int stf_mode_begin(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool *known);
+/* y where it will be put when the mode begins. */
+int stf_mode_show(steif_solver *s, sunrealtype t, N_Vector y);
+int stf_mode_exactly(steif_solver *s, sunrealtype t, N_Vector y);
+/* sensitivity/saltation.c: S+ through that jump, from y (n values) behind the reaction. */
+int stf_saltation_place(steif_solver *s, const sunrealtype *y);
+void stf_mode_keep(steif_solver *s, stf_image *m);
+/* breaks.c: at a break, before the next step, what holds after it is shown. */
+int stf_break_shown(steif_solver *s);
 /* What y_j may err by. */
 sunrealtype stf_allowed(const steif_solver *s, const sunrealtype *y, size_t j);
 

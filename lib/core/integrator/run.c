@@ -49,8 +49,10 @@ static int failed(steif_solver *s, int code)
 
 static int advance(steif_solver *s)
 {
-  int code =
-    s->engine ? s->engine->step(&s->run, s->engine_state, s->t1) : stf_advance(s, s->t1);
+  sunrealtype stop;
+  int code = stf_event_horizon(s, &stop);
+  if (!code)
+    code = s->engine ? s->engine->step(&s->run, s->engine_state, stop) : stf_advance(s, stop);
   if (code) return failed(s, code);
   s->end = s->t_shown = stf_beyond(s) ? s->t1 : stepped(s);
   if (stf_beyond(s) && (code = stf_dense(s, s->t1, s->final))) return failed(s, code);
@@ -242,7 +244,7 @@ static int solve_to(steif_solver *s, sunrealtype t)
   if (!code && s->end > t)
     code = show(s, t);
   else if (!code)
-    s->shown = stf_last(s), s->t_shown = s->end;
+    s->shown = stf_last(s), s->t_shown = s->end, code = stf_break_shown(s);
   stop_clock(s);
   if (!code && s->end < t) return ended(s);
   if (!code) code = stf_check_reached(s);
@@ -275,6 +277,7 @@ int stf_dense(steif_solver *s, sunrealtype t, N_Vector y)
 {
   const steif_method *method = s->step.method;
   if (s->engine) return s->engine->dense(&s->run, s->engine_state, t, y);
+  if (stf_event_passed(s)) return stf_event_recall(s, t, y);
   return method->dense ? method->dense(&s->step, t, y) : method->dense_by_f(&s->step, t, y);
 }
 

@@ -211,7 +211,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   step->adaptive = !o->mesh && !(o->h > 0);
   STEIF_CHECK(!step->adaptive || info.adaptive, s->ctx, STEIF_UNSUPPORTED,
               "'%s' has no error estimate to choose steps by: give steps with h", s->method);
-  step->absolute = form == STEIF_DESCRIPTOR;
+  step->absolute = form == STEIF_DESCRIPTOR && !step->adaptive;
   if (!step->adaptive && !o->mesh) STEIF_TRY(constant_steps(s));
   stf_space_open(&step->system.space, y);
   STEIF_TRY(stf_agreed_gate(s));
@@ -298,12 +298,15 @@ static int open(steif_solver *s, const char *method)
   s->engine = stf_engine_find(spec->name);
   STEIF_TRY(stf_look_at_index(s));
   STEIF_TRY(stf_look_at_mass(s, &form, y, yp));
-  if (automatic || !s->engine) STEIF_TRY(stf_look_at_start(s, form));
+  const bool later =
+    automatic && form == STEIF_DESCRIPTOR; /* `descriptor` makes the jump itself */
+  if (!later && (automatic || !s->engine)) STEIF_TRY(stf_look_at_start(s, form));
   if (automatic)
     s->chosen = method = stf_choose(s->problem, &s->options, form, s->method, sizeof s->method);
   stf_tell_pattern(s);
   STEIF_TRY(steif_spec_parse(s->ctx, method, spec));
   s->engine = stf_engine_find(spec->name);
+  if (later && !s->engine) STEIF_TRY(stf_look_at_start(s, form));
   STEIF_TRY(s->engine ? open_engine(s, form, spec, y, yp) : open_step(s, form, spec, y, yp));
   if (form == STEIF_DESCRIPTOR)
     STEIF_TRY(stf_constant_matrices(s->ctx, s->problem, form, s->t1, y, s->spec));

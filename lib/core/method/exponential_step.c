@@ -22,7 +22,7 @@ static int highest(const stf_exponential_step *e, const steif_problem *p)
 static int claim(stf_step *s)
 {
   stf_exponential_step *e = s->state;
-  N_Vector *const all[] = {&e->f0,      &e->slope_t, &e->before, &e->slope, &e->end,
+  N_Vector *const all[] = {&e->f0,      &e->slope_t, &e->before, &e->slope, &e->drift, &e->end,
                            &e->flow[0], &e->flow[1], &e->Y,      &e->dY,    &e->work};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++)
     if (!(*all[i] = stf_pool_vector(s->pool, s->y))) return STEIF_NO_MEMORY;
@@ -56,7 +56,7 @@ static int start(stf_step *s, sunrealtype h)
   if (!e->renews || e->fresh) return STEIF_OK;
   STEIF_TRY(stf_system_linearise(&s->system, s->t, s->y, e->f0));
   STEIF_TRY(stf_phis_renew(&e->phis));
-  e->fresh = true;
+  e->fresh = true, e->held = false;
   return STEIF_OK;
 }
 
@@ -219,9 +219,11 @@ int stf_exponential_step_attempt(stf_step *s, sunrealtype h)
 void stf_exponential_step_commit(stf_step *s)
 {
   stf_exponential_step *e = s->state;
-  N_Vector slope = e->slope;
+  N_Vector slope = e->slope, drift = e->drift;
   stf_copy(&s->system.space, s->y, e->before);
   e->slope = e->f0, e->f0 = slope;
+  e->drift = e->slope_t, e->slope_t = drift;
+  e->held = e->fresh;
   e->known = e->fresh = false;
   stf_swap(s);
 }
@@ -232,14 +234,52 @@ int stf_exponential_step_dense(stf_step *s, sunrealtype t, N_Vector y)
   return stf_hermite(s, t, e->before, e->slope, e->end, y);
 }
 
+/* The step once more, of length h, from where the last one began and with its L. */
+static int shorter(stf_step *s, sunrealtype h)
+{
+  stf_exponential_step *e = s->state;
+  if (!e->held) {
+    STEIF_TRY(stf_system_linearise(&s->system, s->t, s->y, e->f0));
+    STEIF_TRY(stf_phis_renew(&e->phis));
+    e->held = true, e->fresh = false;
+  }
+  aim(s);
+  for (int node = 0; node < e->x->nodes; node++) e->flowed[node] = false;
+  for (int i = 1; i < e->x->s; i++) STEIF_TRY(stage(s, h, i));
+  return finish(s, h);
+}
+
+int stf_exponential_step_again(stf_step *s, sunrealtype t, N_Vector y)
+{
+  stf_exponential_step *e = s->state;
+  const sunrealtype now = s->t, from = now - s->h;
+  if (t == from || t == now) {
+    stf_copy(&s->system.space, t == now ? s->y : e->before, y);
+    return STEIF_OK;
+  }
+  N_Vector end = s->y, next = s->next, error = s->error, f0 = e->f0, slope_t = e->slope_t;
+  s->t = from, s->y = e->before, s->next = y, s->error = e->end;
+  e->f0 = e->slope, e->slope_t = e->drift;
+  const int code = shorter(s, t - from);
+  s->t = now, s->y = end, s->next = next, s->error = error;
+  e->f0 = f0, e->slope_t = slope_t;
+  return code > 0 ? STEIF_FAIL(s->ctx, STEIF_NOT_FINITE,
+                               "no dense output of problem '%s' at t = %.12g: its step cannot "
+                               "be made once more",
+                               s->problem->name, t)
+                  : code;
+}
+
 void stf_exponential_step_keep(stf_step *s, stf_image *m)
 {
   stf_exponential_step *e = s->state;
   stf_keep_vector(m, e->before);
   stf_keep_vector(m, e->slope);
+  stf_keep_vector(m, e->drift);
   stf_keep_vector(m, e->end);
   STF_KEEP(m, e->known);
   STF_KEEP(m, e->fresh);
+  STF_KEEP(m, e->held);
   stf_phis_keep(&e->phis, m);
 }
 

@@ -28,6 +28,17 @@ static sunrealtype kept(const stf_step *s, sunrealtype h)
   return s->newton.gamma > 0 ? e->filter * s->newton.shift * h : 1;
 }
 
+int stf_irk_filter_all(stf_step *s, sunrealtype h, int count, N_Vector *v)
+{
+  const bool real = s->newton.gamma > 0 || s->newton.transform.im[0] == 0;
+  for (int k = 0; !real && k < count; k++) STEIF_TRY(stf_irk_filter(s, h, v[k]));
+  if (!real) return STEIF_OK;
+  STEIF_TRY(steif_pencil_solve(s->system.pencil, 0, count, v, NULL));
+  for (int k = 0; s->newton.gamma > 0 && k < count; k++)
+    stf_scale(&s->system.space, kept(s, h), v[k], v[k]);
+  return STEIF_OK;
+}
+
 int stf_irk_filter(stf_step *s, sunrealtype h, N_Vector v)
 {
   STEIF_TRY(solve_shift(s, h, v));

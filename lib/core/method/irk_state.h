@@ -26,6 +26,7 @@ typedef struct stf_irk_state {
 
 /* The filter of the estimate: v <- (lambda/h E - A)^{-1} v, its damped part where lambda is one of a pair. */
 int stf_irk_filter(stf_step *s, sunrealtype h, N_Vector v);
+int stf_irk_filter_all(stf_step *s, sunrealtype h, int count, N_Vector *v);
 /* s->error of this attempt, what it may be, and a look between the stages. */
 int stf_irk_estimate(stf_step *s, sunrealtype h);
 

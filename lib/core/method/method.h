@@ -158,9 +158,11 @@ struct stf_step {
   enum stf_rest rest;   /* said by open */
   long count;           /* accepted steps */
   N_Vector y, yp;       /* accepted; yp: slope (start, or last implicit slope) */
-  bool yp_known, adaptive, absolute; /* absolute: stages solved for Y, not for Y - y_n */
-  bool rejected;                     /* this attempt repeats one that was refused ... */
-  int tries;                         /* ... this many times */
+  /* absolute: stages solved for Y, not for Y - y_n: what rounding makes of E (Y - y_n)/h does not matter to the limits
+   * that prescribed steps show, and spoils algebraic unknowns in short ones where constraints are mixed into rows of E. */
+  bool yp_known, adaptive, absolute;
+  bool rejected;          /* this attempt repeats one that was refused ... */
+  int tries;              /* ... this many times */
   bool restart;           /* the next step follows a discontinuity: no history before t */
   bool crossed;           /* ... at a time that depends on y: errors move it, and jump there */
   bool end_slope_known;   /* stf_hermite has the slope at the end of the last step */

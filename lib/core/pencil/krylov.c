@@ -55,7 +55,8 @@ typedef struct krylov {
   bool ready;                   /* ... if it is */
   bool changed;                 /* the products have, since */
   pace pace[2];                 /* of real and complex shifts */
-  steif_shift s;                /* of the solve under way */
+  steif_shift s;                /* of the solve under way ... */
+  bool transposed;              /* ... with E^T and A^T, s being its conjugate */
   int answer;                   /* what a callback returned when it failed */
   const char *culprit;
 } krylov;
@@ -68,12 +69,18 @@ static int answered(krylov *k, const char *name, int answer)
 
 static int times_A(steif_pencil *p, N_Vector x, N_Vector out)
 {
+  const krylov *k = p->state;
+  if (k->transposed)
+    return answered(p->state, "the transposed A", p->turned.A(x, out, p->op.user));
   return answered(p->state, "A", p->op.A(x, out, p->op.user));
 }
 
 /* E x is *out, or x itself. */
 static int times_E(steif_pencil *p, N_Vector x, N_Vector *out)
 {
+  const krylov *k = p->state;
+  if (p->op.E && k->transposed)
+    return answered(p->state, "the transposed E", p->turned.E(x, *out, p->op.user));
   if (p->op.E) return answered(p->state, "E", p->op.E(x, *out, p->op.user));
   *out = x;
   return 0;
@@ -110,16 +117,19 @@ static double near(const steif_pencil *p)
 static int precondition_of(void *data, stf_pair r, stf_pair z)
 {
   steif_pencil *p = data;
+  const krylov *k = p->state;
   N_Vector from[2] = {r.re, r.im}, to[2] = {z.re, z.im};
   const bool pair = r.im != NULL;
   int code = 0;
   p->counts.applications += pair ? 2 : 1;
-  if (pair && p->precondition_pair)
+  if (pair && p->precondition_pair && !k->transposed)
     return answered(p->state, "the preconditioner of pairs",
-                    p->precondition_pair(((krylov *)p->state)->s, from, to, p->op.user));
+                    p->precondition_pair(k->s, from, to, p->op.user));
   for (int i = 0; i < (pair ? 2 : 1) && !code; i++)
-    code = p->op.precondition(near(p), from[i], to[i], 0, p->op.user);
-  return answered(p->state, "the preconditioner", code);
+    code = (k->transposed ? p->turned.precondition : p->op.precondition)(near(p), from[i],
+                                                                         to[i], 0, p->op.user);
+  return answered(p->state,
+                  k->transposed ? "the transposed preconditioner" : "the preconditioner", code);
 }
 
 static int start(steif_pencil *p)
@@ -183,7 +193,7 @@ static int prepare(steif_pencil *p, int slot, steif_shift s)
 {
   krylov *k = p->state;
   (void)slot;
-  STEIF_TRY(prepare_near(p, modulus(s)));
+  if (!p->revived) STEIF_TRY(prepare_near(p, modulus(s)));
   if (!stf_is_complex(s) || k->x[1]) return STEIF_OK;
   const int code = open_pairs(p);
   return p->deferred ? stf_agree(p->ctx, p->like, code) : code;
@@ -206,12 +216,18 @@ static stf_number middle(const steif_pencil *p, steif_shift s)
   return (stf_number){re / square, -im / square};
 }
 
+static bool preconditioned(const steif_pencil *p)
+{
+  const krylov *k = p->state;
+  return k->transposed ? p->turned.precondition != NULL : p->op.precondition != NULL;
+}
+
 static stf_map map_of(steif_pencil *p, bool pair)
 {
   krylov *k = p->state;
-  const bool aims = p->weights && (p->op.precondition || !p->op.E);
+  const bool aims = p->weights && (p->op.precondition || !p->op.E) && !k->transposed;
   stf_map map = {.product = product_of,
-                 .precondition = p->op.precondition ? precondition_of : NULL,
+                 .precondition = preconditioned(p) ? precondition_of : NULL,
                  .data = p,
                  .left = aims,
                  .relative = p->op.tolerance > 0 ? p->op.tolerance : TOLERANCE};
@@ -228,13 +244,15 @@ static int short_of(steif_pencil *p, const stf_map *map, long iterations)
 {
   const krylov *k = p->state;
   const steif_shift s = k->s;
-  const char *const better = p->op.precondition ? "better " : "";
+  const char *const better = preconditioned(p) ? "better " : "", *const turned =
+                                                                   k->transposed ? "transposed "
+                                                                                 : "";
   const double wanted = fmax(map->tolerance, map->relative * k->gmres.first);
   return (p->weights ? stf_recover : stf_fail)(
     p->ctx, STEIF_NO_CONVERGENCE,
     "GMRES left a residual %.2e times the wanted one after %ld iterations at s = %.10g%+.10gi; "
-    "give a %spreconditioner, a larger dimension or more restarts",
-    k->gmres.last / wanted, iterations, s.re, s.im, better);
+    "give a %s%spreconditioner, a larger dimension or more restarts",
+    k->gmres.last / wanted, iterations, s.re, s.im, better, turned);
 }
 
 /* Whose it is: the caller's, or that of the operator. */
@@ -262,6 +280,7 @@ static int run(steif_pencil *p, stf_pair x, stf_pair b)
 {
   krylov *k = p->state;
   stf_gmres *g = &k->gmres;
+  const long failures = stf_failures(p->ctx);
   const long before = g->iterations, sums = g->sums_made;
   k->answer = 0;
   const stf_map map = map_of(p, b.im != NULL);
@@ -275,17 +294,19 @@ static int run(steif_pencil *p, stf_pair x, stf_pair b)
   const long iterations = g->iterations - before;
   p->stats.iterations += iterations, p->counts.sums += g->sums_made - sums;
   if (b.im) p->counts.complex_solves++, p->counts.complex_iterations += iterations;
+  if (code == STF_GMRES_STOPPED && k->transposed && stf_failures(p->ctx) > failures)
+    return k->answer; /* which has a sentence */
   if (code == STF_GMRES_STOPPED) return stopped(p);
   if (code == STF_GMRES_NAN) return not_finite(p, b);
-  pace_add(&k->pace[b.im != NULL], code == STF_GMRES_SHORT, iterations, g->last / g->first);
+  if (preconditioned(p))
+    pace_add(&k->pace[b.im != NULL], code == STF_GMRES_SHORT, iterations, g->last / g->first);
   return code == STF_GMRES_SHORT ? short_of(p, &map, iterations) : STEIF_OK;
 }
 
-static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im)
+static int solve_by(steif_pencil *p, int nrhs, N_Vector *re, N_Vector *im)
 {
   krylov *k = p->state;
   const stf_space *space = &k->gmres.space;
-  k->s = p->shift[slot];
   for (int i = 0; i < nrhs; i++) {
     const stf_pair b = {re[i], im ? im[i] : NULL}, x = {k->x[0], im ? k->x[1] : NULL};
     STEIF_TRY(run(p, x, b));
@@ -293,6 +314,23 @@ static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im
     if (im) stf_copy(space, x.im, b.im);
   }
   return STEIF_OK;
+}
+
+static int solve(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im)
+{
+  krylov *k = p->state;
+  k->s = p->shift[slot];
+  return solve_by(p, nrhs, re, im);
+}
+
+/* (s E - A)^H of pairs is conj(s) E^T - A^T. */
+static int transposed(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vector *im)
+{
+  krylov *k = p->state;
+  k->s = p->shift[slot], k->s.im = 0 - k->s.im, k->transposed = true;
+  const int code = solve_by(p, nrhs, re, im);
+  k->transposed = false;
+  return code;
 }
 
 /* E is not asked for where it is the identity. */
@@ -337,6 +375,7 @@ const stf_backend stf_backend_krylov = {
   .prepare = prepare,
   .factor = factor,
   .solve = solve,
+  .transposed = transposed,
   .product = product,
   .keep = keep,
   .close = finish,

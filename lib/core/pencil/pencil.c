@@ -282,15 +282,31 @@ int steif_pencil_solve(steif_pencil *p, int k, int nrhs, N_Vector *re, N_Vector 
 int steif_pencil_solve_transposed(steif_pencil *p, int k, int nrhs, N_Vector *re, N_Vector *im)
 {
   if (!p) return STEIF_BAD_INPUT;
-  STEIF_CHECK(
-    p->backend->transposed, p->ctx, STEIF_UNSUPPORTED,
-    "a %s pencil knows no transposed products: give it dense, band or sparse matrices",
-    p->backend->name);
+  STEIF_CHECK(p->backend->matrices || p->turned.A, p->ctx, STEIF_UNSUPPORTED,
+              "a pencil of products knows no transposed products: give them by "
+              "steif_pencil_give_transposed, or take dense, band or sparse matrices");
   STEIF_TRY(check_solve(p, k, nrhs, re, im));
   p->stats.solves += nrhs;
   if (!im || stf_is_complex(p->shift[k])) return p->backend->transposed(p, k, nrhs, re, im);
   STEIF_TRY(p->backend->transposed(p, k, nrhs, re, NULL));
   return p->backend->transposed(p, k, nrhs, im, NULL);
+}
+
+int steif_pencil_give_transposed(steif_pencil *p, const steif_transposed *t)
+{
+  if (!p) return STEIF_BAD_INPUT;
+  STEIF_CHECK(
+    !p->backend->matrices, p->ctx, STEIF_UNSUPPORTED,
+    "a %s pencil has matrices and transposes them itself: leave transposed products to "
+    "operators",
+    p->backend->name);
+  STEIF_CHECK(t && t->A && (t->E || !p->op.E), p->ctx, STEIF_BAD_INPUT,
+              "transposed products need %s: it is NULL",
+              !t      ? "a list of callbacks"
+              : !t->A ? "A"
+                      : "E, since the operator has E");
+  p->turned = *t;
+  return STEIF_OK;
 }
 
 int steif_pencil_product(steif_pencil *p, char which, N_Vector x, N_Vector out)

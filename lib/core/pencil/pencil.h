@@ -61,6 +61,7 @@ struct steif_pencil {
   sunindextype n;
   SUNMatrix E, A; /* E NULL: identity; both NULL for operators */
   steif_operator op;
+  steif_transposed turned; /* of operators; A NULL: not known */
   /* Operators: z[0] + i z[1] near (s E - A)^{-1} (r[0] + i r[1]), with op.user; NULL: op.precondition. */
   int (*precondition_pair)(steif_shift s, N_Vector *r, N_Vector *z, void *user);
   /* What op.prepare did last, at the point it did it: then it serves other products too while GMRES converges. */
@@ -73,7 +74,8 @@ struct steif_pencil {
   stf_deferred *deferred; /* of operators on vectors that are spread over ranks */
   double *work;           /* STF_COLUMNS * n, for solve; NULL where not needed */
   steif_pencil_stats stats;
-  bool stale; /* E and A have not been looked at since they changed */
+  bool revived; /* an image is being read: a preconditioner is made where and as that says */
+  bool stale;   /* E and A have not been looked at since they changed */
   /* Sparse: pivots in use serve new values whatever the growth: residuals are looked at instead. */
   bool keeps_pivots;
   bool

@@ -99,21 +99,32 @@ static void by_columns(sunindextype n, const sunindextype *column, const suninde
   }
 }
 
-static int by_point(const stf_matrices_at *m, int j, char which, N_Vector x, N_Vector out)
+static int by_point(const stf_matrices_at *m, int j, char which, bool transposed, N_Vector x,
+                    N_Vector out)
 {
   stf_system *s = m->system;
+  stf_operator_point *at = m->point + (s->linear ? 0 : j);
   if (which == 'E' && s->form == STEIF_ODE) return stf_copy(&s->space, x, out), STEIF_OK;
-  const int answer = stf_operator_product(s, m->point + (s->linear ? 0 : j), which, x, out);
+  const int answer =
+    (transposed ? stf_operator_transposed : stf_operator_product)(s, at, which, x, out);
   if (!answer) return STEIF_OK;
-  return (answer > 0 ? stf_recover : stf_fail)(
-    s->ctx, STEIF_CALLBACK, "the product with %c of problem '%s' returned %d", which,
-    s->problem->name, answer);
+  return (answer > 0 && !transposed ? stf_recover : stf_fail)(
+    s->ctx, STEIF_CALLBACK, "the product with %s%c of problem '%s' returned %d at t = %.12g",
+    transposed ? "the transposed " : "", which, s->problem->name, answer, at->t);
+}
+
+int stf_matrices_at_transposed(const stf_matrices_at *m, int j, char which, sunrealtype c,
+                               N_Vector x, N_Vector out, N_Vector scratch)
+{
+  STEIF_TRY(by_point(m, j, which, true, x, scratch));
+  stf_axpy(&m->system->space, c, scratch, out);
+  return STEIF_OK;
 }
 
 int stf_matrices_at_product(const stf_matrices_at *m, int j, char which, N_Vector x,
                             N_Vector out)
 {
-  if (m->point) return by_point(m, j, which, x, out);
+  if (m->point) return by_point(m, j, which, false, x, out);
   const SUNMatrix M = which == 'E' ? m->E[j] : m->A[j];
   const sunindextype n = m->system->space.n;
   stf_nonzeros *e = m->entries ? m->entries + 2 * j + (which == 'E') : NULL;

@@ -70,6 +70,19 @@ int stf_operator_product(stf_system *s, stf_operator_point *at, char which, N_Ve
   return (which == 'E' ? p->Ev : p->Av)(at->t, at->y, at->yp, x, out, p->user);
 }
 
+bool stf_operator_transposes(const stf_system *s)
+{
+  const steif_problem *p = s->problem;
+  return p->Atv && (p->Etv || s->form == STEIF_ODE);
+}
+
+int stf_operator_transposed(stf_system *s, stf_operator_point *at, char which, N_Vector x,
+                            N_Vector out)
+{
+  const steif_problem *p = s->problem;
+  return (which == 'E' ? p->Etv : p->Atv)(at->t, at->y, at->yp, x, out, p->user);
+}
+
 static int product_E(N_Vector x, N_Vector out, void *user)
 {
   stf_system *s = user;

@@ -130,6 +130,10 @@ int stf_operator_point_set(stf_system *system, stf_operator_point *point, sunrea
 /* out = E x or A x there; what a callback returned. */
 int stf_operator_product(stf_system *system, stf_operator_point *point, char which, N_Vector x,
                          N_Vector out);
+/* The same with the transpose, where its products are known. */
+bool stf_operator_transposes(const stf_system *system);
+int stf_operator_transposed(stf_system *system, stf_operator_point *point, char which,
+                            N_Vector x, N_Vector out);
 int stf_operator_remember(stf_system *system, sunrealtype t, N_Vector y, N_Vector yp);
 /* Of the callbacks; or of the matrices filled in, with their ILU(0) as preconditioner. */
 int stf_operator_open(stf_pool *pool, stf_system *system);
@@ -191,6 +195,9 @@ void stf_matrices_at_add(const stf_matrices_at *m, int j, char which, sunrealtyp
                          sunrealtype *block, size_t width);
 bool stf_matrices_at_adds(const stf_matrices_at *m);
 int stf_matrices_at_fill(stf_matrices_at *m, int point, sunrealtype t, N_Vector y, N_Vector yp);
+/* out += c M^T x, which 'E' or 'A' at a point of operators; scratch: another vector. */
+int stf_matrices_at_transposed(const stf_matrices_at *m, int point, char which, sunrealtype c,
+                               N_Vector x, N_Vector out, N_Vector scratch);
 /* out = E x or A x at a point. */
 int stf_matrices_at_product(const stf_matrices_at *m, int point, char which, N_Vector x,
                             N_Vector out);

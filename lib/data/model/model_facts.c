@@ -76,10 +76,51 @@ const char *steif_model_fitted(const steif_problem *p, size_t which)
                                                  : NULL;
 }
 
+int steif_model_attribute(const steif_problem *p, sunindextype i)
+{
+  const stf_model *m = model_of(p);
+  return m && i >= 0 && i < p->n ? (int)stf_kind_of_start(m, (size_t)i) : -1;
+}
+
 const char *steif_model_start(const steif_problem *p)
 {
   const stf_model *m = model_of(p);
   return m ? m->moved : "";
+}
+
+const char *steif_model_turn(const steif_problem *p, int event, int direction)
+{
+  const stf_model *m = model_of(p);
+  return m && event >= 0 && event < p->events ? stf_event_turn(m, event, direction) : NULL;
+}
+
+/* Is `name`, x, x' or u[3]', declared by a statement, or the array that it is an element of? */
+static bool declares(const stf_model *m, const stf_statement *s, const char *name)
+{
+  const size_t stem = strcspn(name, "['"), length = strlen(name);
+  int32_t primes = 0;
+  if (s->kind == STF_SAY_TIME) return !strcmp(name, "t");
+  if (s->kind != STF_SAY_STATE && s->kind != STF_SAY_PARAM && s->kind != STF_SAY_OUTPUT &&
+      s->kind != STF_SAY_COLUMN)
+    return false;
+  while (length > stem + (size_t)primes && name[length - 1 - (size_t)primes] == '\'') primes++;
+  const char *own = stf_named(m, s->name);
+  return primes == s->primes && strlen(own) == stem && !strncmp(own, name, stem);
+}
+
+void steif_model_unit(const steif_problem *p, const char *name, size_t room, char *unit)
+{
+  const stf_model *m = model_of(p);
+  if (!unit || !room) return;
+  *unit = 0;
+  for (size_t i = 0; m && name && i < m->syntax.statements.count; i++) {
+    const stf_statement *s = stf_statement_at(m, (int32_t)i);
+    if (!s->strlength || !declares(m, s, name)) continue;
+    const size_t most = s->strlength < room ? s->strlength : room - 1;
+    memcpy(unit, stf_source_at(&m->syntax.sources, s->string), most);
+    unit[most] = 0;
+    return;
+  }
 }
 
 const char *steif_model_output(const steif_problem *p, size_t which)

@@ -63,6 +63,7 @@ double stf_span(const stf_model *m) { return isfinite(m->t1) ? m->t1 - m->t0 : 1
 
 static int open_events(stf_model *m)
 {
+  m->piece = INFINITY;
   m->reactions = stf_pool_array(m->pool, 1, sizeof *m->reactions);
   m->event_block = stf_pool_array(m->pool, 1, sizeof *m->event_block);
   if (!m->reactions || !m->event_block) return STEIF_NO_MEMORY;

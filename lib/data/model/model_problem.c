@@ -225,6 +225,7 @@ static void events(stf_model *m, steif_problem *p)
   p->event_list = m->event_list;
   p->handle_event = stf_reactions_handle;
   if (m->form != STEIF_ODE) p->event_slope = stf_reactions_slope;
+  p->event_spacing = isfinite(m->piece) ? m->piece : 0;
   p->begin = stf_reactions_begin;
   p->save = stf_reactions_save;
   p->restore = stf_reactions_restore;
@@ -263,6 +264,7 @@ int stf_model_fill(stf_model *m, steif_problem *p)
   p->y0 = m->y0;
   p->yp0 = m->yp0;
   p->user = m;
+  STEIF_TRY(stf_name_equations(m));
   m->problem_names = (steif_names){.unknown = m->unknown, .equation = m->equation};
   p->names = &m->problem_names;
   p->storage =

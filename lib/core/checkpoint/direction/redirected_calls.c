@@ -86,6 +86,29 @@ static int precsolve(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vecto
   return of(user)->precsolve(t, y, yp, r, b, z, c, delta, of(user)->user);
 }
 
+static int precsolve_pair(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector *b,
+                          N_Vector *z, sunrealtype c_re, sunrealtype c_im, sunrealtype delta,
+                          void *user)
+{
+  return of(user)->precsolve_pair(t, y, yp, r, b, z, c_re, c_im, delta, of(user)->user);
+}
+
+static int Etv(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  return of(user)->Etv(t, y, yp, x, out, of(user)->user);
+}
+
+static int Atv(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  return of(user)->Atv(t, y, yp, x, out, of(user)->user);
+}
+
+static int precsolve_transposed(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b,
+                                N_Vector z, sunrealtype c, sunrealtype delta, void *user)
+{
+  return of(user)->precsolve_transposed(t, y, yp, r, b, z, c, delta, of(user)->user);
+}
+
 static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   return of(user)->start(t, y, yp, of(user)->user);
@@ -111,6 +134,11 @@ static int handle_event(sunrealtype t, N_Vector y, const int *fired, void *user)
   return of(user)->handle_event(t, y, fired, of(user)->user);
 }
 
+static int event_slope(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  return of(user)->event_slope(t, y, yp, of(user)->user);
+}
+
 static int begin(sunrealtype t, void *user) { return of(user)->begin(t, of(user)->user); }
 
 static long save(void *bytes, void *user) { return of(user)->save(bytes, of(user)->user); }
@@ -132,6 +160,10 @@ static void redirect_matrices(const steif_problem *from, steif_problem *to)
   if (from->Lv) to->Lv = Lv;
   if (from->precsetup) to->precsetup = precsetup;
   if (from->precsolve) to->precsolve = precsolve;
+  if (from->precsolve_pair) to->precsolve_pair = precsolve_pair;
+  if (from->Etv) to->Etv = Etv;
+  if (from->Atv) to->Atv = Atv;
+  if (from->precsolve_transposed) to->precsolve_transposed = precsolve_transposed;
 }
 
 void stf_redirect(steif_direction *d)
@@ -152,6 +184,7 @@ void stf_redirect(steif_direction *d)
   if (from->invariant) to->invariant = invariant;
   if (from->event) to->event = event;
   if (from->handle_event) to->handle_event = handle_event;
+  if (from->event_slope) to->event_slope = event_slope;
   if (from->begin) to->begin = begin;
   if (from->save) to->save = save;
   if (from->restore) to->restore = restore;

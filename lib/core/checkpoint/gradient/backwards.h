@@ -48,8 +48,11 @@ typedef struct stf_adjoint {
   bool by_rows;         /* K^T is factored by rows */
   N_Vector *residual, *omega, product, total;
   long solves, forward_solves, factors;
-  bool krylov;             /* stage_krylov.c, with factors of one real shift ... */
-  sunrealtype held, gamma; /* ... which is this, 0: none yet; of m > 1 stages 1/(gamma h) */
+  bool lanes; /* operator_stages.c: those of the shifts, by GMRES, precondition it */
+  steif_pencil *incomplete; /* of those, by matrices; NULL: by callbacks or by nothing */
+  N_Vector turned;          /* scratch of transposed products */
+  bool krylov;              /* stage_krylov.c, with factors of one real shift ... */
+  sunrealtype held, gamma;  /* ... which is this, 0: none yet; of m > 1 stages 1/(gamma h) */
   sunrealtype tolerance;
   const steif_table *table;
   N_Vector *basis[STF_BASIS + 1], *extra, *nothing;
@@ -66,6 +69,15 @@ int stf_adjoint_open(stf_pool *pool, stf_system *system, int m, const steif_tabl
 int stf_stage_krylov_open(stf_adjoint *a, const steif_table *table, sunrealtype tolerance,
                           int channels, bool smooth);
 int stf_stage_krylov(stf_adjoint *a, N_Vector *r, N_Vector *w);
+/* x := M^{-T} x, or M^{-1} x, by one solve for each shift of the middle stage. */
+int stf_adjoint_precondition(stf_adjoint *a, N_Vector *x);
+/* operator_stages.c, storage Krylov: the pencil of the middle stage; part of a residual that GMRES of all stages, whose
+ * preconditioner is not quite linear, takes at a time; where all stages have one matrix, sweeps, 1: they do not converge; a
+ * sentence for that. */
+#define STF_LANES_GAIN 1e-2
+int stf_lanes_open(stf_adjoint *a);
+int stf_lanes_refine(stf_adjoint *a, N_Vector *r, N_Vector *w);
+int stf_lanes_short(const stf_adjoint *a);
 /* a->residual := r - K^T w, or r - K w. */
 int stf_adjoint_residuals(stf_adjoint *a, N_Vector *r, N_Vector *w);
 /* Factors after the matrices at the points are filled: B/h of the method, m x m by rows. */
@@ -76,8 +88,8 @@ int stf_adjoint_solve_all(stf_adjoint *a, N_Vector *r, N_Vector *w);
 /* K x = r, with the same factors. */
 int stf_adjoint_solve_forward(stf_adjoint *a, N_Vector *r, N_Vector *x);
 /* out += c M^T x, which 'E' or 'A' at a point. */
-void stf_adjoint_add(const stf_adjoint *a, int point, char which, sunrealtype c, N_Vector x,
-                     N_Vector out);
+int stf_adjoint_add(const stf_adjoint *a, int point, char which, sunrealtype c, N_Vector x,
+                    N_Vector out);
 /* matrix_columns.c: out += c M^T x; entries of c M added to a dense matrix, rows `step` and columns ld apart. M NULL: identity. */
 void stf_add_transposed(SUNMatrix M, sunindextype n, sunrealtype c, const sunrealtype *x,
                         sunrealtype *out);
@@ -87,12 +99,14 @@ void stf_add_dense(SUNMatrix M, sunindextype n, sunrealtype c, double *to, sunin
 /* A run along a line of parameters and start values: dots are derivatives by theta, at 0. */
 typedef struct stf_pushed {
   steif_direction *line;
-  stf_slopes *slopes; /* dF/dtheta */
-  N_Vector *Y, *Yp;   /* of the points of a step */
-  N_Vector y, kappa;  /* of y and, in chains, of the last slope, before the next step */
-  N_Vector *past;     /* BDF: y at 0, and values before */
-  N_Vector *x, *r;    /* of the stages */
-  SUNMatrix E, A;     /* at points of differences; E NULL: identity */
+  stf_slopes *slopes;    /* dF/dtheta */
+  N_Vector *Y, *Yp;      /* of the points of a step */
+  N_Vector y, kappa;     /* of y and, in chains, of the last slope, before the next step */
+  N_Vector *past;        /* BDF: y at 0, and values before */
+  N_Vector *x, *r;       /* of the stages */
+  bool has_E;            /* it is not the identity */
+  SUNMatrix E, A;        /* at points of differences; A NULL: of products */
+  stf_matrices_at moved; /* operators there */
   N_Vector at, slope_at;
   N_Vector *bend_E, *bend_A; /* of the stages: derivatives of E^T w and A^T w, w held */
   N_Vector *gy;              /* of the slopes of functionals */
@@ -143,6 +157,10 @@ typedef struct stf_backwards {
   N_Vector *
     extra; /* what integrals up to there add to stages or past values, then to y_n; NULL: none */
 } stf_backwards;
+
+/* operator_stages.c: what gives transposed products, and where they are wanted second derivatives: the system of the run, or
+ * one with matrices. */
+int stf_matrices_for(stf_backwards *B, bool second, stf_system **system);
 
 /* functional.c: B->g, B->gy and B->gp of the integrand, or of what is said of the end, at (t, y). */
 int stf_functional_at(stf_backwards *B, int at_end, sunrealtype t, N_Vector y);

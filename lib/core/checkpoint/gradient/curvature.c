@@ -55,12 +55,22 @@ static int home(stf_backwards *B, int code)
 
 static int fill(stf_backwards *B, sunrealtype t)
 {
-  stf_system *s = &B->home->step.system, here = *s;
+  stf_system *s = B->adjoint.at.system, here = *s;
+  if (!B->tangent->A)
+    return stf_matrices_at_fill(&B->tangent->moved, 0, t, B->tangent->at, B->tangent->slope_at);
   here.A = B->tangent->A, here.E = B->tangent->E;
   here.central = true, here.filled = false;
   const int code = stf_system_matrices(&here, t, B->tangent->at, B->tangent->slope_at);
   s->nfe = here.nfe;
   return code;
+}
+
+static int add(stf_backwards *B, char which, sunrealtype c, N_Vector w, N_Vector out)
+{
+  const stf_pushed *D = B->tangent;
+  if (!D->A) return stf_matrices_at_transposed(&D->moved, 0, which, c, w, out, B->work);
+  stf_add_transposed(which == 'E' ? D->E : D->A, B->n, c, STF_ARRAY(w), STF_ARRAY(out));
+  return STEIF_OK;
 }
 
 static int bend_at(stf_backwards *B, int i, sunrealtype t, N_Vector w, sunrealtype c,
@@ -69,8 +79,8 @@ static int bend_at(stf_backwards *B, int i, sunrealtype t, N_Vector w, sunrealty
   const stf_pushed *D = B->tangent;
   sunrealtype *mu = B->mu + (B->count + i) * B->P;
   STEIF_TRY(fill(B, t));
-  stf_add_transposed(D->A, B->n, c, STF_ARRAY(w), STF_ARRAY(bend_A));
-  if (D->E) stf_add_transposed(D->E, B->n, c, STF_ARRAY(w), STF_ARRAY(bend_E));
+  STEIF_TRY(add(B, 'A', c, w, bend_A));
+  if (D->has_E) STEIF_TRY(add(B, 'E', c, w, bend_E));
   STEIF_TRY(stf_parameters_times(B, t, D->at, D->slope_at, w, B->Fp));
   for (int k = 0; k < B->P; k++) mu[k] -= c * B->Fp[k];
   return STEIF_OK;
@@ -79,7 +89,7 @@ static int bend_at(stf_backwards *B, int i, sunrealtype t, N_Vector w, sunrealty
 int stf_bend(stf_backwards *B, int i, sunrealtype t, const N_Vector point[4], N_Vector w,
              N_Vector bend_E, N_Vector bend_A)
 {
-  const bool slopes = B->home->step.system.form == STEIF_IMPLICIT;
+  const bool slopes = B->adjoint.at.system->form == STEIF_IMPLICIT;
   const sunrealtype e = length(B, point, slopes);
   stf_zero(&B->space, bend_E), stf_zero(&B->space, bend_A);
   int code = STEIF_OK;

@@ -124,8 +124,14 @@ static int open_large(stf_journey *J)
   stf_backwards *B = &J->back;
   const steif_solver *s = B->home;
   const stf_system *system = &s->step.system;
+  const bool krylov = B->adjoint.lanes;
   const bool large = B->adjoint.pencil && system->storage == STEIF_SPARSE && !system->linear;
   const sunrealtype rounding = 1e-14;
+  if (krylov)
+    return stf_stage_krylov_open(
+      &B->adjoint, B->table,
+      s->step.adaptive && !J->line ? fmax(1e-3 * s->options.rtol, rounding) : rounding,
+      B->channels, B->kind == STF_TRACE_BDF);
   if (!large || J->line || (!s->step.adaptive && B->n < LARGE)) return STEIF_OK;
   return stf_stage_krylov_open(
     &B->adjoint, B->table, s->step.adaptive ? fmax(1e-3 * s->options.rtol, rounding) : rounding,
@@ -136,6 +142,7 @@ static int open_back(stf_journey *J)
 {
   stf_backwards *B = &J->back;
   stf_system *system = &B->home->step.system;
+  stf_system *matrices;
   B->pool = stf_pool_new(B->ctx);
   if (!B->pool) return STEIF_NO_MEMORY;
   STEIF_TRY(stf_record_open(B));
@@ -145,7 +152,8 @@ static int open_back(stf_journey *J)
   if (J->line) B->width += 2 * (size_t)B->n * (size_t)B->points;
   STEIF_TRY(claim(B));
   const int m = B->kind == STF_TRACE_COLLOCATION ? B->table->s : 1;
-  STEIF_TRY(stf_adjoint_open(B->pool, system, m, B->table, B->count, &B->adjoint));
+  STEIF_TRY(stf_matrices_for(B, J->line != NULL, &matrices));
+  STEIF_TRY(stf_adjoint_open(B->pool, matrices, m, B->table, B->count, &B->adjoint));
   STEIF_TRY(open_large(J));
   if (m == 1 && B->kind == STF_TRACE_COLLOCATION)
     STEIF_TRY(stf_transform_build(B->pool, B->ctx, B->table, &B->adjoint.transform));

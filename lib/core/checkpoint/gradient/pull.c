@@ -100,7 +100,7 @@ static int pull_channel(stf_backwards *B, const stf_head *head, int i, N_Vector 
   const steif_table *T = B->table;
   for (int j = 0; j < T->s; j++) {
     const sunrealtype t = head->t + T->c[j] * head->h;
-    stf_adjoint_add(&B->adjoint, j, 'A', 1, w[j], B->lambda[i]);
+    STEIF_TRY(stf_adjoint_add(&B->adjoint, j, 'A', 1, w[j], B->lambda[i]));
     STEIF_TRY(stf_pull_parameters(B, i, t, B->Y[j], B->Yp[j], w[j]));
   }
   return STEIF_OK;
@@ -118,7 +118,7 @@ static int bend_stages(stf_backwards *B, const stf_head *head, int i, N_Vector *
   for (int j = 0; j < s; j++) {
     stf_axpy(space, 1, D->bend_A[j], right[j]);
     stf_axpy(space, 1, D->bend_A[j], B->lambda[B->count + i]);
-    for (int m = 0; D->E && m < s; m++)
+    for (int m = 0; D->has_E && m < s; m++)
       stf_axpy(space, -B->adjoint.B[j * s + m], D->bend_E[j], right[m]);
   }
   return STEIF_OK;
@@ -166,7 +166,7 @@ static int pull_collocation(stf_backwards *B, const stf_head *head)
 /* x of channel i, what comes to Y_m, by its w. */
 static int add_equation(stf_backwards *B, int i, int m, sunrealtype t, N_Vector x)
 {
-  stf_adjoint_add(&B->adjoint, 0, 'A', 1, B->w[i], x);
+  STEIF_TRY(stf_adjoint_add(&B->adjoint, 0, 'A', 1, B->w[i], x));
   return stf_pull_parameters(B, i, t, B->Y[m], B->Yp[m], B->w[i]);
 }
 
@@ -181,7 +181,7 @@ static int pull_equation(stf_backwards *B, int m, sunrealtype t, sunrealtype shi
   for (int i = 0; i < B->count; i++) STEIF_TRY(add_equation(B, i, m, t, x[i]));
   for (int i = B->count; i < B->channels; i++) {
     STEIF_TRY(bend(B, i - B->count, t, m, 0));
-    if (D->E) stf_axpy(space, -shift, D->bend_E[0], slope[i]);
+    if (D->has_E) stf_axpy(space, -shift, D->bend_E[0], slope[i]);
     stf_axpy(space, 1, D->bend_A[0], slope[i]);
     stf_axpy(space, 1, D->bend_A[0], x[i]);
     STEIF_TRY(stf_adjoint_solve(&B->adjoint, slope + i, B->w + i));
@@ -243,7 +243,7 @@ static int pull_value(stf_backwards *B, int i, int at, sunrealtype t, sunrealtyp
   const stf_pushed *D = B->tangent;
   if (i >= B->count) {
     STEIF_TRY(bend(B, i - B->count, t, at, 0));
-    if (D->E) stf_axpy(&B->space, -shift, D->bend_E[0], B->lambda[i]);
+    if (D->has_E) stf_axpy(&B->space, -shift, D->bend_E[0], B->lambda[i]);
     stf_axpy(&B->space, 1, D->bend_A[0], B->lambda[i]);
     STEIF_TRY(stf_adjoint_solve(&B->adjoint, &B->lambda[i], B->w + i));
   }
@@ -265,8 +265,8 @@ static int pull_bdf_step(stf_backwards *B, int at, sunrealtype t, sunrealtype h,
   for (int i = 0; i < B->channels; i++) {
     STEIF_TRY(pull_value(B, i, at, t + h, shift));
     stf_zero(space, B->work);
-    stf_adjoint_add(&B->adjoint, 0, 'E', 1, B->w[i], B->work);
-    if (i >= B->count && B->tangent->E) stf_axpy(space, 1, B->tangent->bend_E[0], B->work);
+    STEIF_TRY(stf_adjoint_add(&B->adjoint, 0, 'E', 1, B->w[i], B->work));
+    if (i >= B->count && B->tangent->has_E) stf_axpy(space, 1, B->tangent->bend_E[0], B->work);
     for (int j = 1; j <= order; j++) stf_axpy(space, -alpha[j] / h, B->work, B->past[j][i]);
     stf_zero(space, B->lambda[i]);
   }
@@ -342,7 +342,7 @@ int stf_pull_start(stf_backwards *B, sunrealtype t0, N_Vector y0, N_Vector yp0)
   if (B->kind != STF_TRACE_CHAIN || B->table->A[0] != 0) return STEIF_OK;
   STEIF_TRY(stf_matrices_at_fill(&B->adjoint.at, 0, t0, y0, yp0));
   for (int i = 0; i < B->channels; i++) {
-    stf_adjoint_add(&B->adjoint, 0, 'A', 1, B->kappa[i], B->lambda[i]);
+    STEIF_TRY(stf_adjoint_add(&B->adjoint, 0, 'A', 1, B->kappa[i], B->lambda[i]));
     STEIF_TRY(stf_pull_parameters(B, i, t0, y0, yp0, B->kappa[i]));
     if (!D) stf_zero(&B->space, B->kappa[i]);
   }

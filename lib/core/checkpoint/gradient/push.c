@@ -37,7 +37,7 @@ static int claim_vectors(stf_backwards *B, stf_pushed *D, int stages)
 
 int stf_push_open(stf_backwards *B, steif_direction *line)
 {
-  stf_system *system = &B->home->step.system;
+  stf_system *system = B->adjoint.at.system;
   const size_t size = (size_t)(B->count * B->P) + 1;
   stf_pushed *D = B->tangent = stf_pool_array(B->pool, 1, sizeof *D);
   if (!D) return STEIF_NO_MEMORY;
@@ -45,6 +45,8 @@ int stf_push_open(stf_backwards *B, steif_direction *line)
   STEIF_TRY(claim_vectors(B, D, B->kind == STF_TRACE_BDF ? 1 : B->table->s));
   D->gp = stf_pool_array(B->pool, size, sizeof *D->gp);
   if (!D->gp) return STEIF_NO_MEMORY;
+  D->has_E = system->form != STEIF_ODE;
+  if (!system->A) STEIF_TRY(stf_matrices_at_open(B->pool, system, 1, &D->moved));
   STEIF_TRY(clone(B, system->A, &D->A));
   STEIF_TRY(clone(B, system->E, &D->E));
   return stf_slopes_open(B->pool, B->ctx, &line->problem,

@@ -1,6 +1,7 @@
 /* step_record.c: what a step leaves for the way back.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "backwards.h"
+#include <math.h>
 #include <string.h>
 
 static int trace(const steif_solver *s, stf_trace *out)
@@ -76,13 +77,24 @@ static void bdf_of(stf_backwards *B, const stf_trace *now, const stf_step *step,
   put(put(to, now->past[0]), B->work);
 }
 
+/* Where the step began: one that ends at a break ends just before it, and so do its stages. */
+static sunrealtype beginning(const steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const stf_step *step = &s->step;
+  sunrealtype from = step->t - step->h;
+  if (step->adaptive && s->next_break < p->break_count && step->t == p->breaks[s->next_break])
+    while (from + step->h >= step->t) from -= STF_EPS * fabs(step->t);
+  return from;
+}
+
 int stf_record_step(stf_backwards *B, steif_solver *s, N_Vector before, sunrealtype *record)
 {
   const stf_step *step = &s->step;
   stf_trace now = {0};
   STEIF_TRY(trace(s, &now));
   stf_head head = {
-    .t = step->t - step->h, .h = step->h, .order = now.order, .halved = now.between != NULL};
+    .t = beginning(s), .h = step->h, .order = now.order, .halved = now.between != NULL};
   for (int j = 0; now.alpha && j <= now.order; j++) head.alpha[j] = now.alpha[j];
   memcpy(record, &head, sizeof head);
   sunrealtype *to = record + STF_HEAD;

@@ -45,14 +45,17 @@ int stf_event_open(steif_solver *s)
   w->after = stf_pool_vector(s->pool, s->shown);
   w->slope = stf_pool_vector(s->pool, s->shown);
   w->low = stf_pool_array(s->pool, m * (5 + STF_NODES + STF_FINE + 1), sizeof *w->low);
-  w->sign = stf_pool_array(s->pool, 3 * m, sizeof *w->sign);
+  w->sign = stf_pool_array(s->pool, 6 * m, sizeof *w->sign);
   if (!w->y || !w->after || !w->slope || !w->low || !w->sign) return STEIF_NO_MEMORY;
   w->high = w->low + m, w->mid = w->high + m, w->next = w->mid + m, w->noise = w->next + m;
   w->node = w->noise + m, w->fine = w->node + m * STF_NODES;
   w->fired = w->sign + m;
   w->leaves = w->sign + 2 * m;
+  w->seen = w->sign + 3 * m;
+  w->rests = w->sign + 4 * m;
+  w->first = w->sign + 5 * m;
   s->events = w;
-  return STEIF_OK;
+  return stf_event_pass_open(s);
 }
 
 /* -- values ------------------------------------------------------------------------------- */
@@ -94,7 +97,7 @@ bool stf_event_crosses(const steif_solver *s, int i, sunrealtype g)
 {
   const stf_detector *w = s->events;
   const int asked = s->problem->event_list ? s->problem->event_list[i].direction : 0;
-  const bool changes = w->sign[i] != 0 && side(g) != w->sign[i];
+  const bool changes = w->sign[i] != 0 && side(g) != w->sign[i] && !w->rests[i];
   return changes && (asked == 0 || (asked > 0) == (w->sign[i] < 0));
 }
 
@@ -109,7 +112,8 @@ static bool any_crosses(const steif_solver *s, const sunrealtype *g)
 static void take_sides(stf_detector *w, const sunrealtype *g)
 {
   for (int i = 0; i < w->count; i++)
-    if (w->sign[i] != 0 || fabs(g[i]) > w->noise[i]) w->sign[i] = side(g[i]), w->noise[i] = 0;
+    if (!w->rests[i] && (w->sign[i] != 0 || fabs(g[i]) > w->noise[i]))
+      w->sign[i] = side(g[i]), w->noise[i] = 0;
 }
 
 /* -- bracket -------------------------------------------------------------------------------------- */
@@ -270,7 +274,7 @@ static sunrealtype hidden(const steif_solver *s, sunrealtype from, sunrealtype t
 {
   const stf_detector *w = s->events;
   for (int i = 0; i < w->count; i++) {
-    if (w->sign[i] == 0 || side(g[i]) != w->sign[i]) continue;
+    if (w->sign[i] == 0 || w->rests[i] || side(g[i]) != w->sign[i]) continue;
     for (int j = 1; j < STF_FINE; j++) {
       const sunrealtype at = dip(w, i, j);
       const sunrealtype t = from + at / STF_FINE * (to - from);
@@ -320,6 +324,7 @@ static int search(steif_solver *s, sunrealtype from, sunrealtype to, int halving
   const size_t m = (size_t)w->count;
   bool shown = true;
   STEIF_TRY(sample(s, from, to));
+  STEIF_TRY(stf_event_find_resting(s, to));
   if (halvings > 0) STEIF_TRY(check(s, from, to, &shown));
   if (!shown) {
     const sunrealtype middle = from + (to - from) / 2;
@@ -362,6 +367,7 @@ int stf_event_step(steif_solver *s, sunrealtype from)
   stf_detector *w = s->events;
   int rounds = 0;
   w->t = from;
+  w->passing = false;
   do {
     const sunrealtype begun = w->t;
     w->again = false;

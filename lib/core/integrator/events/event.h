@@ -23,6 +23,10 @@ typedef struct stf_detector {
   sunrealtype *noise; /* |g| that cannot be told from zero behind an event */
   int *sign;          /* side of each function at t: 1, -1; 0: at zero, side unknown */
   int *fired;
+  int *seen;           /* horizon.c: side at the looks so far; 0: none yet */
+  sunrealtype horizon; /* found there; not behind s->end: to be looked for */
+  int *first;          /* those that fired before the jump that they have made */
+  int *rests;          /* resting.c: it is zero in this part of the step but for errors */
   int *leaves;      /* the side to which y' takes a function that is at zero when a step begins;
                        0: not known, or not at zero */
   bool started;     /* g was seen at the start */
@@ -34,7 +38,12 @@ typedef struct stf_detector {
   sunrealtype last; /* time of the last restart */
   bool crowded;     /* the run ended since they follow each other ever faster */
   int gathered;     /* restarts in a row with almost no time between them */
-  char name[64];    /* of the last event */
+  char name[160];   /* of the last event */
+  /* passed.c; passed: NULL: methods have dense output of their own */
+  N_Vector *passed;
+  sunrealtype from,
+    to; /* the way of the last step up to its event, and whether it is asked for */
+  bool passing;
 } stf_detector;
 
 /* s->events for a problem with events, else nothing. */
@@ -59,6 +68,25 @@ sunrealtype stf_event_tolerance(const steif_solver *s, sunrealtype t);
 int stf_event_below(steif_solver *s, int i, sunrealtype t, sunrealtype h);
 /* Does function i leave its side for g in the direction asked for? */
 bool stf_event_crosses(const steif_solver *s, int i, sunrealtype g);
+
+/* --- resting.c --- */
+/* w->rests for the part of a step that ends at t, from w->node. */
+int stf_event_find_resting(steif_solver *s, sunrealtype t);
+/* w->fired: functions that a jump to w->after at t has put on their other side, clear of errors; their new sides. */
+int stf_event_find_jumped(steif_solver *s, sunrealtype t, bool *any);
+
+/* --- horizon.c --- */
+/* Where a step has to end at the latest, s->t1 or earlier: not far behind the next change of an event function in t alone,
+ * up to where f is as it is now. */
+int stf_event_horizon(steif_solver *s, sunrealtype *stop);
+
+/* --- passed.c --- */
+/* Room for it; look at the way to an event at t before it is handled. */
+int stf_event_pass_open(steif_solver *s);
+int stf_event_pass(steif_solver *s, sunrealtype t);
+/* Is dense output of the last step to be had from there? At t. */
+bool stf_event_passed(const steif_solver *s);
+int stf_event_recall(const steif_solver *s, sunrealtype t, N_Vector y);
 
 /* --- event_handler.c --- */
 /* The event at t: tell, react; low, high: g on both sides of it. */

@@ -98,12 +98,70 @@ static void cut(steif_solver *s, sunrealtype t)
 static int settle(steif_solver *s, sunrealtype t)
 {
   stf_detector *w = s->events;
-  if (!s->options.reinitialise)
-    return stf_recompute_mode(s, t, w->after, w->slope, &w->settled);
+  if (!s->options.reinitialise) return stf_mode_begin(s, t, w->after, w->slope, &w->settled);
   N_VConst(0, w->slope);
   STEIF_TRY(
     s->options.reinitialise(s->ctx, s->problem, t, s->options.rtol, w->after, w->slope));
   w->settled = N_VMaxNorm(w->slope) > 0;
+  return STEIF_OK;
+}
+
+/* To the handler: what it wishes. */
+static int ask_handler(steif_solver *s, sunrealtype t, int *wish)
+{
+  const steif_problem *p = s->problem;
+  const long failures = stf_failures(s->ctx);
+  *wish = p->handle_event(t, s->events->after, s->events->fired, p->user);
+  if (*wish < 0 && stf_failures(s->ctx) > failures) return steif_status(s->ctx); /* told */
+  STEIF_CHECK(*wish >= STEIF_CONTINUE && *wish <= STEIF_FINISH, s->ctx, STEIF_CALLBACK,
+              "handle_event of problem '%s' returned %d at the event %s, t = %.12g", p->name,
+              *wish, s->events->name, t);
+  return STEIF_OK;
+}
+
+/* Where the state jumps to the equations that hold from now on, conditions that it makes true or false are events
+ * of this instant. *more: the handler has changed the equations again. */
+static int react_to_jump(steif_solver *s, sunrealtype t, bool *more)
+{
+  stf_detector *w = s->events;
+  const steif_options *o = &s->options;
+  int wish;
+  *more = false;
+  N_VLinearSum(1, w->after, -1, w->y, w->y);
+  if (o->reinitialise || s->engine || s->saltation || !(N_VMaxNorm(w->y) > 0)) return STEIF_OK;
+  STEIF_TRY(stf_event_find_jumped(s, t, more));
+  if (!*more) return STEIF_OK;
+  name_fired(s);
+  if (o->on_event && o->on_event(s, t, w->after, w->fired, o->observer))
+    s->observer_stopped = true;
+  *more = !terminal(s);
+  s->finished = !*more;
+  if (s->finished) return STEIF_OK;
+  STEIF_TRY(ask_handler(s, t, &wish));
+  s->finished = wish == STEIF_FINISH; /* what is behind the jump has not been shown */
+  *more = wish == STEIF_RESTART;
+  return STEIF_OK;
+}
+
+/* The state behind the event, with what its jump brings about. */
+static int settle_all(steif_solver *s, sunrealtype t)
+{
+  enum { ROUNDS = 20 };
+  stf_detector *w = s->events;
+  const size_t bytes = (size_t)w->count * sizeof *w->fired;
+  bool more = true;
+  memcpy(w->first, w->fired, bytes);
+  for (int round = 0; more && round < ROUNDS; round++) {
+    N_VScale(1, w->after, w->y);
+    STEIF_TRY(settle(s, t));
+    STEIF_TRY(react_to_jump(s, t, &more));
+  }
+  memcpy(w->fired, w->first, bytes);
+  STEIF_CHECK(
+    !more, s->ctx, STEIF_STEP_SIZE,
+    "events of problem '%s' at t = %.12g, last %s, and the jumps that they make follow "
+    "each other without end",
+    s->problem->name, t, w->name);
   return STEIF_OK;
 }
 
@@ -135,19 +193,19 @@ static int react(steif_solver *s, sunrealtype t)
   if (s->quadratures) STEIF_TRY(stf_quadrature_to(s, t));
   N_VScale(1, w->after, w->y);
   STEIF_TRY(stf_event_ask(s, t, w->after, w->mid));
-  const int wish = p->handle_event(t, w->after, w->fired, p->user);
+  STEIF_TRY(stf_event_pass(s, t));
+  int wish;
+  STEIF_TRY(ask_handler(s, t, &wish));
   N_VLinearSum(1, w->after, -1, w->y, w->y);
   w->moved = !(N_VMaxNorm(w->y) <= 0);
-  STEIF_CHECK(wish >= STEIF_CONTINUE && wish <= STEIF_FINISH, s->ctx, STEIF_CALLBACK,
-              "handle_event of problem '%s' returned %d at the event %s, t = %.12g", p->name,
-              wish, w->name, t);
   s->finished = wish == STEIF_FINISH, w->silent = s->finished;
   w->cut = wish == STEIF_RESTART;
   w->again = wish == STEIF_CONTINUE;
+  w->passing = w->passed && !w->again && !s->engine && !s->step.method->dense;
   if (w->again) return look_again(s, t);
   cut(s, t);
   if (w->cut) STEIF_TRY(look_again(s, t));
-  if (w->cut) STEIF_TRY(settle(s, t));
+  if (w->cut) STEIF_TRY(settle_all(s, t));
   stf_space space;
   stf_space_open(&space, w->after);
   STEIF_CHECK(stf_finite(&space, w->after), s->ctx, STEIF_NOT_FINITE,

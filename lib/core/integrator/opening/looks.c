@@ -1,7 +1,9 @@
 /* looks.c: what is looked at before a method is opened: whether the mass matrix varies, and the start of a DAE.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "array_start.h"
 #include "integrator.h"
 #include "varying_mass.h"
+#include <string.h>
 
 int stf_look_at_index(steif_solver *s)
 {
@@ -39,12 +41,46 @@ int stf_look_at_mass(steif_solver *s, int *form, N_Vector y, N_Vector yp)
   return STEIF_OK;
 }
 
-/* The start of a DAE, for methods of ours with adaptive steps; linear systems have their jump. */
+/* Of a linear system the jump from x(0-) is the start; what is not certified is left to the first step. */
+static int jump(stf_repair *r)
+{
+  const steif_engine *engine = stf_engine_find("descriptor");
+  const size_t n = (size_t)r->given->n;
+  sunrealtype *x = stf_pool_array(r->pool, n, sizeof *x);
+  bool certified = false;
+  if (!x) return STEIF_NO_MEMORY;
+  memcpy(x, r->point.y0, n * sizeof *x);
+  const int code = engine->jump(r->ctx, r->given, r->given->t0, x, &certified);
+  if (code == STEIF_NO_MEMORY) return code;
+  if (code || !certified) {
+    steif_forget(r->ctx);
+    return STEIF_OK;
+  }
+  stf_report_moved(r, x);
+  if (!r->report.moved) return STEIF_OK;
+  stf_point_say(
+    r->report.message,
+    "; this is the jump of a linear system from x(0-) to x(0+), which `steif impulse` "
+    "shows with its impulses");
+  STEIF_CHECK(r->policy == STEIF_REPAIR, r->ctx, STEIF_BAD_INPUT,
+              "the start of '%s' is not consistent; it would have %.400s", r->given->name,
+              r->report.message + strlen("start: "));
+  r->problem.y0 = r->report.y = x;
+  return STEIF_OK;
+}
+
+int stf_start_repaired(stf_repair *r)
+{
+  STEIF_TRY(stf_repair_start(r));
+  return r->jumps ? jump(r) : STEIF_OK;
+}
+
+/* The start of a DAE, for methods of ours with adaptive steps. */
 int stf_look_at_start(steif_solver *s, int form)
 {
   const steif_options *o = &s->options;
   const steif_problem *p = s->problem;
-  const bool dae = form == STEIF_MASS || form == STEIF_IMPLICIT;
+  const bool dae = form != STEIF_ODE;
   const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
   if (!dae || o->h > 0 || o->mesh || o->like || p->start || storage == STEIF_KRYLOV ||
       p->storage == STEIF_KRYLOV)
@@ -57,7 +93,7 @@ int stf_look_at_start(steif_solver *s, int form)
                            .rtol = o->rtol,
                            .atol = o->atol,
                            .atols = o->atols};
-  STEIF_TRY(stf_repair_start(&s->repair));
+  STEIF_TRY(stf_start_repaired(&s->repair));
   s->problem = &s->repair.problem;
   return STEIF_OK;
 }

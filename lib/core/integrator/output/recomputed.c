@@ -39,51 +39,22 @@ static bool stays(const steif_solver *s, const sunrealtype *y, const steif_start
   return true;
 }
 
-static bool repairs_algebraic(const steif_solver *s)
-{
-  const stf_repair *r = &s->repair;
-  return !s->engine && s->step.adaptive && s->problem->dae_index == 1 && r->count > 0 &&
-         r->policy == STEIF_REPAIR && !s->saltation && s->step.system.space.serial;
-}
-
-/* Of index 1: unknowns with a derivative stay, the others follow, as at a start. */
-static int take_algebraic(steif_solver *s, sunrealtype t, N_Vector y)
-{
-  const steif_options *o = &s->options;
-  steif_problem at = *s->problem;
-  stf_pool *pool = stf_pool_new(s->ctx);
-  at.t0 = t, at.y0 = stf_array(y), at.yp0 = NULL, at.start = NULL;
-  stf_repair repair = {.ctx = s->ctx,
-                       .pool = pool,
-                       .given = &at,
-                       .policy = STEIF_REPAIR,
-                       .rtol = o->rtol,
-                       .atol = o->atol,
-                       .atols = o->atols};
-  const bool before = stf_silence(s->ctx, true);
-  const int code = pool ? stf_repair_start(&repair) : STEIF_NO_MEMORY;
-  stf_silence(s->ctx, before);
-  if (!code && repair.report.y)
-    memcpy(stf_array(y), repair.report.y, (size_t)at.n * sizeof *repair.report.y);
-  stf_pool_free(&pool);
-  if (code && code != STEIF_NO_MEMORY) steif_forget(s->ctx);
-  return code == STEIF_NO_MEMORY ? code : STEIF_OK;
-}
-
 int stf_recompute_mode(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool *known)
 {
   steif_start start;
   *known = false;
-  if (repairs_algebraic(s)) return take_algebraic(s, t, y);
-  if (!stf_recomputes(s) || !s->repair.algebraic || s->repair.policy != STEIF_REPAIR ||
-      s->saltation)
-    return STEIF_OK;
+  if (!stf_recomputes(s)) return STEIF_OK;
+  const size_t n = (size_t)s->problem->n;
   const steif_point at = {.y = stf_array(y), .t = t};
+  int *number = stf_allocate(s->ctx, n, sizeof *number);
+  if (!number) return STEIF_NO_MEMORY;
   const bool before = stf_silence(s->ctx, true);
-  const int code = stf_start_beside(s->ctx, s->problem, &at, NULL, &start);
+  const int code = stf_start_beside(s->ctx, s->problem, &at, NULL, &start, number);
   stf_silence(s->ctx, before);
+  const bool same = !code && !memcmp(number, s->problem->index, n * sizeof *number);
+  stf_release(s->ctx, number);
   if (code == STEIF_NO_MEMORY) return code;
-  *known = !code && stays(s, at.y, &start);
+  *known = same && stays(s, at.y, &start);
   if (*known) {
     memcpy(stf_array(y), start.y, (size_t)s->problem->n * sizeof *start.y);
     memcpy(stf_array(yp), start.yp, (size_t)s->problem->n * sizeof *start.yp);
@@ -123,7 +94,7 @@ static int put_in_place(steif_solver *s, sunrealtype t, N_Vector y)
   steif_start start;
   const steif_point at = {.y = stf_array(y), .t = t};
   const bool before = stf_silence(s->ctx, true);
-  const int code = stf_start_beside(s->ctx, s->problem, &at, &s->nodes, &start);
+  const int code = stf_start_beside(s->ctx, s->problem, &at, &s->nodes, &start, NULL);
   stf_silence(s->ctx, before);
   if (code == STEIF_NO_MEMORY) return code;
   sunrealtype drift, corrected;

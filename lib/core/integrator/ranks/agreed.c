@@ -207,6 +207,8 @@ static void wrap(stf_agreed *a)
   WRAP(E), WRAP(A), WRAP(L), WRAP(Ev), WRAP(Av), WRAP(Lv), WRAP(precsetup), WRAP(precsolve);
   WRAP(precsolve_pair), WRAP(start), WRAP(exact), WRAP(handle_event), WRAP(event_slope),
     WRAP(begin), WRAP(event), WRAP(invariant);
+  to->Etv = to->Atv = NULL,
+  to->precsolve_transposed = NULL; /* of gradients, which serve no ranks */
 }
 
 /* -- the same input ---------------------------------------------------------------------------- */

@@ -11,7 +11,7 @@ static int put(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
 {
   steif_start start;
   const steif_point at = {.y = stf_array(y), .t = t};
-  const int code = stf_start_beside(s->ctx, s->problem, &at, &s->nodes, &start);
+  const int code = stf_start_beside(s->ctx, s->problem, &at, &s->nodes, &start, NULL);
   if (!code) memcpy(stf_array(out), start.y, (size_t)s->problem->n * sizeof *start.y);
   steif_start_clear(&start);
   return code == STEIF_NO_MEMORY || !code ? code : STEIF_RETRY;

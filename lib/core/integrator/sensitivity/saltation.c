@@ -60,7 +60,8 @@ int stf_saltation_claim(steif_solver *s)
     if (!w->S || !w->jump) return STEIF_NO_MEMORY;
   }
   w->other = w->tau + count;
-  s->saltation = w, w->t = NAN;
+  s->saltation = w, w->t = w->renewed = NAN;
+  STEIF_TRY(stf_saltation_jumps_claim(s));
   return claim_values(s, w);
 }
 
@@ -118,8 +119,7 @@ static int reaction(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
   return code;
 }
 
-/* The same of options.reinitialise behind a break. */
-static int projection(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
+int stf_saltation_projection(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
 {
   N_VScale(1, y, out);
   STEIF_TRY(settled(s, t, out));
@@ -136,8 +136,7 @@ static int no_derivative(steif_solver *s, int code, int k, const char *what)
                     what, s->problem->name, k + 1, s->saltation->t);
 }
 
-/* jump = dy + (derivative of `what` along (tau, dy, e_k)), dy = S- + f- tau. */
-static int through(steif_solver *s, stf_quantity_at what, int k, const char *name)
+int stf_saltation_through(steif_solver *s, stf_quantity_at what, int k, const char *name)
 {
   stf_saltation *w = s->saltation;
   const stf_carry *T = s->step.carry;
@@ -187,8 +186,38 @@ int stf_saltation_before(steif_solver *s, sunrealtype t)
   STEIF_TRY(stf_saltation_times(s, t));
   STEIF_TRY(stf_quadrature_before(s, t, w->y));
   for (int k = 0; k < stf_columns(s); k++)
-    STEIF_TRY(callback ? by_callback(s, k) : through(s, reaction, k, "handle_event"));
+    STEIF_TRY(callback ? by_callback(s, k)
+                       : stf_saltation_through(s, reaction, k, "handle_event"));
   return w->keeper ? stf_transition_before(s, reaction) : STEIF_OK;
+}
+
+/* out = what puts y where the equations behind the event hold. */
+static int placed(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
+{
+  N_VScale(1, y, out);
+  STEIF_TRY(stf_mode_exactly(s, t, out));
+  N_VLinearSum(1, out, -1, y, out);
+  return STEIF_OK;
+}
+
+int stf_saltation_place(steif_solver *s, const sunrealtype *y)
+{
+  stf_saltation *w = s->saltation;
+  const stf_carry *T = s->step.carry;
+  STEIF_CHECK(
+    !w->keeper, s->ctx, STEIF_UNSUPPORTED,
+    "at t = %.12g unknowns of '%s' jump to fulfil the equations that hold from then on: "
+    "gradients do not pass such a jump; take sensitivities",
+    w->t, s->problem->name);
+  memcpy(stf_array(w->y), y, (size_t)s->problem->n * sizeof *y);
+  for (int k = 0; k < stf_columns(s); k++) {
+    N_VScale(1, w->jump[k], w->direction);
+    const stf_line line = {.dt = w->tau[k], .dy = w->direction, .k = T->parameter[k]};
+    const int code = stf_along(s, placed, &line, w->r[0], w->r + 1);
+    if (code) return no_derivative(s, code, T->parameter[k], "the jump to the new equations");
+    N_VLinearSum(1, w->direction, 1, w->r[0], w->jump[k]);
+  }
+  return STEIF_OK;
 }
 
 /* ---- behind it -------------------------------------------------------------------------------- */
@@ -204,25 +233,78 @@ static int consistent_slope(steif_solver *s, sunrealtype t, N_Vector y, N_Vector
   return code;
 }
 
-/* f+ at the first time behind t. */
-static int slope_behind(steif_solver *s, sunrealtype t, N_Vector y, N_Vector known)
+/* out := a step of backward Euler over its length h, M (y' - s) = 0 and what the algebraic equations ask for. */
+static int small_step(steif_solver *s, N_Vector residual, sunrealtype h, N_Vector out)
+{
+  steif_pencil *p = s->step.system.pencil;
+  const int code = steif_pencil_factor(p, 1, &(steif_shift){1 / h, 0});
+  if (code) return code == STEIF_SINGULAR ? STEIF_RETRY : code;
+  N_VScale(-1, residual, out);
+  STEIF_TRY(steif_pencil_solve(p, 0, 1, &out, NULL));
+  N_VScale(1 / h, out, out);
+  return STEIF_OK;
+}
+
+/* Of unknowns without a derivative, which S gets by stf_saltation_jumps. */
+static void leave_algebraic(const steif_solver *s, N_Vector slope)
+{
+  for (sunindextype j = 0; s->repair.algebraic && j < s->problem->n; j++)
+    if (s->repair.algebraic[j]) stf_array(slope)[j] = 0;
+}
+
+/* y' where M y' = f is of index 1: two lengths of such steps extrapolated, and shorter ones until they agree. f may jump
+ * at t in time: nothing is evaluated elsewhere. STEIF_RETRY: they do not. */
+static int slope_by_steps(steif_solver *s, sunrealtype t, N_Vector y, N_Vector slope)
+{
+  const stf_saltation *w = s->saltation;
+  stf_system *system = &s->step.system;
+  N_Vector residual = w->r[0], found = w->r[1], before = w->r[2];
+  sunrealtype h = 1e-3 * (s->t1 - s->problem->t0);
+  if (system->form != STEIF_MASS || s->problem->dae_index != 1 || system->krylov)
+    return STEIF_RETRY;
+  N_VConst(0, slope);
+  STEIF_TRY(stf_system_residual(system, t, y, slope, residual));
+  STEIF_TRY(stf_system_linearise(system, t, y, slope));
+  system->filled = false;
+  for (int attempt = 0; attempt < 7; attempt++, h /= 64) {
+    STEIF_TRY(small_step(s, residual, h, found));
+    STEIF_TRY(small_step(s, residual, h / 2, slope));
+    N_VLinearSum(2, slope, -1, found, slope);
+    leave_algebraic(s, slope);
+    N_VLinearSum(1, slope, -1, before, found);
+    if (attempt > 0 && N_VMaxNorm(found) <= 1e-8 * N_VMaxNorm(slope)) return STEIF_OK;
+    N_VScale(1, slope, before);
+  }
+  return STEIF_RETRY;
+}
+
+int stf_saltation_slope(steif_solver *s, sunrealtype t, N_Vector y, N_Vector slope)
+{
+  stf_system *system = &s->step.system;
+  if (system->form != STEIF_ODE) {
+    const int by_steps = slope_by_steps(s, t, y, slope);
+    return by_steps == STEIF_RETRY ? consistent_slope(s, t, y, slope) : by_steps;
+  }
+  const int code = stf_system_rhs(system, t, y, slope);
+  return code > 0 ? steif_status(s->ctx) : code;
+}
+
+int stf_saltation_behind(steif_solver *s, sunrealtype t, N_Vector y, N_Vector known)
 {
   stf_saltation *w = s->saltation;
-  stf_system *system = &s->step.system;
-  const sunrealtype behind = nextafter(t, INFINITY);
-  if (known) return stf_copy(&system->space, known, w->after), STEIF_OK;
-  if (system->form != STEIF_ODE) return consistent_slope(s, behind, y, w->after);
-  const int code = stf_system_rhs(system, behind, y, w->after);
-  return code > 0 ? steif_status(s->ctx) : code;
+  if (!known) return stf_saltation_slope(s, nextafter(t, INFINITY), y, w->after);
+  stf_copy(&s->step.system.space, known, w->after);
+  return STEIF_OK;
 }
 
 int stf_saltation_after(steif_solver *s, sunrealtype t)
 {
   stf_saltation *w = s->saltation;
   const stf_detector *d = s->events;
-  STEIF_TRY(slope_behind(s, t, d->after, d->settled ? d->slope : NULL));
+  STEIF_TRY(stf_saltation_behind(s, t, d->after, d->settled ? d->slope : NULL));
   for (int k = 0; k < stf_columns(s); k++)
     stf_axpy(&s->step.system.space, -w->tau[k], w->after, w->jump[k]);
+  STEIF_TRY(stf_saltation_jumps(s, nextafter(t, INFINITY), d->after));
   w->pending = true;
   if (w->keeper) STEIF_TRY(stf_transition_after(s, d->after));
   return stf_quadrature_after(s, t, d->after, w->tau);
@@ -234,56 +316,5 @@ void stf_saltation_renew(steif_solver *s)
   const stf_carry *T = s->step.carry;
   if (!w->pending) return;
   for (int k = 0; k < stf_columns(s); k++) stf_copy(&s->step.system.space, w->jump[k], T->S[k]);
-  w->pending = false;
-}
-
-/* ---- breaks ----------------------------------------------------------------------------------- */
-
-/* Its time, where it depends on p. */
-static int break_times(steif_solver *s, int i)
-{
-  const steif_parameters *q = s->problem->parameters;
-  const stf_carry *T = s->step.carry;
-  stf_saltation *w = s->saltation;
-  for (int k = 0; k < stf_columns(s); k++) {
-    w->tau[k] = 0;
-    const int returned =
-      q->break_slope ? q->break_slope(i, T->parameter[k], w->tau + k, s->problem->user) : 0;
-    STEIF_CHECK(returned == 0 && isfinite(w->tau[k]), s->ctx, STEIF_CALLBACK,
-                "parameters.break_slope of problem '%s' returned %d with %g for break %d",
-                s->problem->name, returned, w->tau[k], i + 1);
-  }
-  return STEIF_OK;
-}
-
-int stf_saltation_break(steif_solver *s, int i)
-{
-  stf_saltation *w = s->saltation;
-  const sunrealtype t = s->step.t;
-  STEIF_TRY(break_times(s, i));
-  STEIF_TRY(stf_saltation_look(s, t));
-  w->t = nextafter(t, INFINITY);
-  for (int k = 0; k < stf_columns(s); k++)
-    if (s->options.reinitialise)
-      STEIF_TRY(through(s, projection, k, "options.reinitialise"));
-    else
-      N_VLinearSum(1, w->S[k], w->tau[k], w->slope, w->jump[k]);
-  w->known = false, w->pending = true;
-  if (w->keeper) STEIF_TRY(stf_transition_break(s, i));
-  return stf_quadrature_before(s, t, w->y);
-}
-
-int stf_saltation_broken(steif_solver *s)
-{
-  const stf_step *step = &s->step;
-  stf_saltation *w = s->saltation;
-  bool moves = false;
-  for (int k = 0; k < stf_columns(s); k++) moves = moves || w->tau[k] != 0;
-  moves = moves || (w->open && w->open->rate != 0);
-  if (moves) STEIF_TRY(slope_behind(s, step->t, step->y, step->yp_known ? step->yp : NULL));
-  for (int k = 0; moves && k < stf_columns(s); k++)
-    stf_axpy(&step->system.space, -w->tau[k], w->after, w->jump[k]);
-  if (w->open) STEIF_TRY(stf_transition_broken(s));
-  stf_saltation_renew(s);
-  return moves ? stf_quadrature_after(s, step->t, step->y, w->tau) : STEIF_OK;
+  w->pending = false, w->renewed = w->t;
 }

@@ -18,18 +18,22 @@
 typedef struct stf_transition_keeper stf_transition_keeper;
 
 struct stf_saltation {
-  sunrealtype t;             /* of the event */
-  N_Vector y, slope;         /* y- and f- */
-  N_Vector after;            /* f+ */
-  N_Vector *S, *jump;        /* S- at the event, and S+ */
-  sunrealtype *tau, *other;  /* tau_p of each column; of another function */
-  N_Vector g[4], r[4];       /* values of g and of R, for differences */
-  N_Vector point, direction; /* where they are made; of the derivative */
-  bool known;                /* tau belongs to the event at t */
-  bool pending;              /* jump is S at the beginning of the next step */
-  int wish;                  /* what handle_event wants at other points */
-  bool asked;                /* it was */
-  void *bytes;               /* what begin resets, as it was before the event */
+  sunrealtype t;                  /* of the event */
+  N_Vector y, slope;              /* y- and f- */
+  N_Vector after;                 /* f+ */
+  N_Vector *S, *jump;             /* S- at the event, and S+ */
+  N_Vector *found, *found_before; /* for jumps of index 1; NULL: there are none */
+  sunrealtype *tau, *other;       /* tau_p of each column; of another function */
+  N_Vector g[4], r[4];            /* values of g and of R, for differences */
+  N_Vector point, direction;      /* where they are made; of the derivative */
+  sunrealtype renewed;            /* time of the event that the run began anew at last */
+  const sunrealtype *gy, *gp; /* of its function, and g_y f- + g_t, where there is a keeper */
+  sunrealtype rate;
+  bool known;   /* tau belongs to the event at t */
+  bool pending; /* jump is S at the beginning of the next step */
+  int wish;     /* what handle_event wants at other points */
+  bool asked;   /* it was */
+  void *bytes;  /* what begin resets, as it was before the event */
   long size;
   const stf_transition_keeper *keeper; /* for the way back (transition.h); NULL: nobody */
   struct stf_transition *open;         /* the transition being looked at */
@@ -49,11 +53,19 @@ int stf_undifferentiable(steif_solver *s, int i, int code);
 /* saltation.c: with no columns where S is not carried; `bytes` where the problem remembers something. */
 int stf_saltation_claim(steif_solver *s);
 int stf_saltation_remember(steif_solver *s, const char *who);
+/* saltation_breaks.c: d breaks[i]/dp_k. */
+int stf_break_slope(steif_solver *s, int i, int k, sunrealtype *slope);
+/* y' of a run that is at (t, y); that at the first time behind t into `after`, or a known one. */
+int stf_saltation_slope(steif_solver *s, sunrealtype t, N_Vector y, N_Vector slope);
+int stf_saltation_behind(steif_solver *s, sunrealtype t, N_Vector y, N_Vector known);
 
 /* start_derivatives.c: T->S of a start that was repaired; or of one with hidden constraints, checked. */
 int stf_start_derivatives(steif_solver *s, stf_carry *T);
 /* Adaptive runs of nonlinear DAEs of index 1: T->S jumps to what the equations differentiated ask for. */
 int stf_start_jumps(steif_solver *s, stf_carry *T);
+/* The same of S+ behind an event or break, at (t, y), and room for it. */
+int stf_saltation_jumps(steif_solver *s, sunrealtype t, N_Vector y);
+int stf_saltation_jumps_claim(steif_solver *s);
 /* probe_slopes.c: STEIF_BAD_INPUT where dF/dp is not that of F. */
 int stf_probe_slopes(steif_solver *s, stf_carry *T);
 /* sensitivity.c: the place of parameter k in the list of columns. */
@@ -72,5 +84,9 @@ typedef int (*stf_quantity_at)(steif_solver *s, sunrealtype t, N_Vector y, N_Vec
  * ones do not agree, or there are no values; the sentence is the caller's. work: two more vectors. */
 int stf_along(steif_solver *s, stf_quantity_at what, const stf_line *line, N_Vector out,
               N_Vector *work);
+/* jump = dy + (derivative of `what` along (tau, dy, e_k)), dy = S- + f- tau; what options.reinitialise does behind a
+ * break. */
+int stf_saltation_through(steif_solver *s, stf_quantity_at what, int k, const char *name);
+int stf_saltation_projection(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out);
 
 #endif

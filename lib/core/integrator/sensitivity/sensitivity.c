@@ -69,15 +69,26 @@ static int choose(steif_solver *s, int count, int **parameter, sunrealtype **sca
                 q->count - 1, s->problem->name);
     for (int j = 0; j < i; j++)
       STEIF_CHECK((*parameter)[j] != k, s->ctx, STEIF_BAD_INPUT,
-                  "active names parameter %d twice", k);
+                  "parameter %d%s%.40s%s is named twice", k + 1, q->name ? " ('" : "",
+                  q->name ? q->name[k] : "", q->name ? "')" : "");
     const sunrealtype typical = q->scale ? q->scale[k] : fabs(q->value[k]);
     (*parameter)[i] = k, (*scale)[i] = typical > 0 ? typical : 1;
   }
   return STEIF_OK;
 }
 
+/* A times |S_j| sqrt(2 + j): what the terms of A S are as large as. */
+static int size_of_terms(stf_carry *T, int k, N_Vector x, N_Vector out)
+{
+  sunrealtype *v = stf_array(x);
+  const sunrealtype *S = stf_array(T->S[k]);
+  for (sunindextype i = 0; i < T->step->problem->n; i++)
+    v[i] = fabs(S[i]) * sqrt(2 + (sunrealtype)i);
+  return stf_matrices_at_product(&T->at, 0, 'A', x, out);
+}
+
 /* Rows of E without entries, where E applied to a vector of no particular direction is exactly 0, are equations
- * that S fulfils at the start: A S = dF/dp. */
+ * that S fulfils at the start: A S = dF/dp, up to the accuracy of a start that was computed. */
 static int check_start(steif_solver *s, stf_carry *T)
 {
   const stf_step *step = &s->step;
@@ -89,14 +100,17 @@ static int check_start(steif_solver *s, stf_carry *T)
   if (!code) code = stf_matrices_at_product(&T->at, 0, 'E', x, Ex);
   for (int k = 0; !code && k < T->count; k++) {
     code = stf_carry_residual(T, 0, k, T->S[k], NULL, r);
-    const sunrealtype *e = stf_array(Ex), *d = stf_array(r), *f = stf_array(T->slope[0][k]);
+    if (!code) code = size_of_terms(T, k, x, T->next[k]);
+    const sunrealtype *a = stf_array(T->next[k]), *e = stf_array(Ex), *d = stf_array(r),
+                      *f = stf_array(T->slope[0][k]);
     for (sunindextype i = 0; !code && i < s->problem->n; i++) {
       char row[STEIF_SPEC_WORD];
-      STEIF_CHECK(
-        e[i] != 0 || fabs(d[i]) <= 1e-6 * fabs(f[i]) + 1e-12, s->ctx, STEIF_UNSUPPORTED,
-        "dy0/dp of parameter %d of problem '%s' does not fulfil the derivative of "
-        "algebraic equation %s (%.3g is left): give parameters.start",
-        T->parameter[k] + 1, s->problem->name, stf_equation(s->problem, i, row), d[i]);
+      STEIF_CHECK(e[i] != 0 || fabs(d[i]) <= 1e-6 * fmax(fabs(f[i]), fabs(a[i])) + 1e-12,
+                  s->ctx, STEIF_UNSUPPORTED,
+                  "dy0/dp of parameter %d of problem '%s' does not fulfil the derivative of "
+                  "algebraic equation %s (%.3g is left): give parameters.start",
+                  T->parameter[k] + 1, s->problem->name, stf_equation(s->problem, i, row),
+                  d[i]);
     }
   }
   return code > 0 ? steif_status(s->ctx) : code;

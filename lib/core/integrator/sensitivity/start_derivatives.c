@@ -6,7 +6,8 @@
  *
  * Of index 1 the start may be consistent for one value of p alone, and the solution jumps for others: so does S, to
  * what the equations differentiated ask for, E S held. With (E/h - A) d(h) = A S0 - F_p, a step of backward Euler,
- * d(h) = jump + c h + O(h^2): the jump is 2 d(h/2) - d(h) of a short h. Two lengths have to agree.
+ * d(h) = jump + c h + O(h^2): the jump is 2 d(h/2) - d(h) of a short h. Two lengths have to agree. The same behind an
+ * event, where algebraic unknowns of y follow the others, and behind a break.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "saltation.h"
@@ -34,7 +35,7 @@ static int consistent(steif_solver *s, N_Vector S0, int k, sunrealtype x, sunrea
                        .rtol = exact,
                        .atol = exact * s->step.system.scale};
   int code = stf_set_parameter(s, k, p + x);
-  if (!code) code = stf_repair_start(&repair);
+  if (!code) code = stf_start_repaired(&repair);
   if (!code) memcpy(stf_array(out), repair.problem.y0, (size_t)here.n * sizeof *y0);
   stf_pool_free(&pool);
   const int back = stf_set_parameter(s, k, p);
@@ -75,16 +76,24 @@ static int compare(steif_solver *s, int k, N_Vector S0, N_Vector found)
   return STEIF_OK;
 }
 
-/* ---- jumps of index 1, of starts that were not repaired ---------------------------------------- */
+/* ---- jumps of index 1, of starts that were not repaired, and behind events --------------------- */
+
+/* Columns at a point, and room for as many more. */
+typedef struct stf_point_columns {
+  sunrealtype t;
+  N_Vector y, yp;
+  N_Vector *S, *found, *before;
+} stf_point_columns;
 
 /* out_k += weight d_k(h), h = 1/shift. STEIF_RETRY: singular there. */
-static int add_step(stf_carry *T, sunrealtype shift, sunrealtype weight, N_Vector *out)
+static int add_step(stf_carry *T, const stf_point_columns *c, sunrealtype shift,
+                    sunrealtype weight, N_Vector *out)
 {
   steif_pencil *p = T->step->system.pencil;
   const int code = steif_pencil_factor(p, 1, &(steif_shift){shift, 0});
   if (code) return code == STEIF_SINGULAR ? STEIF_RETRY : code;
   for (int k = 0; k < T->count; k++) {
-    STEIF_TRY(stf_carry_residual(T, 0, k, T->S[k], NULL, T->work));
+    STEIF_TRY(stf_carry_residual(T, 0, k, c->S[k], NULL, T->work));
     STEIF_TRY(steif_pencil_solve(p, 0, 1, &T->work, NULL));
     N_VLinearSum(1, out[k], weight, T->work, out[k]);
   }
@@ -92,60 +101,90 @@ static int add_step(stf_carry *T, sunrealtype shift, sunrealtype weight, N_Vecto
 }
 
 /* How far `found` is from `before`, in parts of S, of itself, and of y over p. */
-static sunrealtype apart(const stf_carry *T, int k, N_Vector found, N_Vector before)
+static sunrealtype apart(const stf_carry *T, const stf_point_columns *c, int k)
 {
-  const sunrealtype least = N_VMaxNorm(T->step->y) / T->scale[k];
-  const sunrealtype size = fmax(least, fmax(N_VMaxNorm(T->S[k]), N_VMaxNorm(found)));
-  N_VLinearSum(1, found, -1, before, T->work);
+  const sunrealtype least = N_VMaxNorm(c->y) / T->scale[k];
+  const sunrealtype size = fmax(least, fmax(N_VMaxNorm(c->S[k]), N_VMaxNorm(c->found[k])));
+  N_VLinearSum(1, c->found[k], -1, c->before[k], T->work);
   return size > 0 ? N_VMaxNorm(T->work) / size : 0;
 }
 
-static int extrapolate(stf_carry *T, sunrealtype shift, N_Vector *found)
+static int extrapolate(stf_carry *T, const stf_point_columns *c, sunrealtype shift,
+                       N_Vector *found)
 {
   for (int k = 0; k < T->count; k++) N_VConst(0, found[k]);
-  STEIF_TRY(add_step(T, shift, -1, found));
-  return add_step(T, 2 * shift, 2, found);
+  STEIF_TRY(add_step(T, c, shift, -1, found));
+  return add_step(T, c, 2 * shift, 2, found);
 }
 
-static void follow(stf_carry *T, N_Vector *jump)
+static void follow(const stf_carry *T, const stf_point_columns *c)
 {
-  for (int k = 0; k < T->count; k++) N_VLinearSum(1, T->S[k], 1, jump[k], T->S[k]);
+  for (int k = 0; k < T->count; k++) N_VLinearSum(1, c->S[k], 1, c->found[k], c->S[k]);
 }
 
 /* Lengths are 64 apart, their errors 4096; a second time for what rounding has left of the first. */
-static int jump(steif_solver *s, stf_carry *T)
+static int jump(steif_solver *s, stf_carry *T, const stf_point_columns *c)
 {
-  const stf_step *step = &s->step;
-  N_Vector *found = T->next, *before = T->before;
-  sunrealtype shift = 1e3 / (s->problem->t1 - step->t);
-  STEIF_TRY(stf_carry_point(T, 0, step->t, step->y, step->yp));
-  STEIF_TRY(extrapolate(T, shift, before));
+  sunrealtype shift = 1e3 / (s->t1 - s->problem->t0);
+  STEIF_TRY(stf_carry_point(T, 0, c->t, c->y, c->yp));
+  STEIF_TRY(extrapolate(T, c, shift, c->before));
   for (int attempt = 0; attempt < 7; attempt++) {
     sunrealtype most = 0;
     shift *= 64;
-    STEIF_TRY(extrapolate(T, shift, found));
+    STEIF_TRY(extrapolate(T, c, shift, c->found));
     for (int k = 0; k < T->count; k++) {
-      most = fmax(most, apart(T, k, found[k], before[k]));
-      N_VScale(1, found[k], before[k]);
+      most = fmax(most, apart(T, c, k));
+      N_VScale(1, c->found[k], c->before[k]);
     }
     if (most > 1e-6) continue;
-    follow(T, found);
-    STEIF_TRY(extrapolate(T, shift, found));
-    follow(T, found);
+    follow(T, c);
+    STEIF_TRY(extrapolate(T, c, shift, c->found));
+    follow(T, c);
     return STEIF_OK;
   }
   return STEIF_OK;
 }
 
-int stf_start_jumps(steif_solver *s, stf_carry *T)
+static bool jumps(const steif_solver *s)
 {
   const stf_system *system = &s->step.system;
-  if (system->form == STEIF_ODE || system->linear || system->krylov || !s->step.adaptive ||
-      s->problem->dae_index != 1 || s->options.initial == STEIF_AS_GIVEN ||
-      s->repair.report.moved > 0)
+  return system->form != STEIF_ODE && !system->linear && !system->krylov && s->step.adaptive &&
+         s->problem->dae_index == 1;
+}
+
+int stf_start_jumps(steif_solver *s, stf_carry *T)
+{
+  const stf_step *step = &s->step;
+  const stf_point_columns c = {.t = step->t,
+                               .y = step->y,
+                               .yp = step->yp,
+                               .S = T->S,
+                               .found = T->next,
+                               .before = T->before};
+  if (!jumps(s) || s->options.initial == STEIF_AS_GIVEN || s->repair.report.moved > 0)
     return STEIF_OK;
-  const int code = jump(s, T);
+  const int code = jump(s, T, &c);
   return code == STEIF_RETRY ? STEIF_OK : code;
+}
+
+int stf_saltation_jumps(steif_solver *s, sunrealtype t, N_Vector y)
+{
+  const stf_saltation *w = s->saltation;
+  const stf_point_columns c = {
+    .t = t, .y = y, .yp = w->after, .S = w->jump, .found = w->found, .before = w->found_before};
+  if (!w->found) return STEIF_OK;
+  const int code = jump(s, s->step.carry, &c);
+  return code == STEIF_RETRY ? STEIF_OK : code;
+}
+
+int stf_saltation_jumps_claim(steif_solver *s)
+{
+  stf_saltation *w = s->saltation;
+  const int count = stf_columns(s);
+  if (count == 0 || !jumps(s)) return STEIF_OK;
+  w->found = stf_pool_vectors(s->pool, count, s->step.y);
+  w->found_before = stf_pool_vectors(s->pool, count, s->step.y);
+  return w->found && w->found_before ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 /* ---- starts that were repaired, and hidden constraints ---------------------------------------- */
@@ -154,8 +193,10 @@ int stf_start_derivatives(steif_solver *s, stf_carry *T)
 {
   const steif_problem *p = s->problem;
   const bool repaired = s->repair.report.moved > 0;
-  const bool hidden = p->dae_index > 1 && p->n <= STEIF_DIAGNOSE_LARGEST;
-  if (!s->given->y0 || s->given->start || s->step.system.linear || !(repaired || hidden))
+  const bool descriptor = s->step.system.form == STEIF_DESCRIPTOR;
+  const bool jumps = descriptor && s->repair.pool && s->repair.policy == STEIF_REPAIR;
+  const bool hidden = p->dae_index > (jumps ? 0 : 1) && p->n <= STEIF_DIAGNOSE_LARGEST;
+  if (!s->given->y0 || s->given->start || (descriptor && !jumps) || !(repaired || hidden))
     return STEIF_OK;
   sunrealtype *y0 = stf_pool_array(s->pool, (size_t)p->n, sizeof *y0);
   if (!y0) return STEIF_NO_MEMORY;
@@ -169,8 +210,8 @@ int stf_start_derivatives(steif_solver *s, stf_carry *T)
       "near it are not repaired; give a consistent start and parameters.start",
       p->name, T->parameter[k] + 1);
     STEIF_TRY(code);
-    if (!repaired) STEIF_TRY(compare(s, T->parameter[k], S0, found));
-    if (repaired) N_VScale(1, found, S0);
+    if (!repaired && !jumps) STEIF_TRY(compare(s, T->parameter[k], S0, found));
+    if (repaired || jumps) N_VScale(1, found, S0);
   }
   return STEIF_OK;
 }

@@ -262,7 +262,7 @@ int stf_transition_after(steif_solver *s, N_Vector y)
   open->kind = STF_RESTARTED, open->behind = nextafter(w->t, INFINITY);
   copy(y, open->y), copy(w->after, open->slope);
   for (sunindextype i = 0; i < s->problem->n; i++) open->across[i] -= open->slope[i];
-  w->open = NULL;
+  w->open = NULL, w->gy = open->gy, w->gp = open->gp, w->rate = open->rate;
   return w->keeper->gap(w->keeper->of, open, -1, open->behind, y);
 }
 
@@ -284,17 +284,36 @@ int stf_transition_end(steif_solver *s)
 
 /* ---- breaks ------------------------------------------------------------------------------------------ */
 
+static sunrealtype slope_of_break(const steif_solver *s, int i, int k)
+{
+  const steif_parameters *q = s->problem->parameters;
+  sunrealtype slope = 0;
+  return q->break_slope && q->break_slope(i, k, &slope, s->problem->user) ? NAN : slope;
+}
+
+bool stf_transition_together(const steif_solver *s, int i, int first)
+{
+  const stf_saltation *w = s->saltation;
+  const steif_parameters *q = s->problem->parameters;
+  bool same = true;
+  for (sunindextype j = 0; first < 0 && j < s->problem->n; j++) same = same && w->gy[j] == 0;
+  for (int k = 0; q && k < q->count; k++) {
+    const sunrealtype own = slope_of_break(s, i, k);
+    const sunrealtype to = first < 0 ? -w->gp[k] / w->rate : slope_of_break(s, first, k);
+    const sunrealtype scale = q->scale ? q->scale[k] : fabs(q->value[k]);
+    same = same && fabs(own - to) <= 1e-6 * fabs(own) + 1e-9 / (scale > 0 ? scale : 1);
+  }
+  return same;
+}
+
 int stf_transition_break(steif_solver *s, int i)
 {
   stf_saltation *w = s->saltation;
   const steif_parameters *q = s->problem->parameters;
   STEIF_TRY(begin(s, true));
   w->open->t = s->step.t;
-  for (int k = 0; q && q->break_slope && k < q->count; k++) {
-    const int returned = q->break_slope(i, k, w->open->gp + k, s->problem->user);
-    STEIF_CHECK(returned == 0 && isfinite(w->open->gp[k]), s->ctx, STEIF_CALLBACK,
-                "parameters.break_slope of problem '%s' returned %d with %g for break %d",
-                s->problem->name, returned, w->open->gp[k], i + 1);
+  for (int k = 0; i >= 0 && q && q->break_slope && k < q->count; k++) {
+    STEIF_TRY(stf_break_slope(s, i, k, w->open->gp + k));
     if (w->open->gp[k] != 0) w->open->rate = 1;
   }
   if (w->open->rate == 0) return STEIF_OK;

@@ -61,7 +61,9 @@ int stf_transition_recall(steif_solver *s, const stf_transition *transition);
 int stf_transition_pass(steif_solver *s);
 int stf_transition_before(steif_solver *s, stf_quantity_at reaction);
 int stf_transition_after(steif_solver *s, N_Vector y);
-int stf_transition_break(steif_solver *s, int i);
+int stf_transition_break(steif_solver *s, int i); /* i < 0: it adds nothing */
+/* Does break i move with p as break `first` does, or with first < 0 as the event that the run has begun anew at? */
+bool stf_transition_together(const steif_solver *s, int i, int first);
 int stf_transition_broken(steif_solver *s);
 
 #endif

@@ -168,19 +168,25 @@ static bool at_rounding(const stf_carry *T, sunrealtype norm, sunrealtype first)
 }
 
 /* Of the tolerance of S. In adaptive steps errors of S may be larger than those of y, and so may what the sweeps
- * leave of them. */
+ * leave of them. What they leave of algebraic unknowns the estimate of the next step sees at any h, many times over with
+ * many stages; and the rate of a sweep over all unknowns, which falls with h, is not theirs: they are not taken for
+ * better than `algebraic`. */
+static const sunrealtype algebraic = 0.3;
 static sunrealtype sweep_tolerance(const stf_step *s)
 {
-  const sunrealtype most = 0.3, least = 3e-3, index = 1e-4, prescribed = 1e-3;
+  const sunrealtype most = 0.3, least = 3e-3, one = 1e-3, more = 1e-4, prescribed = 1e-3;
   if (!s->adaptive) return fmin(s->newton.tolerance, prescribed);
-  return s->problem->dae_index > 1 ? index : fmax(least, fmin(10 * s->newton.tolerance, most));
+  if (s->problem->dae_index > 0) return s->problem->dae_index > 1 ? more : one;
+  return fmax(least, fmin(10 * s->newton.tolerance, most));
 }
 
 int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
 {
   stf_step *s = T->step;
   const sunrealtype tolerance = sweep_tolerance(s), doubt = 1.5, age = 1.05;
-  const sunrealtype known = T->eta > 0 && s->adaptive ? fmin(1, doubt * T->eta) : 1;
+  const sunrealtype least = s->adaptive && s->problem->dae_index > 0 ? algebraic : 0;
+  const sunrealtype known =
+    T->eta > 0 && s->adaptive ? fmax(least, fmin(1, doubt * T->eta)) : 1;
   sunrealtype norm, first = 0, last = 0, rate = 0;
   bool anew = s->system.linear;
   if (T->K) {
@@ -201,7 +207,7 @@ int stf_carry_solve(stf_carry *T, const stf_carry_stages *g)
     if (m == 1 && !anew) settle(T, tolerance / known);
     if (m > 1) {
       rate = norm / last;
-      if (rate < 1) T->eta = rate / (1 - rate), settle(T, tolerance / T->eta);
+      if (rate < 1) T->eta = rate / (1 - rate), settle(T, tolerance / fmax(least, T->eta));
     }
     if (T->live == 0) {
       if (m == 1) T->eta *= age; /* until it is seen again */

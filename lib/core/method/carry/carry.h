@@ -26,7 +26,8 @@ typedef struct stf_carry {
   const int *parameter;     /* of each, from 0 */
   const sunrealtype *scale; /* of each */
   N_Vector *S, *next, *before;
-  N_Vector *from;            /* BDF: where its steps begin */
+  N_Vector
+    *from; /* BDF: where its steps begin; collocation: errors that are filtered once more */
   N_Vector *error, *weights; /* of each column */
   sunrealtype *tolerance;    /* of the norm of each error */
   N_Vector **kept, **trial;  /* what the method keeps of each column, and of the attempt */
@@ -98,8 +99,8 @@ typedef struct stf_collocation_stages {
   const stf_estimate *estimate;
   bool oscillates;
   N_Vector *Z; /* stages relative to y */
-  /* v := (lambda/h E - A)^{-1} v as in the estimate of y. */
-  int (*filter)(stf_step *s, sunrealtype h, N_Vector v);
+  /* Each v := (lambda/h E - A)^{-1} v as in the estimate of y. */
+  int (*filter)(stf_step *s, sunrealtype h, int count, N_Vector *v);
 } stf_collocation_stages;
 int stf_carry_collocation(stf_carry *T, sunrealtype h, const stf_collocation_stages *c);
 /* carry_predict.c: the start of the sweeps in T->trial, false: none; and what it has missed, when they have ended. */

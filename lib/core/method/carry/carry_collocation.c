@@ -31,24 +31,34 @@ static void set_tolerance(stf_carry *T, const stf_collocation_stages *c, int k)
   s->control = control;
 }
 
-/* Filtered again where that of y is: what stiff components add to the first estimate at every length of the
- * step is off. */
-static int estimate(stf_carry *T, const stf_collocation_stages *c, sunrealtype h, int k)
+/* T->error[k] := F of column k with S = `at` and the slope of the stages. */
+static int residual(stf_carry *T, const stf_collocation_stages *c, sunrealtype h, int k,
+                    N_Vector at)
+{
+  sunrealtype slope[STEIF_STAGES];
+  for (int j = 0; j < c->u->s; j++) slope[j] = c->u->slope[j] / h;
+  stf_combine(&T->step->system.space, c->u->s, slope, T->trial[k], T->work);
+  return stf_carry_residual(T, c->u->s, k, at, T->work, T->error[k]);
+}
+
+/* All columns with one call of the filter. Filtered again where that of y is: what stiff components add to the first
+ * estimate at every length of the step is off. */
+static int estimate(stf_carry *T, const stf_collocation_stages *c, sunrealtype h)
 {
   stf_step *s = T->step;
   const stf_space *space = &s->system.space;
-  sunrealtype slope[STEIF_STAGES];
-  N_Vector error = T->error[k], at = c->u->accurate ? T->S[k] : T->next[k];
-  for (int j = 0; j < c->u->s; j++) slope[j] = c->u->slope[j] / h;
-  stf_combine(space, c->u->s, slope, T->trial[k], T->work);
-  STEIF_TRY(stf_carry_residual(T, c->u->s, k, at, T->work, error));
-  STEIF_TRY(c->filter(s, h, error));
-  const bool small = stf_norm(space, error, T->weights[k]) <= T->tolerance[k];
-  if (c->u->accurate && (small || !stf_filters_twice(s))) return STEIF_OK;
-  stf_combine(space, c->u->s, slope, T->trial[k], T->work);
-  stf_sum(space, 1, at, 1, error, T->Y);
-  STEIF_TRY(stf_carry_residual(T, c->u->s, k, T->Y, T->work, error));
-  return c->filter(s, h, error);
+  N_Vector *const from = c->u->accurate ? T->S : T->next;
+  int again = 0;
+  for (int k = 0; k < T->count; k++) STEIF_TRY(residual(T, c, h, k, from[k]));
+  STEIF_TRY(c->filter(s, h, T->count, T->error));
+  for (int k = 0; k < T->count; k++) {
+    const bool small = stf_norm(space, T->error[k], T->weights[k]) <= T->tolerance[k];
+    if (c->u->accurate && (small || !stf_filters_twice(s))) continue;
+    stf_sum(space, 1, from[k], 1, T->error[k], T->Y);
+    STEIF_TRY(residual(T, c, h, k, T->Y));
+    T->from[again++] = T->error[k];
+  }
+  return again ? c->filter(s, h, again, T->from) : STEIF_OK;
 }
 
 /* Matrices at the stages and, for the estimate, where that of y looks at F. */
@@ -89,9 +99,7 @@ int stf_carry_collocation(stf_carry *T, sunrealtype h, const stf_collocation_sta
   for (int k = 0; k < T->count; k++) {
     stf_combine(space, count, c->u->end, T->trial[k], T->next[k]);
     stf_axpy(space, 1, T->S[k], T->next[k]);
-    if (!s->adaptive) continue;
-    set_tolerance(T, c, k);
-    STEIF_TRY(estimate(T, c, h, k));
+    if (s->adaptive) set_tolerance(T, c, k);
   }
-  return STEIF_OK;
+  return s->adaptive ? estimate(T, c, h) : STEIF_OK;
 }

@@ -16,10 +16,14 @@ static void stages_of_power(const steif_table *table, sunrealtype from, sunrealt
                             sunrealtype *Z)
 {
   const int s = table->s;
+  sunrealtype power[STEIF_STAGES];
+  for (int m = 0; m < s; m++) {
+    power[m] = 1;
+    for (int k = 0; k < s; k++) power[m] *= from + table->c[m] * h;
+  }
   for (int i = 0; i < s; i++) {
     Z[i] = 0;
-    for (int m = 0; m < s; m++)
-      Z[i] += h * table->A[i * s + m] * (s + 1) * pow(from + table->c[m] * h, s);
+    for (int m = 0; m < s; m++) Z[i] += h * table->A[i * s + m] * (s + 1) * power[m];
   }
 }
 

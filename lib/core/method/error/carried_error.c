@@ -134,14 +134,15 @@ static int carry(stf_step *s, stf_carried *c, sunrealtype sigma)
 }
 
 /* What is left of the tolerance, for each error that will be remembered at the end. Steps grow by factors above
- * 1.5 alone, and make less than they may: hence twice. */
+ * 1.5 alone, and make less than they may: hence twice. Of derivatives less is known, where they count. */
 static sunrealtype share_of_rest(const stf_step *s, const stf_carried *c)
 {
   const sunrealtype shrunk = 0.7, times = 2;
   const sunrealtype left = (s->options->t1 - s->t) / s->h_try - 1;
   const bool known =
     c->goal > 0 && !c->rises && !c->jumped && c->remembered < shrunk * (sunrealtype)c->steps;
-  if (!known || s->carry || !(left > 0)) return 0;
+  const bool counts = s->carry && !s->options->untested_sensitivities;
+  if (!known || counts || !(left > 0)) return 0;
   const sunrealtype count = c->forgets ? fmin(left, c->remembered) : left;
   return times * fmax(0, c->goal - c->size) / fmax(1, count);
 }

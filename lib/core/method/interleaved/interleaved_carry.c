@@ -22,6 +22,12 @@ int stf_irk_interleaved_damp(stf_step *s, sunrealtype h, N_Vector v)
   return STEIF_OK;
 }
 
+static int damp_all(stf_step *s, sunrealtype h, int count, N_Vector *v)
+{
+  for (int k = 0; k < count; k++) STEIF_TRY(stf_irk_interleaved_damp(s, h, v[k]));
+  return STEIF_OK;
+}
+
 /* F as whole residuals in, the correction out of Z. */
 static int apply(stf_step *s, sunrealtype h, int count, N_Vector *const *r,
                  N_Vector *const *other)
@@ -67,7 +73,7 @@ static int carry(stf_carry *T, sunrealtype h)
                                     .B_over_h = B_over_h,
                                     .estimate = &e->higher_order,
                                     .Z = e->stage,
-                                    .filter = stf_irk_interleaved_damp};
+                                    .filter = damp_all};
   const int code = stf_carry_collocation(T, h, &c);
   memcpy(e->L->Z, e->aside, bytes);
   e->L->residuals = residuals;

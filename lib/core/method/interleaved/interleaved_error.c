@@ -180,8 +180,8 @@ void stf_irk_interleaved_tolerance(stf_step *s)
     for (int j = 0; j < e->s; j++)
       high += o->top[j] * z[j], low += o->below[j] * z[j], lowest += o->lower[j] * z[j];
     if (e->own) e->ratio[i] = stf_estimate_ratio(o, fabs(high), fabs(low));
-    top += w[i] * w[i] * high * high, below += w[i] * w[i] * low * low;
-    lower += w[i] * w[i] * lowest * lowest;
+    high *= w[i], low *= w[i], lowest *= w[i]; /* whose squares do not overflow */
+    top += high * high, below += low * low, lower += lowest * lowest;
   }
   top = e->rounding_limited ? 0 : sqrt(top), below = sqrt(below);
   stf_estimate_set(s, o, top, below);

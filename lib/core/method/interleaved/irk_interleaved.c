@@ -132,8 +132,8 @@ static void commit(stf_step *s)
                   e->own_norm);
   stf_interleaved_keep(e->L, e->K, e->a);
   for (int i = 0; i < e->n; i++) {
-    const double *z = e->L->Z + i * wide;
-    size += z[e->s - 1] * z[e->s - 1] * w[i] * w[i];
+    const double z = w[i] * e->L->Z[i * wide + e->s - 1];
+    size += z * z;
   }
   e->first_correction /= sqrt(size / (double)e->n) + 1e-300;
   memcpy(e->before, STF_ARRAY(s->y), (size_t)e->n * sizeof *e->before);

@@ -208,7 +208,7 @@ static int carry(stf_carry *T, sunrealtype h)
                                     .estimate = &e->higher_order,
                                     .oscillates = e->omega * h > 1,
                                     .Z = e->trial,
-                                    .filter = stf_irk_filter};
+                                    .filter = stf_irk_filter_all};
   return stf_carry_collocation(T, h, &c);
 }
 

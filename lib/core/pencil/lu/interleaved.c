@@ -164,9 +164,12 @@ INLINE void sweep(stf_shifts *L, const int n, const int lanes, const double *y,
   right_sides(L, n, lanes, h);
   solve(L, n, lanes, L->rhs, L->work);
   for (int i = 0; i < n; i++) {
-    const double *d = L->work + i * 2 * lanes, u = weight[i] * weight[i];
+    const double *d = L->work + i * 2 * lanes, u = weight[i];
     double *w = L->omega + i * 2 * lanes;
-    for (int k = 0; k < lanes; k++) total[k] += u * (d[k] * d[k] + d[lanes + k] * d[lanes + k]);
+    for (int k = 0; k < lanes; k++) {
+      const double re = u * d[k], im = u * d[lanes + k];
+      total[k] += re * re + im * im;
+    }
     for (int k = 0; k < 2 * lanes; k++) w[k] += d[k];
   }
   WITH_WIDE(stages, y)

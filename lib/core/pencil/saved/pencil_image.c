@@ -6,7 +6,10 @@
 /* A slot as a factorisation would find it. */
 static void prepare(steif_pencil *p, int slot, stf_image *m)
 {
-  if (!m->code) stf_image_stop(m, p->backend->prepare(p, slot, p->shift[slot]));
+  if (m->code) return;
+  p->revived = true;
+  stf_image_stop(m, p->backend->prepare(p, slot, p->shift[slot]));
+  p->revived = false;
 }
 
 /* The values that the matrices have now, as the back end sees them. */

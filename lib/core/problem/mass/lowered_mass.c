@@ -69,6 +69,18 @@ static int Av(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, 
   return l->from.Av(t, y, yp, x, out, l->from.user);
 }
 
+static int Etv(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  const lowered *l = user;
+  return l->from.Etv(t, y, yp, x, out, l->from.user);
+}
+
+static int Atv(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  const lowered *l = user;
+  return l->from.Atv(t, y, yp, x, out, l->from.user);
+}
+
 static int precsetup(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, sunrealtype c,
                      void *user)
 {
@@ -89,6 +101,13 @@ static int precsolve_pair(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_
 {
   const lowered *l = user;
   return l->from.precsolve_pair(t, y, yp, r, b, z, c_re, c_im, delta, l->from.user);
+}
+
+static int precsolve_transposed(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b,
+                                N_Vector z, sunrealtype c, sunrealtype delta, void *user)
+{
+  const lowered *l = user;
+  return l->from.precsolve_transposed(t, y, yp, r, b, z, c, delta, l->from.user);
 }
 
 static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
@@ -119,6 +138,12 @@ static int handle_event(sunrealtype t, N_Vector y, const int *fired, void *user)
 {
   const lowered *l = user;
   return l->from.handle_event(t, y, fired, l->from.user);
+}
+
+static int event_slope(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  const lowered *l = user;
+  return l->from.event_slope(t, y, yp, l->from.user);
 }
 
 static int begin(sunrealtype t, void *user)
@@ -152,6 +177,9 @@ static steif_problem states(const lowered *l)
   q.A = !of_state && (p->A || p->jac) ? A : NULL;
   q.Ev = p->Ev ? Ev : NULL;
   q.Av = !of_state && p->Av ? Av : NULL;
+  q.Etv = p->Etv ? Etv : NULL;
+  q.Atv = !of_state && p->Atv ? Atv : NULL;
+  q.precsolve_transposed = p->precsolve_transposed ? precsolve_transposed : NULL;
   q.precsetup = p->precsetup ? precsetup : NULL;
   q.precsolve = p->precsolve ? precsolve : NULL;
   q.precsolve_pair = p->precsolve_pair ? precsolve_pair : NULL;
@@ -160,6 +188,7 @@ static steif_problem states(const lowered *l)
   q.invariant = p->invariant ? invariant : NULL;
   q.event = p->event ? event : NULL;
   q.handle_event = p->handle_event ? handle_event : NULL;
+  q.event_slope = p->event_slope ? event_slope : NULL;
   q.begin = p->begin ? begin : NULL;
   q.save = p->save ? save : NULL;
   q.restore = p->restore ? restore : NULL;

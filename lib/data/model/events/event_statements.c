@@ -15,18 +15,22 @@ static stf_reaction *reaction(const stf_reactions *r, size_t i)
  * --------------------------------------------------------------------------------
  */
 
-static int32_t crossing(stf_builder *b, int32_t g, int how)
+static int32_t crossing(stf_builder *b, int32_t g, const stf_statement *s)
 {
+  const bool rises = s->whole == 'r';
   const int32_t zero = stf_number(b->g, 0);
-  return how == 'r' ? stf_relation(b, STF_OP_LESS, zero, g)
-                    : stf_relation(b, STF_OP_LESS, g, zero);
+  b->g->at = s->at, b->bare = true, b->turned = rises;
+  const int32_t node =
+    rises ? stf_relation(b, STF_OP_LESS, zero, g) : stf_relation(b, STF_OP_LESS, g, zero);
+  b->bare = b->turned = false;
+  return node;
 }
 
 static int condition(stf_model *m, stf_builder *b, const stf_statement *s, int32_t *node)
 {
   (void)m;
   STEIF_TRY(stf_build(b, &s->value, node));
-  if (s->kind == STF_SAY_WHEN && s->whole) *node = crossing(b, *node, s->whole);
+  if (s->kind == STF_SAY_WHEN && s->whole) *node = crossing(b, *node, s);
   if (s->kind == STF_SAY_REQUIRE) *node = stf_apply1(b->g, STF_OP_NOT, *node);
   return *node < 0 ? STEIF_NO_MEMORY : STEIF_OK;
 }
@@ -53,6 +57,19 @@ static int instants(stf_model *m, stf_reaction *r)
   return STEIF_OK;
 }
 
+/* Decimal numbers as whole ones: 3 * 0.1 is not 0.3, but 3 * 1 / 10 is, the number that is meant by "0.3". */
+static void count_in_decimals(stf_reaction *r)
+{
+  const double most = 4503599627370496; /* 2^52 */
+  for (double unit = 1; unit <= 1e9; unit *= 10) {
+    const double from = nearbyint(r->from * unit), period = nearbyint(r->period * unit);
+    if (fabs(from) > most || period > most) return;
+    if (from / unit != r->from || period / unit != r->period) continue;
+    r->from = from, r->period = period, r->unit = unit;
+    return;
+  }
+}
+
 int stf_timer_read(stf_model *m, stf_reaction *r)
 {
   const stf_statement *s = stf_statement_at(m, r->statement);
@@ -60,7 +77,11 @@ int stf_timer_read(stf_model *m, stf_reaction *r)
   r->from = m->t0;
   STEIF_TRY(stf_number_of(m, &s->value, &r->period));
   if (s->other.to > s->other.from) STEIF_TRY(stf_number_of(m, &s->other, &r->from));
-  if (r->period > 0 && isfinite(r->from)) return STEIF_OK;
+  r->unit = 1;
+  if (r->period > 0 && isfinite(r->from)) {
+    count_in_decimals(r);
+    return STEIF_OK;
+  }
   stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
                "the period %.12g; it must be positive", r->period);
   return stf_complaints(&m->syntax.sources);
@@ -187,35 +208,6 @@ static void mark_used(stf_model *m, const stf_block *block, const stf_switch *s)
                                                 : STF_OF_STATE;
 }
 
-/* What `stop` says of the reaction to a condition in this line; NULL: nothing, or there is no stop. */
-static const stf_statement *stop_of(const stf_model *m, int line)
-{
-  for (size_t i = 0; i < m->syntax.statements.count; i++) {
-    const stf_statement *s = stf_statement_at(m, (int32_t)i);
-    if (s->kind != STF_SAY_STOP || !s->strlength) continue;
-    if (s->parent >= 0 && (int)stf_statement_at(m, s->parent)->line == line) return s;
-  }
-  return NULL;
-}
-
-/* "line 9", where a relation stands, or the text of its stop. */
-static int name_events(stf_model *m, const stf_block *block, const stf_switch *s)
-{
-  const int line = stf_line_of(&m->syntax.sources, s->at);
-  const stf_statement *stop = stop_of(m, line);
-  const size_t room = stop ? (size_t)stop->strlength + 1 : 32;
-  char *name = stf_pool_array(m->pool, room, 1);
-  const int64_t count = stf_passes(&block->box);
-  if (!name) return STEIF_NO_MEMORY;
-  if (stop)
-    memcpy(name, stf_source_at(&m->syntax.sources, stop->string), stop->strlength);
-  else
-    snprintf(name, room, "line %d", line);
-  for (int64_t k = 0; k < count; k++)
-    m->event_list[stf_at_pass(&block->box, k, s->a, s->stride) - m->discretes].name = name;
-  return STEIF_OK;
-}
-
 static int switches(stf_model *m, stf_block *block)
 {
   stf_vector stores = {0};
@@ -228,7 +220,7 @@ static int switches(stf_model *m, stf_block *block)
     *to = (stf_store){.from = s->g, .a = s->a - m->discretes};
     memcpy(to->stride, s->stride, sizeof to->stride);
     mark_used(m, block, s);
-    code = name_events(m, block, s);
+    code = stf_name_relation(m, block, s);
   }
   if (!code) code = quantity(m, block, &stores, &m->events);
   stf_vector_free(m->ctx, &stores);
@@ -250,6 +242,7 @@ static int timers(stf_model *m)
     if (!to) code = STEIF_NO_MEMORY;
     if (code) break;
     m->event_list[next].direction = 1;
+    code = stf_name_timer(m, stf_statement_at(m, r->statement), next);
     *to = (stf_store){.from = stf_apply2(g, STF_OP_SUBTRACT, time, at), .a = next++};
     if (to->from < 0) code = STEIF_NO_MEMORY;
   }
@@ -276,6 +269,7 @@ static int arrays(stf_model *m)
   m->event_range = m->event_shift + events;
   m->switch_open = stf_pool_array(m->pool, events, 1);
   m->event_list = stf_pool_array(m->pool, events, sizeof *m->event_list);
+  m->event_sort = stf_pool_array(m->pool, events, sizeof *m->event_sort);
   m->memory = stf_pool_array(m->pool, memories, sizeof *m->memory);
   m->memory_start = stf_pool_array(m->pool, memories, sizeof *m->memory);
   m->memory_literal = stf_pool_array(m->pool, memories + (size_t)m->n, sizeof *m->memory);
@@ -284,8 +278,8 @@ static int arrays(stf_model *m)
     m->event_values[k] = stf_pool_array(m->pool, events, sizeof(double));
   r->truths = stf_pool_array(m->pool, r->list.count, sizeof *r->truths);
   r->values = stf_pool_array(m->pool, r->targets.count, sizeof *r->values);
-  const bool all = m->switch_used && m->switch_open && m->event_list && m->memory &&
-                   m->event_slope && m->memory_start && m->memory_literal &&
+  const bool all = m->switch_used && m->switch_open && m->event_list && m->event_sort &&
+                   m->memory && m->event_slope && m->memory_start && m->memory_literal &&
                    m->event_values[0] && m->event_values[1] && r->truths && r->values;
   m->feed.memory = m->memory;
   return all ? STEIF_OK : STEIF_NO_MEMORY;
@@ -331,6 +325,7 @@ int stf_build_events(stf_model *m)
   if (m->syntax.sources.errors) code = stf_complaints(&m->syntax.sources);
   place_timers(m);
   if (!code) code = arrays(m);
+  if (!code) code = stf_order_statements(m);
   for (size_t i = 0; !code && i < m->blocks.count; i++)
     code = switches(m, *STF_AT(m->blocks, stf_block *, i));
   if (!code) code = switches(m, m->event_block);

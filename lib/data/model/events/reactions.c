@@ -44,7 +44,7 @@ static void set_timer(const stf_model *m, stf_reaction *r)
   if (r->times)
     m->memory[r->memory] = r->done < r->time_count ? r->times[r->done] : never;
   else
-    m->memory[r->memory] = r->from + r->done * r->period;
+    m->memory[r->memory] = (r->from + r->done * r->period) / r->unit;
 }
 
 int stf_reactions_follow(stf_model *m)
@@ -65,7 +65,10 @@ int stf_reactions_follow(stf_model *m)
 static void start_timer(const stf_model *m, stf_reaction *r, double t)
 {
   r->done = 0;
-  if (!r->times && t >= r->from) r->done = (int32_t)fmin(floor((t - r->from) / r->period), 1e9);
+  if (!r->times && t * r->unit >= r->from)
+    r->done = (int32_t)fmin(floor((t * r->unit - r->from) / r->period), 1e9);
+  while (r->done > 0 && !r->times && (r->from + (r->done - 1) * r->period) / r->unit > t)
+    r->done--;
   do {
     set_timer(m, r);
   } while (m->memory[r->memory] <= t && ++r->done);
@@ -144,20 +147,35 @@ static bool see_ahead(const stf_model *m, double t, const double *at)
   return true;
 }
 
-/* Relations marked as `open` or more, whose g is 0 or as small as rounding: a short step along y' = f tells. */
-static void look_ahead(stf_model *m, double t, const double *at, int open)
+/* Relations marked as `open` or more, whose g is 0 or as small as rounding: a short step along y' = f tells. With
+ * `fired`, only what may be told in the midst of an event: what has fired may be over, and nothing fires twice. */
+static bool look_ahead(stf_model *m, double t, const double *at, int open, const int *fired)
 {
   const double *g = m->event_values[1], *y = m->memory_literal + m->memories;
-  bool any = false, changed = true;
+  bool any = false, changed = true, told = false;
   for (int32_t i = 0; i < m->switches; i++) any = any || m->switch_open[i] >= open;
-  if (!any || !see_ahead(m, t, at)) return;
+  if (!any || !see_ahead(m, t, at)) return false;
   for (int32_t round = 0; changed && round <= m->switches; round++) {
     changed = false;
-    for (int32_t i = 0; i < m->switches; i++)
-      if (m->switch_open[i] >= open && isfinite(g[i])) changed = is(m, i, g[i] < 0) || changed;
+    for (int32_t i = 0; i < m->switches; i++) {
+      if (m->switch_open[i] < open || !isfinite(g[i]) || (fired && fired[i] && g[i] < 0))
+        continue;
+      changed = is(m, i, g[i] < 0) || changed;
+    }
+    told = told || changed;
     if (changed) stf_event_values(m, t + 1e-8 * stf_span(m), y, m->event_values[1]);
   }
-  spread(m, t, at);
+  return told;
+}
+
+/* What is at 0, of event_values[0], leaves it by an event: it counts as on the side that is remembered. */
+static void stay(stf_model *m, const int *fired)
+{
+  for (int32_t i = 0; i < m->switches; i++) {
+    if (!m->switch_open[i] || m->event_values[0][i] != 0 || (fired && fired[i])) continue;
+    m->event_shift[i] = m->memory[m->discretes + i] != 0 ? -1e-300 : 1e-300;
+    m->switch_open[i] = STF_STAYS;
+  }
 }
 
 static void undecided(stf_model *m, double t)
@@ -165,12 +183,9 @@ static void undecided(stf_model *m, double t)
   const double *g = m->event_values[0];
   stf_event_values(m, t, m->y0, m->event_values[0]);
   for (int32_t i = 0; i < m->switches; i++) m->switch_open[i] = g[i] == 0;
-  look_ahead(m, t, m->y0, STF_OPEN);
-  for (int32_t i = 0; i < m->switches; i++) { /* it leaves 0 by an event */
-    if (!m->switch_open[i]) continue;
-    m->event_shift[i] = m->memory[m->discretes + i] != 0 ? -1e-300 : 1e-300;
-    m->switch_open[i] = STF_STAYS;
-  }
+  look_ahead(m, t, m->y0, STF_OPEN, NULL);
+  spread(m, t, m->y0);
+  stay(m, NULL);
 }
 
 int stf_reactions_begin(sunrealtype t, void *user)
@@ -233,19 +248,21 @@ static void follow(const stf_model *m, double t, const double *y)
   }
 }
 
-static void assign(const stf_model *m, const stf_reaction *e, double t, double *y)
+/* Does it change anything? */
+static bool assign(const stf_model *m, const stf_reaction *e, double t, double *y)
 {
   const stf_reactions *r = m->reactions;
   const stf_feed feed = feed_at(m, t, y);
   memset(r->values, 0, (size_t)e->count * sizeof *r->values);
   if (e->count) stf_tape_run(&e->tape, &feed, e->space, r->values);
+  bool changes = false;
   for (int32_t k = 0; k < e->count; k++) {
     const stf_target *target = STF_AT(r->targets, stf_target, e->first + k);
-    if (target->state >= 0)
-      y[target->state] = r->values[k];
-    else
-      m->memory[target->memory] = r->values[k];
+    double *place = target->state >= 0 ? &y[target->state] : &m->memory[target->memory];
+    changes = changes || *place != r->values[k];
+    *place = r->values[k];
   }
+  return changes;
 }
 
 static int violated(const stf_model *m, const stf_reaction *e, double t)
@@ -256,7 +273,7 @@ static int violated(const stf_model *m, const stf_reaction *e, double t)
 }
 
 /* All that is pending, in the order of the file. */
-static int act(const stf_model *m, double t, double *y, bool *stops)
+static int act(const stf_model *m, double t, double *y, bool *stops, bool *changes)
 {
   const stf_reactions *r = m->reactions;
   for (size_t i = 0; i < r->list.count; i++) {
@@ -264,7 +281,7 @@ static int act(const stf_model *m, double t, double *y, bool *stops)
     if (!e->pending) continue;
     e->pending = 0;
     if (e->trigger == STF_REQUIREMENT) return violated(m, e, t);
-    assign(m, e, t, y);
+    *changes = assign(m, e, t, y) || *changes;
     *stops = *stops || e->stops;
     if (e->trigger == STF_TIMER) {
       e->done++;
@@ -296,7 +313,8 @@ static void touch(stf_model *m, double t, const double *y, const int *fired)
     if (fired[i] && hangs) m->switch_open[i] = STF_AT_ZERO;
     if (fired[i] && seen && m->event_values[1][i] == 0) m->switch_open[i] = STF_STAYS;
   }
-  look_ahead(m, t, y, STF_AT_ZERO);
+  look_ahead(m, t, y, STF_AT_ZERO, NULL);
+  spread(m, t, y);
   for (int32_t i = 0; i < m->switches; i++)
     if (fired[i] && m->switch_open[i] == STF_AT_ZERO) m->switch_open[i] = STF_OPEN;
 }
@@ -331,7 +349,7 @@ int stf_reactions_handle(sunrealtype t, N_Vector v, const int *fired, void *user
   double *y = N_VGetArrayPointer(v);
   bool stops = false, acted = false;
   stf_event_values(m, t, y, m->event_values[0]);
-  const bool changes = flip(m, t, y, fired);
+  bool changes = flip(m, t, y, fired);
   for (int round = 0; find_pending(m, t, y); round++) {
     acted = true;
     m->slope_at = NAN;
@@ -341,10 +359,19 @@ int stf_reactions_handle(sunrealtype t, N_Vector v, const int *fired, void *user
                         "rounds); give one of them a "
                         "condition that its own assignment ends",
                         t);
-    STEIF_TRY(act(m, t, y, &stops));
+    STEIF_TRY(act(m, t, y, &stops, &changes));
+    stf_event_values(m, t, y, m->event_values[0]);
+    if (look_ahead(m, t, y, STF_OPEN, fired) && spread(m, t, y)) changes = true;
   }
-  if (acted) look_ahead(m, t, y, STF_OPEN);
+  if (acted) {
+    look_ahead(m, t, y, STF_OPEN, NULL);
+    if (spread(m, t, y)) changes = true;
+  }
   stf_event_values(m, t, y, m->event_values[1]);
   stf_event_move(m, t, y, fired);
-  return stops ? STEIF_FINISH : changes || acted ? STEIF_RESTART : STEIF_CONTINUE;
+  if (acted) {
+    stf_event_values(m, t, y, m->event_values[0]);
+    stay(m, fired);
+  }
+  return stops ? STEIF_FINISH : changes ? STEIF_RESTART : STEIF_CONTINUE;
 }

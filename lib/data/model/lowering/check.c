@@ -1,7 +1,6 @@
 /* check.c: every name in an expression is known where it stands: declared, or
  * an argument or index there. SPDX-License-Identifier: BSD-3-Clause */
 #include "model.h"
-#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -29,57 +28,16 @@ bool stf_summed(const stf_model *m, const stf_expression *e, int32_t word)
   return false;
 }
 
-const char *stf_elsewhere(const stf_model *m, const char *name, char *room, size_t size)
-{
-  static const struct {
-    const char *name, *here;
-  } words[] = {{"ln", "'ln' is written log, which is natural here"},
-               {"pow", "'pow': a power is written x^y"},
-               {"power", "'power': a power is written x^y"},
-               {"fabs", "'fabs' is written abs"},
-               {"sgn", "'sgn' is written sign"},
-               {"heaviside", "'heaviside' is written step"},
-               {"arcsin", "'arcsin' is written asin"},
-               {"arccos", "'arccos' is written acos"},
-               {"arctan", "'arctan' is written atan"},
-               {"der", "'der(x)' is written x'"},
-               {"e", "'e' is written exp(1), and e^x exp(x)"}};
-  char small[STEIF_SPEC_WORD];
-  int operands;
-  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-    if (!strcmp(name, words[i].name)) return words[i].here;
-  const stf_symbol *s =
-    name[0] == 'd' && name[1]
-      ? stf_symbol_of(m, stf_word_known(&m->syntax.words, name + 1, strlen(name + 1)))
-      : NULL;
-  if (s && s->kind == STF_IS_STATE) {
-    snprintf(room, size, "'%s' is not declared; the derivative of '%s' is written %s'", name,
-             name + 1, name + 1);
-    return room;
-  }
-  for (size_t i = 0; i < sizeof small; i++) small[i] = (char)tolower((unsigned char)name[i]);
-  small[sizeof small - 1] = 0;
-  if (!strcmp(small, name) || (stf_function_of(small, &operands) < 0 && strcmp(small, "pi")))
-    return NULL;
-  snprintf(room, size, "'%s' is written %s", name, small);
-  return room;
-}
-
 static int unknown(stf_model *m, const stf_statement *s, const stf_code *c, int32_t word)
 {
   const char *name = stf_named(m, word),
              *near = stf_nearest(name, m->names.data, m->names.count, sizeof(char *));
   char room[3 * STEIF_SPEC_WORD];
   int operands;
-  /* A line `r = expr` alone wants a declaration. */
   const bool alone = s->kind == STF_SAY_EQUATION && s->value.to == s->value.from + 1 &&
                      c == STF_AT(m->syntax.codes, stf_code, s->value.from) && !c->primes;
-  if (alone)
-    return stf_complain(&m->syntax.sources, c->at, STEIF_UNKNOWN_NAME,
-                        "'%s' is not declared; write 'let %s = ...' for an abbreviation, "
-                        "'state %s' for an unknown",
-                        name, name, name);
   const char *here = stf_elsewhere(m, name, room, sizeof room);
+  if (alone && !here) return stf_undeclared(m, c, name);
   if (here) return stf_complain(&m->syntax.sources, c->at, STEIF_UNKNOWN_NAME, "%s", here);
   if (stf_function_of(name, &operands) >= 0)
     return stf_complain(&m->syntax.sources, c->at, STEIF_BAD_INPUT,
@@ -103,9 +61,7 @@ static void check_call(stf_model *m, const stf_statement *s, const stf_code *c)
       wanted += stf_statement_at(m, (int32_t)i)->parent == f->statement;
   } else if (stf_function_of(name, &wanted) < 0) {
     if (!strcmp(name, "div")) wanted = 2;
-    if (!wanted && f)
-      stf_complain(&m->syntax.sources, c->at, STEIF_BAD_INPUT,
-                   "'%s' is no function; write * for a product", name);
+    if (!wanted && f) stf_no_function(m, s, c, f);
     if (!wanted && !f) unknown(m, s, c, c->a);
     if (!wanted) return;
   }
@@ -128,8 +84,9 @@ static void check_symbol(stf_model *m, const stf_code *c, int32_t word)
   else if (f->kind == STF_IS_STATE || f->kind == STF_IS_LET) {
     const int dims = stf_statement_at(m, f->statement)->dimensions;
     if (dims != c->count)
-      stf_complain(&m->syntax.sources, c->at, STEIF_BAD_INPUT, "'%s' has %d ind%s, here %d",
-                   name, dims, dims == 1 ? "ex" : "ices", c->count);
+      stf_complain(&m->syntax.sources, c->at, STEIF_BAD_INPUT, "'%s' has %d ind%s, here %d%s",
+                   name, dims, dims == 1 ? "ex" : "ices", c->count,
+                   c->count ? "" : "; elements stand in a loop, 'for i in 1:n'");
   } else if (c->count) {
     stf_complain(&m->syntax.sources, c->at, STEIF_BAD_INPUT, "'%s' is no array", name);
   }
@@ -168,14 +125,31 @@ static void check_target(stf_model *m, const stf_statement *s)
                  stf_named(m, s->name));
 }
 
+/* `data "d.csv", conc = conc` of an output: outputs have no symbol. */
+static bool names_output(const stf_model *m, const stf_statement *s)
+{
+  const stf_code *c = STF_AT(m->syntax.codes, stf_code, s->value.from);
+  if (s->kind != STF_SAY_COLUMN || s->value.to != s->value.from + 1) return false;
+  if (c->kind != STF_OP_NAME || c->a != s->name || c->primes) return false;
+  for (size_t i = 0; i < m->syntax.statements.count; i++) {
+    const stf_statement *output = stf_statement_at(m, (int32_t)i);
+    if (output->kind == STF_SAY_OUTPUT && output->name == s->name) return true;
+  }
+  return false;
+}
+
 int stf_check_names(stf_model *m)
 {
   for (size_t i = 0; i < m->syntax.statements.count; i++) {
     const stf_statement *s = stf_statement_at(m, (int32_t)i);
     if (s->kind == STF_SAY_ASSIGN || s->kind == STF_SAY_VALUE || s->kind == STF_SAY_BOUNDARY)
       check_target(m, s);
-    if (s->kind == STF_SAY_STATE && s->primes && !stf_symbol_of(m, s->name)) check_target(m, s);
-    check(m, (int32_t)i, &s->value);
+    if (s->kind == STF_SAY_STATE && s->primes && !stf_symbol_of(m, s->name))
+      stf_complain(&m->syntax.sources, s->at, STEIF_UNKNOWN_NAME,
+                   "this is the slope of '%s' at the start, and no 'state %s = ...' declares "
+                   "it; an equation has no 'state' before it",
+                   stf_named(m, s->name), stf_named(m, s->name));
+    if (!names_output(m, s)) check(m, (int32_t)i, &s->value);
     if (s->kind != STF_SAY_FOR) check(m, (int32_t)i, &s->other);
     if (s->kind == STF_SAY_PARAM || s->kind == STF_SAY_STATE) check(m, (int32_t)i, &s->third);
     for (int d = 0; d < STF_DIMENSIONS; d++) {

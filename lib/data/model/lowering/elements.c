@@ -251,33 +251,73 @@ static const stf_statement *boundary(stf_builder *b, const stf_code *c, const st
   return NULL;
 }
 
+/* "i = 4, j = 1; ": the indices that are bound now. */
+static void say_pass(const stf_builder *b, size_t room, char *text)
+{
+  size_t used = 0;
+  for (size_t i = 0; i < b->bindings.count && i < STF_LOOPS && used < room; i++) {
+    const stf_binding *local = STF_AT(b->bindings, stf_binding, i);
+    if (local->node < 0)
+      used += (size_t)snprintf(text + used, room - used, "%s%.20s = %lld", used ? ", " : "",
+                               stf_named(b->m, local->word), (long long)local->at.c);
+  }
+  if (used && used < room) snprintf(text + used, room - used, "; ");
+}
+
+/* "[4,0]", or with `ranges` "[i in 1:4, 0]": the element that is asked for, and where index d is outside. */
+static void say_indices(const stf_builder *b, const stf_symbol *s, const stf_affine *x, int d,
+                        bool ranges, size_t room, char *text)
+{
+  static const char *const letter[STF_DIMENSIONS] = {"i", "j", "k"};
+  size_t used = 0;
+  for (int k = 0; k < s->dims && used < room; k++) {
+    const int32_t word = stf_statement_at(b->m, s->statement)->range[k].name;
+    used += (size_t)snprintf(text + used, room - used, "%s", !k ? "[" : ranges ? ", " : ",");
+    if (used < room && ranges && k != d)
+      used += (size_t)snprintf(text + used, room - used, "%.20s in %d:%d",
+                               word >= 0 ? stf_named(b->m, word) : letter[k], (int)s->low[k],
+                               (int)(s->low[k] + s->count[k] - 1));
+    else if (used < room)
+      used += (size_t)snprintf(text + used, room - used, "%lld", (long long)x[k].c);
+  }
+  if (used < room) snprintf(text + used, room - used, "]");
+}
+
+static int no_element(stf_builder *b, const stf_symbol *s, const stf_code *c,
+                      const stf_affine *x, int d)
+{
+  static const char *const ordinal[STF_DIMENSIONS] = {"first", "second", "third"};
+  char pass[100] = "", where[60] = "end the loop earlier", element[80] = "", bound[120] = "",
+       runs[STF_NAME_BYTES + 20];
+  const char *name = stf_named(b->m, s->word);
+  const stf_binding *local = b->bindings.data;
+  const int64_t high = s->low[d] + s->count[d] - 1, beyond = x[d].c - high;
+  say_pass(b, sizeof pass, pass);
+  say_indices(b, s, x, d, false, sizeof element, element);
+  say_indices(b, s, x, d, true, sizeof bound, bound);
+  snprintf(runs, sizeof runs, s->dims > 1 ? "its %s index" : "%s",
+           s->dims > 1 ? ordinal[d] : name);
+  if (b->bindings.count == 1 && local->node < 0)
+    snprintf(where, sizeof where, "%s the loop at %lld", beyond > 0 ? "end" : "begin",
+             (long long)(local->at.c - (beyond > 0 ? beyond : x[d].c - s->low[d])));
+  return stf_complain(&b->m->syntax.sources, c->at, STEIF_BAD_INPUT,
+                      "%s%s does not exist (%s%s runs from %d to %lld); %s or add "
+                      "'boundary %s%s = ...'",
+                      name, element, pass, runs, s->low[d], (long long)high, where, name,
+                      bound);
+}
+
 static int outside(stf_builder *b, const stf_symbol *s, const stf_code *c, const stf_affine *x,
                    int d)
 {
   int code = STEIF_OK;
   const stf_statement *said = boundary(b, c, x, &code);
   STEIF_TRY(code);
-  const char *name = stf_named(b->m, s->word);
   if (no_passes(b)) {
     b->fallback = true;
     return stf_push_node(b, stf_number(b->g, 0));
   }
-  if (!said || c->primes) {
-    char pass[60] = "", where[60] = "end the loop earlier";
-    const stf_binding *local = b->bindings.data;
-    const int64_t high = s->low[d] + s->count[d] - 1, beyond = x[d].c - high;
-    if (b->bindings.count && local->node < 0)
-      snprintf(pass, sizeof pass, "%.30s = %lld; ", stf_named(b->m, local->word),
-               (long long)local->at.c);
-    if (b->bindings.count == 1 && local->node < 0)
-      snprintf(where, sizeof where, "%s the loop at %lld", beyond > 0 ? "end" : "begin",
-               (long long)(local->at.c - (beyond > 0 ? beyond : x[d].c - s->low[d])));
-    return stf_complain(&b->m->syntax.sources, c->at, STEIF_BAD_INPUT,
-                        "%s[%lld] does not exist (%s%s runs from %d to %lld); %s or add "
-                        "'boundary %s[%lld] = ...'",
-                        name, (long long)x[d].c, pass, name, s->low[d], (long long)high, where,
-                        name, (long long)x[d].c);
-  }
+  if (!said || c->primes) return no_element(b, s, c, x, d);
   const size_t scope = b->bindings.count;
   for (int k = 0; k < c->count; k++)
     if (said->range[k].name >= 0) STEIF_TRY(stf_bind_index(b, said->range[k].name, x + k));

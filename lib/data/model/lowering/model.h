@@ -5,6 +5,7 @@
 
 #include "syntax.h"
 #include "tape.h"
+#include <steif/initial.h>
 #include <steif/parameters.h>
 
 enum { STF_UNKNOWNS = 10000000, STF_PASSES_MOST = 100000000 };
@@ -63,6 +64,10 @@ typedef struct stf_switch {
   int32_t a, stride[STF_LOOPS]; /* place in memory */
   uint32_t at; /* place in the text: g may have been computed elsewhere before */
   uint8_t on;  /* what g depends on */
+  bool bare, negated,
+    kink;      /* of an expression with "rising" and its like; said of -g; of abs, min, ... */
+  int indices; /* bound there, for its name */
+  stf_binding index[STF_LOOPS];
 } stf_switch;
 
 /* The value of a parameter that is given from outside. */
@@ -141,7 +146,10 @@ typedef struct stf_model {
   stf_block *event_block;
   struct stf_reactions *reactions;
   steif_event *event_list;
+  uint8_t *event_sort; /* enum stf_event_sort of reactions.h */
   double *event_values[2];
+  double
+    piece; /* time for which what depends on time alone stays as it is, half of it; infinite: not known */
   double *event_shift, *event_range; /* of each relation: see event_values.c */
   double *event_slope, slope_at; /* y' at the event at slope_at, for other forms than y' = f */
   stf_measured measured;
@@ -196,17 +204,22 @@ bool stf_summed(const stf_model *m, const stf_expression *e, int32_t word);
 /* What names of other languages are here: dx for the derivative of a state x, functions and constants; NULL: nothing
  * known. */
 const char *stf_elsewhere(const stf_model *m, const char *name, char *room, size_t size);
+/* Complaints: the name alone on the left of an equation is not declared; the name of a call is no function. */
+int stf_undeclared(stf_model *m, const stf_code *c, const char *name);
+void stf_no_function(stf_model *m, const stf_statement *s, const stf_code *c,
+                     const stf_symbol *f);
 
 /* builder.c: expressions into nodes. */
 typedef struct stf_builder {
   stf_model *m;
   stf_formulas *g;
-  bool numeric; /* parameters are numbers and there are no unknowns but those
+  bool numeric;      /* parameters are numbers and there are no unknowns but those
                    that have started */
-  bool events;  /* relations are frozen between events, unless `literal` */
-  bool times;   /* ... those of time alone too */
-  bool clock;   /* there is time alone: when a condition changes must be known */
-  bool kink;    /* the relation is that of a kink */
+  bool events;       /* relations are frozen between events, unless `literal` */
+  bool times;        /* ... those of time alone too */
+  bool clock;        /* there is time alone: when a condition changes must be known */
+  bool kink;         /* the relation is that of a kink */
+  bool bare, turned; /* what a switch that is made now says of itself */
   int literal;
   stf_block *block;                                    /* of switches */
   int32_t range_low[STF_LOOPS], range_high[STF_LOOPS]; /* of its counters */
@@ -218,6 +231,9 @@ typedef struct stf_builder {
   const uint8_t *started;                   /* n; NULL: none */
   stf_vector stack, frames, bindings, memo; /* memo: 1 + node of each symbol */
 } stf_builder;
+/* event_pieces.c: something changes where x, of time alone, has moved on by `size`; the least distance of nodes. */
+void stf_note_piece(stf_builder *b, int32_t x, double size);
+double stf_lookup_spacing(const stf_lookup *l);
 int stf_builder_open(stf_builder *b, stf_model *m, stf_formulas *g, bool numeric);
 void stf_builder_close(stf_builder *b);
 int stf_bind_node(stf_builder *b, int32_t word, int32_t node);
@@ -276,6 +292,10 @@ int stf_build_start(stf_model *m);
 int stf_bind_element(stf_builder *b, const stf_statement *said, const stf_symbol *s, int32_t k);
 /* problem.c of this room */
 int stf_name_unknowns(stf_model *m);
+/* equation_names.c: of models that are not large; of others they are NULL. */
+int stf_name_equations(stf_model *m);
+/* fulfilled_start.c */
+enum steif_attribute stf_kind_of_start(const stf_model *m, size_t i);
 /* t1 - t0, or 1 where the text has no `time`. */
 double stf_span(const stf_model *m);
 /* A number of parameters and constants only; the failure is told. */

@@ -145,19 +145,33 @@ static int claim(stf_builder *b, stf_switch *s)
   return STEIF_OK;
 }
 
-static int32_t switched(stf_builder *b, int32_t g)
+/* What a relation is for the reader of the text: where it stands, and with which indices, the outermost first. */
+static void describe(const stf_builder *b, stf_switch *s, bool negated)
+{
+  s->at = b->g->at, s->bare = b->bare, s->negated = negated != b->turned, s->kink = b->kink;
+  s->indices = 0;
+  for (size_t i = 0; i < b->bindings.count && s->indices < STF_LOOPS; i++) {
+    const stf_binding *x = STF_AT(b->bindings, stf_binding, i);
+    if (x->node < 0) s->index[s->indices++] = *x;
+  }
+}
+
+/* `negated`: what is said in the text holds where g >= 0. */
+static int32_t switched(stf_builder *b, int32_t g, bool negated)
 {
   stf_model *m = b->m;
   if (stf_vector_resize(m->ctx, &b->switch_of, b->g->nodes.count, sizeof(int32_t))) return -1;
   int32_t *known = STF_AT(b->switch_of, int32_t, g);
-  if (!*known) {
+  const bool fresh = !*known;
+  if (fresh) {
     stf_switch *s = stf_vector_push(m->ctx, &b->block->switches, sizeof *s);
     if (!s || claim(b, s)) return -1;
-    s->g = g, s->at = b->g->at;
+    s->g = g, s->kink = true;
     s->on = stf_node_at(b->g, g)->on;
     *known = (int32_t)b->block->switches.count;
   }
-  const stf_switch *s = STF_AT(b->block->switches, stf_switch, *known - 1);
+  stf_switch *s = STF_AT(b->block->switches, stf_switch, *known - 1);
+  if (fresh || (s->kink && !b->kink)) describe(b, s, negated);
   return stf_leaf(b->g, STF_OP_MEMORY, s->a, s->stride);
 }
 
@@ -193,8 +207,8 @@ int32_t stf_relation(stf_builder *b, int kind, int32_t left, int32_t right)
   }
   if (b->clock) return some_time(b, g, literal);
   if (kind == STF_OP_LESS)
-    return switched(b, g); /* a <= c: not c < a, where a - c stays at 0 */
-  const int32_t other = switched(b, stf_apply2(b->g, STF_OP_SUBTRACT, right, left));
+    return switched(b, g, false); /* a <= c: not c < a, where a - c stays at 0 */
+  const int32_t other = switched(b, stf_apply2(b->g, STF_OP_SUBTRACT, right, left), true);
   return other < 0 ? -1 : stf_apply1(b->g, STF_OP_NOT, other);
 }
 
@@ -252,8 +266,9 @@ int32_t stf_table_value(stf_builder *b, int32_t x, int32_t which)
   }
   if (b->clock || (!steps && (on & STF_ON_STATE))) return literal;
   if (stf_table_wave(b->m, which)) return -1;
+  stf_note_piece(b, x, stf_lookup_spacing(l));
   const int32_t wave = stf_apply(b->g, STF_OP_LOOKUP, x, b->m->tables + which, false);
-  const int32_t below = wave < 0 ? -1 : switched(b, wave);
+  const int32_t below = wave < 0 ? -1 : switched(b, wave, false);
   return below < 0 ? -1 : kept_part(b, x, which, below);
 }
 
@@ -264,13 +279,22 @@ static int32_t choose(stf_builder *b, int32_t a, int32_t c, int32_t x, int32_t y
   return holds < 0 ? -1 : stf_apply(b->g, STF_OP_SELECT, holds, x, y);
 }
 
+/* The same, told of c - a. */
+static int32_t turned(stf_builder *b, int32_t a, int32_t c, int32_t x, int32_t y)
+{
+  b->turned = true;
+  const int32_t node = choose(b, a, c, x, y);
+  b->turned = false;
+  return node;
+}
+
 static int32_t with_relation(stf_builder *b, int kind, int32_t a, int32_t c)
 {
   const int32_t zero = stf_number(b->g, 0), one = stf_number(b->g, 1);
   switch (kind) {
   case STF_OP_ABS: return choose(b, a, zero, stf_apply1(b->g, STF_OP_NEGATIVE, a), a);
   case STF_OP_SIGN:
-    return choose(b, a, zero, stf_number(b->g, -1), choose(b, zero, a, one, zero));
+    return choose(b, a, zero, stf_number(b->g, -1), turned(b, zero, a, one, zero));
   case STF_OP_STEP: return choose(b, a, zero, zero, one);
   case STF_OP_RAMP: return choose(b, a, zero, zero, a);
   case STF_OP_MIN: return choose(b, a, c, a, c);
@@ -302,6 +326,7 @@ static int32_t whole_part(stf_builder *b, int32_t a)
 {
   const int32_t one = stf_number(b->g, 1), two = stf_number(b->g, 2),
                 zero = stf_number(b->g, 0);
+  stf_note_piece(b, a, 1);
   const int32_t odd = choose(b, parity(b, a), zero, one, zero);
   if (odd < 0) return -1;
   const int32_t half =

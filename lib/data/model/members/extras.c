@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "products.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -105,6 +106,19 @@ static int invariant_values(sunrealtype t, N_Vector y, sunrealtype *value, void 
   return 0;
 }
 
+/* `data "d.csv", x = 2*x`: the output x that it makes has the name of another thing. */
+static int clashing_column(stf_model *m, const stf_statement *s, int line, bool measurable)
+{
+  const char *name = stf_named(m, s->name);
+  char itself[2 * STF_NAME_BYTES + 40] = "";
+  if (measurable) snprintf(itself, sizeof itself, "write '%s = %s' for that, or ", name, name);
+  return stf_complain(
+    &m->syntax.sources, s->at, STEIF_BAD_INPUT,
+    "'%s' has this name already (line %d), and the column is an output of its own; "
+    "%sgive the column another name, in the file too",
+    name, line, itself);
+}
+
 /* The name of an output or invariant is its own. */
 static int check_name(stf_model *m, int32_t statement)
 {
@@ -116,6 +130,9 @@ static int check_name(stf_model *m, int32_t statement)
     if (before->kind == s->kind && before->name == s->name) line = (int)before->line;
   }
   if (!line) return STEIF_OK;
+  const bool column = (size_t)statement + 1 < m->syntax.statements.count && s[1].at == s->at &&
+                      s[1].kind == STF_SAY_COLUMN;
+  if (column) return clashing_column(m, s, line, !symbol || symbol->kind == STF_IS_STATE);
   return stf_complain(
     &m->syntax.sources, s->at, STEIF_BAD_INPUT,
     "'%s' has this name already (line %d); an output or invariant needs one of "

@@ -7,13 +7,16 @@
 #include <string.h>
 
 /* '=' is fixed, '~' a guess, nothing free. */
+enum steif_attribute stf_kind_of_start(const stf_model *m, size_t i)
+{
+  return m->start[i] == '=' ? STEIF_FIXED : m->start[i] == '~' ? STEIF_GUESS : STEIF_FREE;
+}
+
 static int attributes(const stf_model *m, enum steif_attribute *attribute)
 {
   int open = 0;
   for (int32_t i = 0; i < m->n; i++) {
-    attribute[i] = m->start[i] == '='   ? STEIF_FIXED
-                   : m->start[i] == '~' ? STEIF_GUESS
-                                        : STEIF_FREE;
+    attribute[i] = stf_kind_of_start(m, (size_t)i);
     open += attribute[i] != STEIF_FIXED;
   }
   return open;

@@ -21,6 +21,15 @@ static int column(stf_model *m, const stf_statement *s)
 {
   stf_measured *d = &m->measured;
   double *sd = d->sd + d->columns;
+  const stf_symbol *symbol = stf_symbol_of(m, s->name);
+  const bool itself = s->value.to == s->value.from + 1; /* else it was refused as an output */
+  if (symbol && symbol->kind != STF_IS_STATE && itself)
+    return stf_complain(&m->syntax.sources, s->at, STEIF_BAD_INPUT,
+                        "'%s' (line %d) is no state and no output, which columns of data are; "
+                        "write '%s_data = %s' and name the column so in the file",
+                        stf_named(m, s->name),
+                        (int)stf_statement_at(m, symbol->statement)->line,
+                        stf_named(m, s->name), stf_named(m, s->name));
   d->column[d->columns++] = stf_named(m, s->name);
   if (s->other.to == s->other.from) return STEIF_OK;
   STEIF_TRY(stf_number_of(m, &s->other, sd));

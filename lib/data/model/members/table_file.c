@@ -114,6 +114,11 @@ static int header(stf_model *m, const stf_statement *table, const stf_statement 
     STEIF_TRY(stf_number_of(m, &column->value, &number));
     if (number >= 1 && number <= COLUMNS) *y = (long)number - 1;
   }
+  if (strchr(line, ';') && !strchr(line, ','))
+    return complain(m, table,
+                    "columns are separated by ',', and numbers have a decimal point; "
+                    "this line has ';'",
+                    file, 1);
   return *y < 0
            ? complain(m, table, "has no such column; its first line gives the names", file, 0)
            : check_unit(m, table, line, *x, file);

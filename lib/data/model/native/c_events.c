@@ -79,6 +79,8 @@ static void reaction_list(stf_writer *w, const stf_model *m)
     stf_write_number(w, r->from);
     stf_write_text(w, ", .period = ");
     stf_write_number(w, r->period);
+    stf_write_text(w, ", .unit = ");
+    stf_write_number(w, r->unit);
     if (r->times) stf_write(w, ", .time = times%zu", i);
     if (r->count) stf_write(w, ", .values = action%zu_0", i);
     stf_write_text(w, "},\n");

@@ -203,6 +203,9 @@ static void members(stf_writer *w, const stf_model *m, const steif_problem *p)
       "handle,\n  .begin = begin,\n  .save = save,\n  .restore = restore,\n",
       p->events);
   if (p->event_slope) stf_write(w, "  .event_slope = event_slope,\n");
+  stf_write_text(w, "  .event_spacing = ");
+  stf_write_number(w, p->event_spacing);
+  stf_write_text(w, ",\n");
   stf_write(w, "  .rtol_scale = ");
   stf_write_number(w, p->rtol_scale);
   stf_write(w, ",\n%s};\n\n", m->given.count ? "  .parameters = &parameters,\n" : "");

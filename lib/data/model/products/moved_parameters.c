@@ -26,10 +26,11 @@ static int add_breaks(const stf_model *m, int k, double value, double weight, do
   const int count = moved.break_count;
   for (int i = 0; i < count && i < m->break_count; i++) slope[i] += weight * moved.breaks[i];
   stf_model_close(m->ctx, &moved);
-  STEIF_CHECK(
-    count == m->break_count, m->ctx, STEIF_UNSUPPORTED,
-    "the model has %d breaks, and %d with %s = %.17g: their times have no derivatives",
-    m->break_count, count, m->parameter_name[k], value);
+  STEIF_CHECK(count == m->break_count, m->ctx, STEIF_UNSUPPORTED,
+              "the model has %d breaks, and %d with %s = %.17g: some lie at one time, or come "
+              "and go, and "
+              "their times have no derivatives; move one of them a little",
+              m->break_count, count, m->parameter_name[k], value);
   return STEIF_OK;
 }
 

@@ -38,10 +38,12 @@ bool stf_take_word(stf_parser *p, int word)
 int stf_expected(stf_parser *p, const char *what)
 {
   const stf_token *t = stf_next(p);
+  const char *habit = stf_habit(p, what), *join = habit ? "; " : "";
+  if (!habit) habit = "";
   if (t->kind == STF_TOKEN_END)
     return stf_complain(&p->syntax->sources, t->at, STEIF_BAD_INPUT,
-                        "expected %s, found the end of the %s", what,
-                        p->syntax->sources.pieces ? "expression" : "line");
+                        "expected %s, found the end of the %s%s%s", what,
+                        p->syntax->sources.pieces ? "expression" : "line", join, habit);
   const stf_text *text = p->syntax->sources.texts.data;
   for (size_t i = 0; i < p->syntax->sources.texts.count; i++, text++)
     if (t->at >= text->base && t->at <= text->base + text->length) break;
@@ -49,6 +51,9 @@ int stf_expected(stf_parser *p, const char *what)
   const size_t length = t->length < STF_SHOWN - 1 ? t->length : STF_SHOWN - 1;
   memcpy(piece, text->text + (t->at - text->base), length);
   piece[length] = 0;
-  return stf_complain(&p->syntax->sources, t->at, STEIF_BAD_INPUT, "expected %s, found '%s'",
-                      what, stf_input_shown(piece, shown));
+  const bool unit = t->kind == STF_TOKEN_UNIT; /* its place is behind the brace */
+  const char *open = unit ? "{" : "", *close = unit ? "}" : "";
+  return stf_complain(&p->syntax->sources, t->at - unit, STEIF_BAD_INPUT,
+                      "expected %s, found '%s%s%s'%s%s", what, open,
+                      stf_input_shown(piece, shown), close, join, habit);
 }

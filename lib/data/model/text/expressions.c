@@ -285,8 +285,7 @@ static int relation(stf_parser *p)
 {
   STEIF_TRY(sum(p));
   const uint32_t at = stf_next(p)->at;
-  if (stf_next_is(p, 'e'))
-    return complain(p, at, "'==' between computed numbers; use < or >, or abs(a - b) < 1e-9");
+  if (stf_next_is(p, 'e')) return stf_equality(p);
   static const int marks[] = {'<', 'l', '>', 'g'};
   for (int i = 0; i < 4; i++) {
     if (!stf_take(p, marks[i])) continue;
@@ -304,7 +303,8 @@ static int relation(stf_parser *p)
 
 static int condition(stf_parser *p)
 {
-  return p->boolean ? STEIF_OK : stf_expected(p, "a condition such as v < 0, or 'v falling'");
+  if (!p->boolean && stf_next_is(p, '=')) return stf_equality(p);
+  return p->boolean ? STEIF_OK : stf_expected(p, "a condition such as v < 0");
 }
 
 static int negation(stf_parser *p)

@@ -89,7 +89,8 @@ static int number(stf_lexer *l)
   char copy[64], shown[200];
   while (digit(byte(l, l->at))) l->at++;
   if (byte(l, l->at) == '.' && byte(l, l->at + 1) == '.')
-    return wrong(l, from, "'..' between numbers: a range is written 1:2");
+    return wrong(l, from,
+                 "'..' between numbers: a range is written 1:2, an interval 'time 0 to 10'");
   if (byte(l, l->at) == '.') l->at++;
   while (digit(byte(l, l->at))) l->at++;
   const uint32_t e = byte(l, l->at), sign = byte(l, l->at + 1);
@@ -207,8 +208,24 @@ static const char *pair(uint32_t c, uint32_t next)
 {
   if (c == '*' && next == '*') return "'**': a power is written ^";
   if (c == '/' && next == '/') return "'//': a comment begins with #";
+  if ((next == '=' && (c == '!' || c == '~')) || (c == '<' && next == '>'))
+    return "there is no 'unequal' of computed numbers; use < or >, or abs(a - b) > 1e-9";
+  if (c == ':' && next == '=') return "':=': an equation and an assignment have one '='";
+  if (next == '=' && (c == '+' || c == '-' || c == '*' || c == '/'))
+    return "an operator before '=': x += 1 is written x = x + 1";
+  if (c == '.' && (next == '^' || next == '*' || next == '/'))
+    return "'.' before an operator: write ^, *, / alone; elements stand in loops";
+  if (c == '.' && letter(next)) return "'.' in a name: functions are written sin(x), exp(x)";
   if (c == '/' && next == '*') return "'/*': a comment begins with # and ends with the line";
   return NULL;
+}
+
+/* Does anything follow this character in its line? */
+static bool more(const stf_lexer *l)
+{
+  uint32_t at = l->at + 1;
+  while (byte(l, at) == ' ' || byte(l, at) == '\t' || byte(l, at) == '\r') at++;
+  return at < l->length && byte(l, at) != '\n' && byte(l, at) != '#';
 }
 
 /* A character of other languages, and what stands for it here. */
@@ -216,8 +233,17 @@ static int meaningless(stf_lexer *l, int c)
 {
   switch (c) {
   case ';':
-    return wrong(l, l->at, "';' has no meaning: a statement ends with its line; remove it");
+    return wrong(l, l->at,
+                 more(l) ? "';' between statements: each has a line of its own"
+                         : "';' has no meaning: a statement ends with its line; remove it");
+  case '?': return wrong(l, l->at, "'?': a choice is written 'if a then b else c'");
+  case '\\':
+    return wrong(l, l->at,
+                 "'\\': a line goes on after an operator or ',' and in brackets; remove it");
   case '.':
+    if (byte(l, l->at + 1) == '.' && byte(l, l->at + 2) == '.')
+      return wrong(l, l->at,
+                   "'...': a line goes on after an operator or ',' and in brackets; remove it");
     return wrong(l, l->at,
                  "a '.' without digits: an interval is written 'time 0 to 30', a range 1:2");
   case '%': return wrong(l, l->at, "'%': a comment begins with #, a remainder is mod(a, b)");

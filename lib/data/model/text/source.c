@@ -5,12 +5,18 @@
 #include <stdio.h>
 #include <string.h>
 
-const stf_text *stf_place(const stf_sources *s, uint32_t at, int *line, int *column)
+const stf_text *stf_text_of(const stf_sources *s, uint32_t at)
 {
   const stf_text *text = s->texts.data;
   for (size_t i = 1; i < s->texts.count; i++)
     if (at != STF_NOWHERE && STF_AT(s->texts, stf_text, i)->base <= at)
       text = STF_AT(s->texts, stf_text, i);
+  return text;
+}
+
+const stf_text *stf_place(const stf_sources *s, uint32_t at, int *line, int *column)
+{
+  const stf_text *text = stf_text_of(s, at);
   *line = *column = 1;
   if (at == STF_NOWHERE || !text->text) return text;
   for (uint32_t i = 0; i < at - text->base && i < text->length; i++) {

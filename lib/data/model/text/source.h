@@ -43,7 +43,8 @@ int stf_source_read(stf_sources *s, stf_pool *pool, const char *path, const char
  * complaint at `at`. */
 int stf_source_path(stf_sources *s, stf_pool *pool, uint32_t at, const char *name,
                     uint32_t length, const char **path);
-/* The characters at a place. */
+/* The text in which a place lies, and the characters there. */
+const stf_text *stf_text_of(const stf_sources *s, uint32_t at);
 const char *stf_source_at(const stf_sources *s, uint32_t at);
 
 /* "FILE:LINE:COLUMN", "FILE" for STF_NOWHERE. */

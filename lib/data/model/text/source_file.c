@@ -68,8 +68,6 @@ int stf_source_path(stf_sources *s, stf_pool *pool, uint32_t at, const char *nam
 
 const char *stf_source_at(const stf_sources *s, uint32_t at)
 {
-  const stf_text *text = s->texts.data;
-  for (size_t i = 1; i < s->texts.count; i++)
-    if (STF_AT(s->texts, stf_text, i)->base <= at) text = STF_AT(s->texts, stf_text, i);
+  const stf_text *text = stf_text_of(s, at);
   return text->text + (at - text->base);
 }

@@ -11,7 +11,10 @@ static int loop(stf_reader *r, const stf_token *t)
   s.line = t->line;
   STEIF_TRY(stf_reader_name(r, &s));
   s.at = t->at;
-  if (!stf_take_word(&r->p, STF_WORD_IN)) return stf_expected(&r->p, "'in'");
+  if (!stf_take_word(&r->p, STF_WORD_IN))
+    return stf_expected(&r->p, "'in', as in 'for i in 1:n'");
+  if (stf_reader_take(r, "range"))
+    return stf_reader_fail(r, s.at, "a range is written 'for i in 1:n', with n the last value");
   s.range[0].name = s.name;
   s.range[0].low.from = s.range[0].low.to = 0;
   s.third.from = stf_next(&r->p)->at; /* place of the range */
@@ -58,6 +61,7 @@ static int when(stf_reader *r)
             : stf_reader_take(r, "falling")  ? 'f'
             : stf_reader_take(r, "crossing") ? 'c'
                                              : 0;
+  if (!condition && stf_next_is(&r->p, '=')) return stf_equality(&r->p);
   if (condition == (s.whole != 0)) {
     const uint32_t at = s.at;
     return stf_reader_fail(r, at, "expected a condition such as v < 0, or 'v falling'");
@@ -86,6 +90,16 @@ static int every(stf_reader *r)
   STEIF_TRY(stf_parse_number(&r->p, &s.value));
   if (stf_reader_take(r, "from")) STEIF_TRY(stf_parse_number(&r->p, &s.other));
   return actions(r, &s, place);
+}
+
+/* Loops make equations only. */
+static int event(stf_reader *r, const stf_token *t, int (*one)(stf_reader *))
+{
+  if (r->parent < 0) return one(r);
+  return stf_complain(&r->p.syntax->sources, t->at, STEIF_BAD_INPUT,
+                      "'%s' cannot stand in a 'for'; write one for each element, after the "
+                      "'end' of the loop",
+                      stf_word_text(&r->p.syntax->words, t->word));
 }
 
 static int interval(stf_reader *r)
@@ -246,9 +260,9 @@ static int dispatch(stf_reader *r, const stf_token *t)
   case STF_WORD_TABLE: return stf_reader_table(r);
   case STF_WORD_INCLUDE: return include(r, t->at);
   case STF_WORD_FOR: return loop(r, t);
-  case STF_WORD_WHEN: return when(r);
-  case STF_WORD_AT: return instants(r);
-  case STF_WORD_EVERY: return every(r);
+  case STF_WORD_WHEN: return event(r, t, when);
+  case STF_WORD_AT: return event(r, t, instants);
+  case STF_WORD_EVERY: return event(r, t, every);
   case STF_WORD_OUTPUT: return stf_reader_list(r, STF_SAY_OUTPUT, stf_reader_assignment);
   case STF_WORD_INVARIANT: return stf_reader_list(r, STF_SAY_INVARIANT, stf_reader_assignment);
   case STF_WORD_REQUIRE: return stf_reader_list(r, STF_SAY_REQUIRE, stf_reader_requirement);

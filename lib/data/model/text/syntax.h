@@ -103,6 +103,11 @@ bool stf_next_word(const stf_parser *p, int word);
 bool stf_take(stf_parser *p, int mark);
 bool stf_take_word(stf_parser *p, int word);
 int stf_expected(stf_parser *p, const char *what);
+/* habits.c: where `what` is expected, what another language would write there, in the words of this one; NULL:
+ * nothing is known of it. */
+const char *stf_habit(const stf_parser *p, const char *what);
+/* The complaint about "==", or "=" in a condition, which is next. */
+int stf_equality(const stf_parser *p);
 /* A number, an expression that may be a condition, a condition. */
 int stf_parse_number(stf_parser *p, stf_expression *e);
 int stf_parse_any(stf_parser *p, stf_expression *e);

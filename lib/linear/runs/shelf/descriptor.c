@@ -174,6 +174,20 @@ static int renew(stf_run *run, void *state)
   return STEIF_OK;
 }
 
+static int jump(steif_context *ctx, const steif_problem *problem, sunrealtype t, sunrealtype *x,
+                bool *certified)
+{
+  steif_linear l;
+  steif_impulse i = {0};
+  STEIF_TRY(steif_linear_of(ctx, problem, &l));
+  int code = steif_impulse_find(ctx, l.E, l.F, x, t, l.f, l.user, NULL, NULL, &i);
+  *certified = !code && i.certified;
+  if (!code) memcpy(x, i.x_plus, (size_t)i.n * sizeof *x);
+  steif_impulse_clear(ctx, &i);
+  SUNMatDestroy(l.E), SUNMatDestroy(l.F);
+  return code;
+}
+
 const steif_engine steif_engine_descriptor = {
   .family = "descriptor",
   .about =
@@ -186,5 +200,6 @@ const steif_engine steif_engine_descriptor = {
   .step = step,
   .dense = dense,
   .renew = renew,
+  .jump = jump,
   .close = close,
 };

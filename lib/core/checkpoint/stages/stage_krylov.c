@@ -11,6 +11,7 @@
 #include <math.h>
 
 enum { ROUNDS = 4 };
+static const sunrealtype rounding = 1e-11;
 
 int stf_stage_krylov_open(stf_adjoint *a, const steif_table *table, sunrealtype tolerance,
                           int channels, bool smooth)
@@ -37,7 +38,7 @@ static int times_E(stf_adjoint *a, N_Vector *v, N_Vector *out)
   for (int j = 0; j < a->m; j++) {
     stf_zero(a->space, out[j]);
     if (!a->forward)
-      stf_adjoint_add(a, a->middle, 'E', a->held, v[j], out[j]);
+      STEIF_TRY(stf_adjoint_add(a, a->middle, 'E', a->held, v[j], out[j]));
     else {
       STEIF_TRY(stf_matrices_at_product(&a->at, a->middle, 'E', v[j], out[j]));
       stf_scale(a->space, a->held, out[j], out[j]);
@@ -61,6 +62,7 @@ static int precondition(stf_adjoint *a, N_Vector *x)
   sunrealtype mix[STEIF_STAGES * STEIF_STAGES];
   const int s = a->m;
   N_Vector *other = a->omega;
+  if (a->lanes) return stf_adjoint_precondition(a, x);
   if (a->forward) {
     if (s == 1) return steif_pencil_solve(a->pencil, 0, 1, x, NULL);
     mix_of(a, mix);
@@ -169,11 +171,12 @@ static bool guesses(const stf_adjoint *a)
   return all;
 }
 
-/* 0: done, 1: does not converge, < 0: failed. */
+/* 0: done, 1: does not converge, < 0: failed. Lanes are looked at again and again, until what they see is rounding. */
 static int solve(stf_adjoint *a, N_Vector *r, N_Vector *w)
 {
   cycle q;
-  for (int round = 0; round < ROUNDS; round++) {
+  sunrealtype last = INFINITY;
+  for (int round = 0; round < (a->lanes ? 3 * ROUNDS : ROUNDS); round++) {
     STEIF_TRY(stf_adjoint_residuals(a, r, w));
     STEIF_TRY(precondition(a, a->residual));
     a->sweeps++;
@@ -181,16 +184,19 @@ static int solve(stf_adjoint *a, N_Vector *r, N_Vector *w)
                       asked = a->tolerance * (known > 0 ? known : size);
     if (!(size <= 1e300)) return 1;
     if (size <= asked || size == 0) return STEIF_OK;
+    if (a->lanes && size > 0.5 * last && size <= rounding * known) return STEIF_OK;
+    last = size;
+    const sunrealtype until = a->lanes ? fmax(asked, STF_LANES_GAIN * size) : asked;
     scale(a, 1 / size, a->residual, a->basis[0]);
     q.g[0] = size;
     int k = 0;
     for (bool more = true; more && k < STF_BASIS; k++) {
       STEIF_TRY(advance(a, k));
-      more = reduce(a, &q, k) > asked;
+      more = reduce(a, &q, k) > until;
     }
     const sunrealtype left = fabs(q.g[k]);
     update(a, &q, k, w);
-    if (left <= 2 * a->tolerance * sqrt(dot(a, w, w))) return STEIF_OK;
+    if (!a->lanes && left <= 2 * a->tolerance * sqrt(dot(a, w, w))) return STEIF_OK;
   }
   return 1;
 }
@@ -202,7 +208,8 @@ int stf_stage_krylov(stf_adjoint *a, N_Vector *r, N_Vector *w)
     guess(a, behind, w);
   else
     for (int j = 0; j < a->m; j++) stf_zero(a->space, w[j]);
-  const int code = solve(a, r, w);
+  const int code = a->lanes && (a->m == 1 || a->at.system->linear) ? stf_lanes_refine(a, r, w)
+                                                                   : solve(a, r, w);
   for (int j = 0; !code && behind && j < a->m; j++) stf_copy(a->space, w[j], behind[j]);
   return code;
 }

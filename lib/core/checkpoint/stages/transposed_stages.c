@@ -59,24 +59,24 @@ int stf_adjoint_open(stf_pool *pool, stf_system *system, int m, const steif_tabl
   *a = (stf_adjoint){.ctx = system->ctx, .pool = pool, .space = &system->space, .m = m};
   a->channels = channels;
   a->n = system->space.n, a->middle = m / 2;
-  STEIF_CHECK(system->A, a->ctx, STEIF_UNSUPPORTED,
-              "gradients go back with transposed matrices, and Krylov storage of problem '%s' "
-              "has products only: take sparse storage, or sensitivities",
-              system->problem->name);
   STEIF_TRY(stf_matrices_at_open(pool, system, m, &a->at));
   if (m > 1) STEIF_TRY(open_transform(a, table));
   STEIF_TRY(claim(a, system->space.like));
+  if (system->krylov) return stf_lanes_open(a);
   if (m > 1 && m * a->n <= SMALL) return claim_dense(a);
   a->pencil = steif_pencil_new(a->ctx, a->at.E[a->middle], a->at.A[a->middle]);
   if (!a->pencil) return steif_status(a->ctx);
   return stf_pool_adopt(pool, a->pencil, stf_system_destroy_pencil);
 }
 
-void stf_adjoint_add(const stf_adjoint *a, int point, char which, sunrealtype c, N_Vector x,
-                     N_Vector out)
+int stf_adjoint_add(const stf_adjoint *a, int point, char which, sunrealtype c, N_Vector x,
+                    N_Vector out)
 {
+  if (a->at.point)
+    return stf_matrices_at_transposed(&a->at, point, which, c, x, out, a->turned);
   stf_add_transposed(which == 'E' ? a->at.E[point] : a->at.A[point], a->n, c, STF_ARRAY(x),
                      STF_ARRAY(out));
+  return STEIF_OK;
 }
 
 static int factor_dense(stf_adjoint *a, sunrealtype t)
@@ -124,14 +124,14 @@ static int factor_one(stf_adjoint *a, bool again)
 
 static int factor_lanes(stf_adjoint *a)
 {
-  if (a->krylov) return factor_one(a, false);
+  if (a->krylov && !a->lanes) return factor_one(a, false);
   steif_shift s[STEIF_STAGES] = {{.re = a->B[0]}};
   const stf_transform *T = &a->transform;
   for (int k = 0; a->m > 1 && k < T->shifts; k++)
     s[k] = (steif_shift){T->re[k] / a->h, T->im[k] / a->h};
   const steif_pencil_stats *stats = steif_pencil_statistics(a->pencil);
   const long before = stats->factors + stats->refactors;
-  if (!a->at.system->linear) STEIF_TRY(steif_pencil_update(a->pencil));
+  if (!a->at.system->linear || a->at.point) STEIF_TRY(steif_pencil_update(a->pencil));
   STEIF_TRY(steif_pencil_factor(a->pencil, a->m > 1 ? T->shifts : 1, s));
   a->factors += stats->factors + stats->refactors - before;
   return STEIF_OK;
@@ -212,16 +212,22 @@ static int precondition_transposed(stf_adjoint *a, N_Vector *x)
       steif_pencil_solve_transposed(a->pencil, k, 1, omega, T->im[k] != 0 ? omega + 1 : NULL));
     for (int i = row; T->coupling && i < next; i++)
       for (int m = next; m < s; m++)
-        stf_adjoint_add(a, a->middle, 'E', -T->coupling[i * s + m] / a->h, a->omega[i],
-                        a->omega[m]);
+        STEIF_TRY(stf_adjoint_add(a, a->middle, 'E', -T->coupling[i * s + m] / a->h,
+                                  a->omega[i], a->omega[m]));
   }
   stf_mix(a->space, s, s, a->out, a->omega, x);
   return STEIF_OK;
 }
 
-static int precondition(stf_adjoint *a, N_Vector *x)
+/* No other step will do: what a callback could not evaluate is a failure, and not a solve that does not converge. */
+static int finally(const stf_adjoint *a, int code)
 {
-  return a->forward ? precondition_forward(a, x) : precondition_transposed(a, x);
+  return code > 0 ? steif_status(a->ctx) : code;
+}
+
+int stf_adjoint_precondition(stf_adjoint *a, N_Vector *x)
+{
+  return finally(a, a->forward ? precondition_forward(a, x) : precondition_transposed(a, x));
 }
 
 /* residual = r - K x. */
@@ -242,11 +248,11 @@ static int residuals_transposed(stf_adjoint *a, N_Vector *r, N_Vector *w)
 {
   for (int j = 0; j < a->m; j++) {
     stf_copy(a->space, r[j], a->residual[j]);
-    stf_adjoint_add(a, j, 'A', 1, w[j], a->residual[j]);
+    STEIF_TRY(stf_adjoint_add(a, j, 'A', 1, w[j], a->residual[j]));
   }
   for (int j = 0; j < a->m; j++) {
     stf_zero(a->space, a->product);
-    stf_adjoint_add(a, j, 'E', 1, w[j], a->product);
+    STEIF_TRY(stf_adjoint_add(a, j, 'E', 1, w[j], a->product));
     for (int m = 0; m < a->m; m++)
       stf_axpy(a->space, -a->B[j * a->m + m], a->product, a->residual[m]);
   }
@@ -255,7 +261,7 @@ static int residuals_transposed(stf_adjoint *a, N_Vector *r, N_Vector *w)
 
 int stf_adjoint_residuals(stf_adjoint *a, N_Vector *r, N_Vector *w)
 {
-  return a->forward ? residuals_forward(a, r, w) : residuals_transposed(a, r, w);
+  return finally(a, a->forward ? residuals_forward(a, r, w) : residuals_transposed(a, r, w));
 }
 
 static sunrealtype size_of(const stf_adjoint *a, N_Vector *x)
@@ -272,7 +278,7 @@ static int iterate(stf_adjoint *a, N_Vector *r, N_Vector *w)
   for (int j = 0; j < a->m; j++) stf_zero(a->space, w[j]);
   for (int j = 0; j < a->m; j++) stf_copy(a->space, r[j], a->residual[j]);
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
-    STEIF_TRY(precondition(a, a->residual));
+    STEIF_TRY(stf_adjoint_precondition(a, a->residual));
     count_solve(a);
     const sunrealtype moved = size_of(a, a->residual);
     for (int j = 0; j < a->m; j++) stf_axpy(a->space, 1, a->residual[j], w[j]);
@@ -292,7 +298,7 @@ static int large(stf_adjoint *a, N_Vector *r, N_Vector *w)
 {
   a->sweeps = 0;
   int code = stf_stage_krylov(a, r, w);
-  if (code > 0 && !a->fresh) {
+  if (code > 0 && !a->fresh && !a->lanes) {
     STEIF_TRY(factor_one(a, true));
     code = stf_stage_krylov(a, r, w);
   }
@@ -306,6 +312,7 @@ static int solve(stf_adjoint *a, N_Vector *r, N_Vector *w)
   if (a->direct) return solve_dense(a, 1, r, w);
   const int code = a->krylov ? large(a, r, w) : iterate(a, r, w);
   if (code <= 0) return code;
+  if (a->lanes) return stf_lanes_short(a);
   STEIF_CHECK(a->m * a->n <= LARGEST, a->ctx, STEIF_NO_CONVERGENCE,
               "the %s equations of a step of length %.6g did not converge: the matrices at "
               "its stages differ too much; make the steps smaller",

@@ -1,0 +1,120 @@
+# What newcomers from MATLAB, SciPy, Modelica and C write in a model has a sentence with its place and the remedy.
+#   cmake -DPROGRAM= -DFOLDER= -P habits.cmake      FOLDER: scratch, made and removed
+cmake_minimum_required(VERSION 3.19)
+
+include(${CMAKE_CURRENT_LIST_DIR}/expect.cmake)
+
+file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER})
+
+# The text is refused with "m.steif:" and the sentence.
+function(wrong text sentence)
+  file(WRITE ${FOLDER}/m.steif "${text}")
+  execute_process(COMMAND ${PROGRAM} model m.steif --check WORKING_DIRECTORY ${FOLDER}
+                  RESULT_VARIABLE got OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  string(FIND "${err}" "m.steif:${sentence}" at)
+  if(NOT got EQUAL 3 OR at EQUAL -1)
+    message(SEND_ERROR "exit ${got} of\n${text}\nexpected m.steif:${sentence}\n${err}")
+  endif()
+endfunction()
+
+# In line 2 of a model of x; its time is line 3.
+function(wrong_line line sentence)
+  wrong("state x = 1\n${line}\ntime 0 to 1\n" "2:${sentence}")
+endfunction()
+
+# Starts, elements, derivatives.
+wrong_line("x(0) = 3" "1: 'x' is no function; a start is written 'state x = ...'")
+wrong_line("x' = -x(t)" "7: 'x' is no function; write x without (t)")
+wrong_line("x' = x(1 - x)" "6: 'x' is no function; write * for a product")
+wrong_line("x'(t) = 1" "3: expected '=' or an operator, found '('; unknowns are written without (t)")
+wrong_line("dxdt = -x" "1: 'dxdt' is not declared; the derivative of 'x' is written x'")
+wrong_line("x_dot = -x" "1: 'x_dot' is not declared; the derivative of 'x' is written x'")
+wrong_line("d/dt x = -x" "6: expected '=' or an operator, found 'x'; the derivative of x is written x'")
+wrong_line("diff(x, t) = -x" "1: 'diff(x, t)' is written x'")
+wrong_line("dz = -x" "1: 'dz' is not declared; write 'let dz = ...' for an abbreviation, 'state dz' for an unknown, 'param dz = ...' for a number")
+wrong("state x(0) = 3\n" "1:8: expected an operator or the end of the line, found '('; a start is written 'state x = 3'")
+wrong("state x' = -x\n" "1:7: this is the slope of 'x' at the start, and no 'state x = ...' declares it")
+wrong("state u(1:3) = 0\n" "1:8: expected an operator or the end of the line, found '('; an array is written u[1:n]")
+set(u "state u[1:3] = 0\nfor i in 1:3")
+wrong("${u}\nu(i)' = 1\nend\n" "3:5: expected '=' or an operator, found '''; elements are written u[i]")
+wrong("${u}\nu[i]' = u(i)\nend\n" "3:9: 'u' is no function; elements are written u[i]")
+wrong("state u[1:3] = 0\nu' = 1\n" "2:1: 'u' has 1 index, here 0; elements stand in a loop, 'for i in 1:n'")
+wrong("state u[1:3] = [1, 2, 3]\n" "1:16: expected an expression, found '['; there are no lists: an array is a state")
+
+# Choices, conditions, events, loops.
+set(choice "a choice is written 'if a then b else c'")
+set(moment "what changes at a moment is written 'when x > 1: x = 0'")
+wrong_line("x' = t < 1 ? 1 : 2" "12: '?': ${choice}")
+wrong_line("x' = -x if t < 1 else 0" "9: expected an operator or the end of the line, found 'if'; ${choice}")
+wrong_line("x' = if(t < 1, 1, 2)" "14: expected ')' or an operator, found ','; ${choice}")
+wrong_line("x' = if t < 1 then 1" "21: expected 'else' or 'elseif', found the end of the line; each 'if' has its 'else'")
+wrong_line("if x > 1 then x = 1" "17: expected 'else' or 'elseif', found '='; ${moment}")
+wrong_line("if x > 1:" "9: expected 'then', found ':'; ${moment}")
+wrong_line("x' == -x" "4: '==': an equation has one '='")
+wrong_line("x' := -x" "4: ':=': an equation and an assignment have one '='")
+wrong_line("x' = if x = 1 then 1 else 2" "11: '=' between computed numbers; use < or >, or abs(a - b) < 1e-9")
+wrong_line("x' = if x == 1 then 1 else 2" "11: '==' between computed numbers; use < or >")
+wrong_line("x' = if x != 1 then 1 else 2" "11: there is no 'unequal' of computed numbers; use < or >, or abs(a - b) > 1e-9")
+wrong_line("x' = if x > 1 && t < 1 then 1 else 2" "15: '&': write 'and'")
+wrong_line("x' = if x > 1 || t < 1 then 1 else 2" "15: '|': write 'or'")
+wrong_line("x' = if !(x > 1) then 1 else 2" "9: '!': write 'not'")
+wrong_line("x' = if x then 1 else 2" "11: expected a condition such as v < 0, found 'then'; a switch is a number: 'if s > 0.5 then'")
+wrong_line("discrete on = True" "15: 'True': a switch is a number, 1, and 's > 0.5' a condition")
+wrong_line("discrete on = false" "15: 'false': a switch is a number, 0")
+wrong_line("when x == 2: x = 0" "8: '==' in a 'when': write 'when x - 2 crossing: ...', or of the time 'at 2: ...'")
+wrong_line("when t = 2: x = 0" "8: '=' in a 'when': write 'when x - 2 crossing: ...', or of the time 'at 2: ...'")
+wrong_line("when x > 1: reinit(x, 0)" "19: expected '=' and a value, found '('; 'reinit(x, 0)' is written x = 0")
+wrong_line("when x > 1: terminate" "22: expected '=' and a value, found the end of the line; 'terminate' is written stop")
+wrong_line("when x > 1: x += 1" "15: an operator before '=': x += 1 is written x = x + 1")
+wrong("${u}\nu[i]' = 1\nwhen u[i] > 1: u[i] = 0\nend\n" "4:1: 'when' cannot stand in a 'for'; write one for each element")
+wrong("${u}\nu[i]' = 1\nat 0.5:\n  u[i] = 0\nend\nend\n" "4:1: 'at' cannot stand in a 'for'")
+wrong("${u}:\n" "2:13: expected an operator or the end of the line, found ':'; 'for i in 1:n' ends with its line")
+wrong("state u[1:3] = 0\nfor i in range(3):\n" "2:1: a range is written 'for i in 1:n', with n the last value")
+wrong("${u} { u[i]' = 1 }\n" "2:14: expected an operator or the end of the line, found '{ u[i]' = 1 }'; braces are for units")
+
+# Intervals, units.
+set(time "an interval is written 'time 0 to 10'")
+wrong_line("t = 0..10" "5: '..' between numbers: a range is written 1:2, an interval 'time 0 to 10'")
+wrong_line("t = 0:10" "6: expected an operator or the end of the line, found ':'; ${time}")
+wrong_line("tspan = [0, 10]" "9: expected an expression, found '['; ${time}")
+wrong_line("time [0, 10]" "6: expected an expression, found '['; ${time}")
+wrong_line("tend = 10" "1: 'tend' is not declared; the interval is written 'time 0 to 10'")
+set(unit "a unit is a label in braces,")
+wrong_line("param m = 1 kg" "13: expected an operator or the end of the line, found 'kg'; a product needs *; ${unit} {m}")
+wrong_line("param k = 3 [1/s]" "13: expected an operator or the end of the line, found '['; ${unit} {1/s}")
+wrong_line("time 0 to 10 s" "14: expected an operator or the end of the line, found 's'; ${unit} {s}")
+wrong_line("time 0 to 10 [s]" "14: expected an operator or the end of the line, found '['; ${unit}")
+wrong_line("x' = -x {m}" "9: expected an operator or the end of the line, found '{m}'; a unit is the label of a value that is declared")
+
+# Signs, lines, comments.
+wrong_line("x' = x.^2" "7: '.' before an operator: write ^, *, / alone")
+wrong_line("x' = np.sin(x)" "8: '.' in a name: functions are written sin(x)")
+wrong_line("x' = sin x" "10: expected an operator or the end of the line, found 'x'; an argument stands in parentheses")
+wrong_line("x' = 2(x + 1)" "7: expected an operator or the end of the line, found '('; a product needs *")
+wrong_line("x' = x t" "8: expected an operator or the end of the line, found 't'")
+wrong_line("x' = x*x // c" "10: '//': a comment begins with #")
+wrong_line("-- c" "5: expected '=' or an operator, found the end of the line; a comment begins with #")
+wrong_line("x' = -x + ..." "11: '...': a line goes on after an operator")
+wrong("state x = 1\nx' = -x\n + 2\n" "3:5: expected '=' or an operator, found the end of the line; a line goes on in the next one if an operator is its last sign")
+wrong("state x = 1; x' = -x; time 0 to 1\n" "1:12: ';' between statements: each has a line of its own")
+wrong("state x = 1 x' = -x\n" "1:13: expected an operator or the end of the line, found 'x'; write ',' between declarations, or lines of their own")
+
+# Tables and data: separators, and columns that have the name of something else.
+file(WRITE ${FOLDER}/s.csv "t;v\n0;1\n1;2\n")
+foreach(column "2" "\"v\"")
+  wrong("table f = \"s.csv\" column ${column} linear\nstate x = 1\nx' = f(t)\ntime 0 to 1\n"
+        "1:7: s.csv, line 1: columns are separated by ',', and numbers have a decimal point; this line has ';'")
+endforeach()
+set(decay "param k = 0.5\nstate x = 3\nx' = -k*x\nfit k\ntime 0 to 5\n")
+wrong("${decay}output conc = x/2\ndata \"d.csv\", conc = x\n"
+      "7:15: 'conc' has this name already (line 6), and the column is an output of its own; write 'conc = conc' for that, or give the column another name")
+wrong("${decay}data \"d.csv\", k = x\n" "6:15: 'k' has this name already (line 1), and the column is an output of its own; give the column another name")
+wrong("${decay}let conc = x/2\ndata \"d.csv\", conc = conc\n"
+      "7:15: 'conc' (line 6) is no state and no output, which columns of data are; write 'conc_data = conc'")
+# The output itself may be named, with its standard deviation: x/2 = 1.5 exp(-k t) with k = 0.7 to four digits.
+file(WRITE ${FOLDER}/d.csv "t,conc\n0.5,1.0570\n1,0.7449\n2,0.3699\n4,0.0912\n")
+file(WRITE ${FOLDER}/m.steif "${decay}output conc = x/2\ndata \"d.csv\", conc = conc sd 0.01\n")
+expect(0 fit m.steif --json)
+begins("0.70" p 0)
+file(REMOVE_RECURSE ${FOLDER})
