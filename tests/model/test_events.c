@@ -167,14 +167,29 @@ static void times_are_as_written(void)
   fixture_close(&s);
 }
 
+/* The current i at t: as the method leaves it, or recomputed from what it must fulfil. */
+static double current_at(fixture *s, const char *method, double rtol, int recompute, double *y)
+{
+  steif_options o = steif_defaults();
+  o.rtol = rtol;
+  o.recompute = recompute;
+  steif_solver *solver = steif_solver_new(s->ctx, &s->p, method, &o);
+  CU_ASSERT_PTR_NOT_NULL_FATAL(solver);
+  CHECK(steif_solve_to(solver, s->p.t1) == STEIF_OK);
+  for (int i = 0; i < 3; i++) y[i] = NV_Ith_S(steif_solution(solver), i);
+  steif_solver_free(&solver);
+  return y[2];
+}
+
 /* A capacitor whose charge has a corner in its voltage u = sin t, index 2: q = u up to 0.2 and 3 u - 0.4 from there on, and
- * the current i = q' jumps from cos t to 3 cos t; dirk does not know it well. What methods keep of the matrices of the old branch is worth nothing on
- * the new one. */
+ * the current i = q' jumps from cos t to 3 cos t. What methods keep of the matrices of the old branch is worth nothing on
+ * the new one. Recomputed, i has the accuracy of u and q. As the steps leave it, it has an order of its own: none at all
+ * for Gauss methods of two stages (Hairer and Wanner II, table VII.4.1: s - 2 for even s), a low one for dirk. */
 static void a_corner_of_a_constraint_is_crossed(void)
 {
   static const char *const methods[] = {
-    "auto",      "bdf",       "radau:s=2", "radau:s=3", "radau:s=5",     "radau:s=7",
-    "gauss:s=2", "gauss:s=3", "rodas4p",   "bdf:p=3",   "dirk:esdirk43", "dirk:trbdf2"};
+    "auto",      "bdf",     "radau:s=2", "radau:s=3",     "radau:s=5",   "radau:s=7",
+    "gauss:s=3", "rodas4p", "bdf:p=3",   "dirk:esdirk43", "dirk:trbdf2", "gauss:s=2"};
   static const double rtols[] = {1e-4, 1e-6, 1e-8};
   fixture s;
   double y[3];
@@ -185,12 +200,14 @@ static void a_corner_of_a_constraint_is_crossed(void)
                                 ""));
   for (int m = 0; m < 12; m++)
     for (int k = 0; k < 6; k++) {
-      const double t = k < 3 ? 1 : 7, u = sin(t), q = 3 * u - 0.4, i = 3 * cos(t);
+      const double rtol = rtols[k % 3], t = k < 3 ? 1 : 7, u = sin(t), q = 3 * u - 0.4,
+                   i = 3 * cos(t);
       s.p.t1 = t;
-      CHECK(fixture_run(&s, methods[m], rtols[k % 3], y) == STEIF_OK);
-      CLOSE_FLOOR(y[0], u, 10 * rtols[k % 3], 1);
-      CLOSE_FLOOR(y[1], q, 10 * rtols[k % 3], 1);
-      CLOSE_FLOOR(y[2], i, (m < 10 ? 100 : 2000) * rtols[k % 3], 1);
+      CLOSE_FLOOR(current_at(&s, methods[m], rtol, 1, y), i, 10 * rtol, 1);
+      const double raw = current_at(&s, methods[m], rtol, 0, y);
+      if (m < 11) CLOSE_FLOOR(raw, i, (m < 9 ? 100 : 2000) * rtol, 1);
+      CLOSE_FLOOR(y[0], u, 10 * rtol, 1);
+      CLOSE_FLOOR(y[1], q, 10 * rtol, 1);
     }
   fixture_close(&s);
 }
