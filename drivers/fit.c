@@ -7,7 +7,7 @@ static int run(struct call *call)
   steif_problem p;
   const int found = find_problem(call, call->word[0], &p);
   if (found) return found;
-  struct fitted a = {.problem = &p, .method = call->words > 1 ? call->word[1] : "auto"};
+  struct fitted a = {.problem = &p, .method = call->word[1]};
   int code = fitted_ask(call, &a);
   if (!code) code = fitted_find(call, &a);
   steif_fit_free(call->ctx, &a.fit);
@@ -48,6 +48,7 @@ const struct verb verb_fit = {
   .usage = "PROBLEM [METHOD] [--data FILE.csv] [--parameters k1=0.02,k2 --sd S --starts N]",
   .least = 1,
   .most = 2,
+  .method = "auto",
   .picture = true,
   .matrices = true,
   .option = options,

@@ -55,9 +55,11 @@ static const struct option options[] = {
 const struct verb verb_sensitivity = {
   .name = "sensitivity",
   .about = "Find derivatives of a solution by parameters",
-  .usage = "PROBLEM METHOD [--parameters k1,k2 --functional 'int G' --adjoint --end E --check]",
-  .least = 2,
+  .usage =
+    "PROBLEM [METHOD] [--parameters k1,k2 --functional 'int G' --adjoint --end E --check]",
+  .least = 1,
   .most = 2,
+  .method = "auto",
   .matrices = true,
   .option = options,
   .run = run,

@@ -32,9 +32,9 @@ static int run(struct call *call)
   for (int i = 0; i < 4; i++)
     if (given(call, own[i]))
       return bad_usage(call, "%s is for E.mtx A.mtx; a problem has its own", own[i]);
-  return call->words == 2 ? with_problem(call, integrate_on)
-                          : bad_usage(call, "\"%s\" is one word too many: steif solve %s",
-                                      call->word[2], call->verb->usage);
+  if (call->words == 2) return with_problem(call, integrate_on);
+  return bad_usage(call, "\"%s\" is one word too many: steif solve %s", call->word[2],
+                   call->verb->usage);
 }
 
 static const struct option options[] = {
@@ -68,11 +68,10 @@ static const struct rule rules[] = {{"--h", EXCLUDES, "--rtol"},
 const struct verb verb_solve = {
   .name = "solve",
   .about = "Integrate one problem with one method",
-  .usage =
-    "PROBLEM METHOD [--rtol R --atol A | --h H] [--t1 T] [--events] | E.mtx A.mtx METHOD "
-    "--x0 X.mtx --t1 T",
-  .least = 2,
+  .usage = "PROBLEM [METHOD] [--rtol R | --h H] | E.mtx A.mtx METHOD --x0 X.mtx --t1 T",
+  .least = 1,
   .most = 3,
+  .method = "auto",
   .picture = true,
   .option = options,
   .rule = rules,

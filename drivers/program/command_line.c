@@ -200,9 +200,10 @@ static bool own_option(const struct verb *verb, const char *name)
   return false;
 }
 
-static int check_words(const struct call *call)
+static int check_words(struct call *call)
 {
   const struct verb *verb = call->verb;
+  if (verb->method && call->words == verb->least) call->word[call->words++] = verb->method;
   if (call->words < verb->least)
     return bad_usage(call, "something is missing, %d of %d words given: steif %s %s",
                      call->words, verb->least, verb->name, verb->usage);
@@ -220,7 +221,7 @@ static int check_words(const struct call *call)
   return EXIT_OK;
 }
 
-static int check(const struct call *call)
+static int check(struct call *call)
 {
   int code = check_words(call);
   for (const struct rule *r = call->verb->rule; r && r->option && code == EXIT_OK; r++)

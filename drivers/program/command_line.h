@@ -55,11 +55,12 @@ struct call;
 struct verb {
   const char *name, *about, *usage; /* usage: the words after the verb */
   int least, most;                  /* how many words */
-  bool picture;                     /* can it draw one? */
-  bool matrices;                    /* does it make some, for --npz, --h5 and --mtx? */
-  const struct option *option;      /* besides the common ones; or NULL */
-  const struct rule *rule;          /* or NULL */
-  int (*run)(struct call *call);    /* returns an exit code */
+  const char *method;            /* the word after the least where it is left out; NULL: none */
+  bool picture;                  /* can it draw one? */
+  bool matrices;                 /* does it make some, for --npz, --h5 and --mtx? */
+  const struct option *option;   /* besides the common ones; or NULL */
+  const struct rule *rule;       /* or NULL */
+  int (*run)(struct call *call); /* returns an exit code */
 };
 
 /* One run of the program, parsed. */

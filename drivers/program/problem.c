@@ -42,6 +42,7 @@ static int no_problem(struct call *call, const char *word)
   const bool unknown = steif_status(call->ctx) == STEIF_UNKNOWN_NAME && !strchr(word, '/') &&
                        !strstr(word, ".steif");
   char file[300];
+  steif_method_info method;
   snprintf(file, sizeof file, "%.200s.steif", word);
   if (unknown && !access(file, R_OK))
     say(call, "the file here is %s", file);
@@ -49,6 +50,9 @@ static int no_problem(struct call *call, const char *word)
     say(call, "'%s' is a file here: a model's name ends in .steif, or write ./%s", word, word);
   else if (unknown && call->words > 1 && strstr(call->word[1], ".steif"))
     say(call, "the problem comes before the method: %s %s", call->word[1], word);
+  else if (unknown && call->verb->method && !steif_method_find(call->ctx, word, &method))
+    say(call, "'%s' is a method, and the problem comes before it: steif %s %s", word,
+        call->verb->name, call->verb->usage);
   return code;
 }
 

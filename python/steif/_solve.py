@@ -173,7 +173,9 @@ def _first(jac, t0, start, args):
 def own(f, t_span, y0, args, jac, jac_sparsity, mass, events):
     """A problem whose callbacks are functions in Python."""
     if t_span is None or y0 is None or not callable(f):
-        raise ValueError("solve needs f(t, y), (t0, t1) and y0, or the name of a problem")
+        missing = ("f(t, y), or the name of a problem" if not callable(f) else
+                   "t_span (t0, t1)" if t_span is None else "y0 (the values at the start)")
+        raise ValueError(f"{missing} is missing")
     start, (t0, t1) = _start(y0), _interval(t_span)
     run = Run(start.size)
     for member, shape, value in (("n", WHOLE, start.size), ("t0", REAL, t0), ("t1", REAL, t1)):

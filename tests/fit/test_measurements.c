@@ -54,8 +54,8 @@ static void bad_files_are_told(void)
   } bad[] = {
     {"time,y1\n0,1\n", "line 1, column 1: the first line is 't'", STEIF_BAD_INPUT, 0, NULL},
     {"t\n0\n", "no columns but t", STEIF_BAD_INPUT, 0, NULL},
-    {"t,y3\n0,1\n", "line 1, column 2: problem 'prey' has no unknown 'y3'", STEIF_UNKNOWN_NAME,
-     0, NULL},
+    {"t,y3\n0,1\n", "line 1, column 2: problem 'prey' has no unknown or output 'y3'",
+     STEIF_UNKNOWN_NAME, 0, NULL},
     {"t,yy1\n0,1\n", "the nearest is 'y1'", STEIF_UNKNOWN_NAME, 0, NULL},
     {"t,y1,y1\n0,1,2\n", "line 1, column 3: 'y1' stands in column 2 too", STEIF_BAD_INPUT, 0,
      NULL},

@@ -173,7 +173,8 @@ class Solve(unittest.TestCase):
                 (lambda: steif.solve(f, (0, 1), y0, rtol=0), "rtol is 0"),
                 (lambda: steif.solve(f, (0, 1), y0, max_step=0), "max_step is 0"),
                 (lambda: steif.solve(f, 10, y0), "t_span"),
-                (lambda: steif.solve(f, (0, 1)), "and y0")):
+                (lambda: steif.solve(f, (0, 1)), "y0 .* is missing"),
+                (lambda: steif.solve(f, y0=y0), "t_span .* is missing")):
             with self.assertRaisesRegex(ValueError, sentence):
                 wrong()
         with self.assertRaisesRegex(TypeError, "complex"):

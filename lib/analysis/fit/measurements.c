@@ -103,9 +103,11 @@ static int find_measured(const table *T, int column, const char *name, sunindext
     if (distance < best) snprintf(near, sizeof near, "%s", known);
     if (distance < best) best = distance;
   }
-  return REFUSE(T, column, STEIF_UNKNOWN_NAME,
-                "problem '%s' has no unknown '%s'; the nearest is '%s'", T->problem->name, name,
-                near);
+  return REFUSE(
+    T, column, STEIF_UNKNOWN_NAME,
+    "problem '%s' has no unknown or output '%s'; the nearest is '%s'; rename the column, or "
+    "leave it out",
+    T->problem->name, name, near);
 }
 
 /* Takes "{unit}" from the end of a cell: its words, "" where there is none. */

@@ -40,6 +40,7 @@ const char *stf_elsewhere(const stf_model *m, const char *name, char *room, size
                {"der", "'der(x)' is written x'"},
                {"diff", "'diff(x, t)' is written x'"},
                {"ddt", "'ddt(x)' is written x'"},
+               {"dt", "'dt': a derivative dx/dt is written x'"},
                {"pre", "'pre(x)': an event assigns from the values before it; write x"},
                {"delay", "'delay': an equation has no values of other times"},
                {"true", "'true': a switch is a number, 1, and 's > 0.5' a condition"},
