@@ -9,6 +9,10 @@ void stf_space_open(stf_space *space, N_Vector like)
   space->like = like;
   space->n = N_VGetLength(like);
   space->serial = N_VGetVectorID(like) == SUNDIALS_NVEC_SERIAL;
+  space->rows = -1;
+  if (space->serial ||
+      (N_VGetVectorID(like) == SUNDIALS_NVEC_PARALLEL && like->ops->nvdotprodmultiallreduce))
+    space->rows = stf_local_length(like);
   space->sums = NULL;
 }
 
@@ -21,50 +25,58 @@ sunrealtype *stf_own_rows(N_Vector v, sunindextype *rows)
   return *rows > 0 ? N_VGetArrayPointer(v) : &none;
 }
 
+static inline bool local(const stf_space *space) { return space->rows >= 0; }
+
+/* The components that are here, without a call for a serial vector. */
+static inline sunrealtype *own(const stf_space *space, N_Vector v)
+{
+  return space->serial ? STF_ARRAY(v) : v->ops->nvgetarraypointer(v);
+}
+
 void stf_zero(const stf_space *space, N_Vector x)
 {
-  if (!space->serial) {
+  if (!local(space)) {
     N_VConst(0, x);
     return;
   }
-  sunrealtype *a = STF_ARRAY(x);
-  for (sunindextype i = 0; i < space->n; i++) a[i] = 0;
+  sunrealtype *a = own(space, x);
+  for (sunindextype i = 0; i < space->rows; i++) a[i] = 0;
 }
 
 void stf_copy(const stf_space *space, N_Vector x, N_Vector y) { stf_scale(space, 1, x, y); }
 
 void stf_scale(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y)
 {
-  if (!space->serial) {
+  if (!local(space)) {
     N_VScale(c, x, y);
     return;
   }
-  const sunrealtype *a = STF_ARRAY(x);
-  sunrealtype *b = STF_ARRAY(y);
-  for (sunindextype i = 0; i < space->n; i++) b[i] = c * a[i];
+  const sunrealtype *a = own(space, x);
+  sunrealtype *b = own(space, y);
+  for (sunindextype i = 0; i < space->rows; i++) b[i] = c * a[i];
 }
 
 void stf_axpy(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y)
 {
-  if (!space->serial) {
+  if (!local(space)) {
     N_VLinearSum(c, x, 1, y, y);
     return;
   }
-  const sunrealtype *a = STF_ARRAY(x);
-  sunrealtype *b = STF_ARRAY(y);
-  for (sunindextype i = 0; i < space->n; i++) b[i] += c * a[i];
+  const sunrealtype *a = own(space, x);
+  sunrealtype *b = own(space, y);
+  for (sunindextype i = 0; i < space->rows; i++) b[i] += c * a[i];
 }
 
 void stf_sum(const stf_space *space, sunrealtype a, N_Vector x, sunrealtype b, N_Vector y,
              N_Vector z)
 {
-  if (!space->serial) {
+  if (!local(space)) {
     N_VLinearSum(a, x, b, y, z);
     return;
   }
-  const sunrealtype *u = STF_ARRAY(x), *v = STF_ARRAY(y);
-  sunrealtype *w = STF_ARRAY(z);
-  for (sunindextype i = 0; i < space->n; i++) w[i] = a * u[i] + b * v[i];
+  const sunrealtype *u = own(space, x), *v = own(space, y);
+  sunrealtype *w = own(space, z);
+  for (sunindextype i = 0; i < space->rows; i++) w[i] = a * u[i] + b * v[i];
 }
 
 /* Components are taken in blocks that stay in the first cache while the terms pass over them, four at
@@ -92,54 +104,56 @@ INLINE void add_terms(int terms, const sunrealtype *f, const sunrealtype *const 
   }
 }
 
-INLINE void add_all(int count, const sunrealtype *c, N_Vector const *x, sunindextype from,
-                    int size, sunrealtype *restrict sum)
+INLINE void add_all(const stf_space *space, int count, const sunrealtype *c, N_Vector const *x,
+                    sunindextype from, int size, sunrealtype *restrict sum)
 {
   for (int j = 0; j < count;) {
     sunrealtype f[TERMS];
     const sunrealtype *a[TERMS] = {NULL};
     int terms = 0;
     for (; j < count && terms < TERMS; j++)
-      if (c[j] != 0) f[terms] = c[j], a[terms++] = STF_ARRAY(x[j]) + from;
+      if (c[j] != 0) f[terms] = c[j], a[terms++] = own(space, x[j]) + from;
     add_terms(terms, f, a, size, sum);
   }
 }
 
 #ifdef STF_SIMD_X86
-__attribute__((target("avx2"))) static void add_all_avx2(int count, const sunrealtype *c,
+__attribute__((target("avx2"))) static void add_all_avx2(const stf_space *space, int count,
+                                                         const sunrealtype *c,
                                                          N_Vector const *x, sunindextype from,
                                                          int size, sunrealtype *sum)
 {
-  add_all(count, c, x, from, size, sum);
+  add_all(space, count, c, x, from, size, sum);
 }
 #endif
 
 /* sum += the terms in components from .. from + size - 1. */
-static void block_sum(int count, const sunrealtype *c, N_Vector const *x, sunindextype from,
-                      int size, sunrealtype *sum)
+static void block_sum(const stf_space *space, int count, const sunrealtype *c,
+                      N_Vector const *x, sunindextype from, int size, sunrealtype *sum)
 {
 #ifdef STF_SIMD_X86
   if (stf_simd_width() > 2) {
-    add_all_avx2(count, c, x, from, size, sum);
+    add_all_avx2(space, count, c, x, from, size, sum);
     return;
   }
 #endif
-  add_all(count, c, x, from, size, sum);
+  add_all(space, count, c, x, from, size, sum);
 }
 
 /* Few components: four at a time in registers, the last one again where less are left; terms in the same
  * order, so the same bits. */
 enum { FEW = 8, TOGETHER = 4 };
 
-static void few_sums(sunindextype n, int count, const sunrealtype *c, N_Vector const *x,
+static void few_sums(const stf_space *space, int count, const sunrealtype *c, N_Vector const *x,
                      sunrealtype *out)
 {
+  const sunindextype n = space->rows;
   for (sunindextype i = 0; i < n; i += TOGETHER) {
     sunindextype at[TOGETHER];
     sunrealtype sum[TOGETHER] = {0};
     for (int q = 0; q < TOGETHER; q++) at[q] = i + q < n ? i + q : n - 1;
     for (int j = 0; j < count; j++) {
-      const sunrealtype *from = STF_ARRAY(x[j]);
+      const sunrealtype *from = own(space, x[j]);
       if (c[j] == 0) continue;
       for (int q = 0; q < TOGETHER; q++) sum[q] += c[j] * from[at[q]];
     }
@@ -157,12 +171,12 @@ static void mix_blocks(const stf_space *space, int rows, int columns, const sunr
                        N_Vector const *x, N_Vector *z, bool add)
 {
   sunrealtype sum[BLOCK];
-  for (sunindextype from = 0; from < space->n; from += BLOCK) {
-    const int size = block_size(space->n, from);
+  for (sunindextype from = 0; from < space->rows; from += BLOCK) {
+    const int size = block_size(space->rows, from);
     for (int i = 0; i < rows; i++) {
-      sunrealtype *out = STF_ARRAY(z[i]) + from;
+      sunrealtype *out = own(space, z[i]) + from;
       for (int k = 0; k < size; k++) sum[k] = 0;
-      block_sum(columns, M + i * columns, x, from, size, sum);
+      block_sum(space, columns, M + i * columns, x, from, size, sum);
       for (int k = 0; k < size; k++) out[k] = add ? out[k] + sum[k] : sum[k];
     }
   }
@@ -171,9 +185,9 @@ static void mix_blocks(const stf_space *space, int rows, int columns, const sunr
 void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vector const *x,
                  N_Vector z)
 {
-  if (space->serial && space->n <= FEW)
-    few_sums(space->n, count, c, x, STF_ARRAY(z));
-  else if (space->serial)
+  if (local(space) && space->rows <= FEW)
+    few_sums(space, count, c, x, own(space, z));
+  else if (local(space))
     mix_blocks(space, 1, count, c, x, &z, false);
   else if (count == 0)
     N_VConst(0, z);
@@ -184,7 +198,7 @@ void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vect
 void stf_mix(const stf_space *space, int rows, int columns, const sunrealtype *M,
              N_Vector const *x, N_Vector *z)
 {
-  if (space->serial && space->n > FEW) {
+  if (local(space) && space->rows > FEW) {
     mix_blocks(space, rows, columns, M, x, z, false);
     return;
   }
@@ -194,7 +208,7 @@ void stf_mix(const stf_space *space, int rows, int columns, const sunrealtype *M
 void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtype *M,
                  N_Vector const *x, N_Vector *z)
 {
-  if (space->serial) {
+  if (local(space)) {
     mix_blocks(space, rows, columns, M, x, z, true);
     return;
   }
@@ -202,35 +216,76 @@ void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtyp
     for (int j = 0; j < columns; j++) N_VLinearSum(M[i * columns + j], x[j], 1, z[i], z[i]);
 }
 
-static sunrealtype norm(const stf_space *space, N_Vector x, N_Vector w)
+/* sum x_i y_i of `size` components, in four partial sums. */
+static sunrealtype dot(sunindextype size, const sunrealtype *x, const sunrealtype *y)
 {
-  if (!space->serial) return N_VWrmsNorm(x, w);
-  const sunrealtype *a = STF_ARRAY(x), *b = STF_ARRAY(w);
+  sunrealtype sum[4] = {0};
+  sunindextype i = 0;
+  for (; i + 4 <= size; i += 4)
+    for (int k = 0; k < 4; k++) sum[k] += x[i + k] * y[i + k];
+  for (; i < size; i++) sum[0] += x[i] * y[i];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+void stf_dots_here(const stf_space *space, int count, N_Vector x, N_Vector const *v,
+                   sunrealtype *sums)
+{
+  enum { STRETCH = 1024 }; /* stays in the first cache */
+  for (int j = 0; j < count; j++) sums[j] = local(space) ? 0 : N_VDotProd(x, v[j]);
+  for (sunindextype from = 0; from < space->rows; from += STRETCH) {
+    const sunindextype size = space->rows - from < STRETCH ? space->rows - from : STRETCH;
+    const sunrealtype *y = own(space, x) + from;
+    for (int j = 0; j < count; j++) sums[j] += dot(size, own(space, v[j]) + from, y);
+  }
+}
+
+void stf_sum_up(const stf_space *space, int count, sunrealtype *sums)
+{
+  if (local(space) && !space->serial)
+    space->like->ops->nvdotprodmultiallreduce(count, space->like, sums);
+}
+
+void stf_dots(const stf_space *space, int count, N_Vector x, N_Vector const *v,
+              sunrealtype *sums)
+{
+  stf_count_sum(space);
+  stf_dots_here(space, count, x, v, sums);
+  stf_sum_up(space, count, sums);
+}
+
+/* sum (x_i w_i)^2 of the components that are here. */
+static sunrealtype weighed_square(const stf_space *space, N_Vector x, N_Vector w)
+{
+  const sunrealtype *a = own(space, x), *b = own(space, w);
   sunrealtype sum = 0;
-  for (sunindextype i = 0; i < space->n; i++) {
+  for (sunindextype i = 0; i < space->rows; i++) {
     const sunrealtype p = a[i] * b[i];
     sum += p * p;
   }
-  return sqrt(sum / (sunrealtype)space->n);
+  return sum;
 }
 
 sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w)
 {
-  stf_count_sum(space);
-  return norm(space, x, w);
+  sunrealtype norm;
+  stf_norm_each(space, 1, &x, w, &norm);
+  return norm;
 }
 
-/* One sum over the ranks for all, where vectors know their own part of it. */
+/* One sum over the ranks for all, where the parts of it are known. */
 void stf_norm_each(const stf_space *space, int count, N_Vector const *x, N_Vector w,
                    sunrealtype *norms)
 {
   const N_Vector_Ops ops = w->ops;
-  const bool once = ops->nvwsqrsumlocal && ops->nvdotprodmultiallreduce;
+  const bool known = !local(space) && ops->nvwsqrsumlocal && ops->nvdotprodmultiallreduce;
   stf_count_sum(space);
   for (int j = 0; j < count; j++)
-    norms[j] = once ? N_VWSqrSumLocal(x[j], w) : norm(space, x[j], w);
-  if (!once) return;
-  ops->nvdotprodmultiallreduce(count, w, norms);
+    norms[j] = local(space) ? weighed_square(space, x[j], w)
+               : known      ? N_VWSqrSumLocal(x[j], w)
+                            : N_VWrmsNorm(x[j], w);
+  if (known) ops->nvdotprodmultiallreduce(count, w, norms);
+  stf_sum_up(space, count, norms);
+  if (!known && !local(space)) return;
   for (int j = 0; j < count; j++) norms[j] = sqrt(norms[j] / (sunrealtype)space->n);
 }
 
@@ -262,7 +317,7 @@ sunrealtype stf_max(const stf_space *space, N_Vector x)
 void stf_weights(const stf_space *space, sunrealtype rtol, sunrealtype atol, N_Vector atols,
                  N_Vector y, N_Vector w)
 {
-  if (!space->serial) {
+  if (!local(space)) {
     N_VAbs(y, w);
     N_VScale(rtol, w, w);
     if (atols)
@@ -272,22 +327,23 @@ void stf_weights(const stf_space *space, sunrealtype rtol, sunrealtype atol, N_V
     N_VInv(w, w);
     return;
   }
-  const sunrealtype *a = STF_ARRAY(y), *t = atols ? STF_ARRAY(atols) : NULL;
-  sunrealtype *b = STF_ARRAY(w);
-  for (sunindextype i = 0; i < space->n; i++)
+  const sunrealtype *a = own(space, y), *t = atols ? own(space, atols) : NULL;
+  sunrealtype *b = own(space, w);
+  for (sunindextype i = 0; i < space->rows; i++)
     b[i] = 1 / (rtol * fabs(a[i]) + (t ? t[i] : atol));
 }
 
 bool stf_finite(const stf_space *space, N_Vector x)
 {
   stf_count_sum(space);
-  if (!space->serial) {
+  if (!local(space)) {
     const sunrealtype square = N_VDotProd(x, x);
     return isfinite(square) || (!isnan(square) && isfinite(N_VMaxNorm(x)));
   }
-  const sunrealtype *a = STF_ARRAY(x);
+  const sunrealtype *a = own(space, x);
   sunrealtype sum = 0;
-  for (sunindextype i = 0; i < space->n; i++) sum += a[i] * 0;
+  for (sunindextype i = 0; i < space->rows; i++) sum += a[i] * 0;
+  stf_sum_up(space, 1, &sum);
   return sum == 0;
 }
 

@@ -1,5 +1,5 @@
-/* space.h: vector kernels. Serial vectors run through loops on their arrays, any other N_Vector
- * through its operations. Weights are reciprocal: norm(x) = sqrt(mean (x_i w_i)^2).
+/* space.h: vector kernels. Serial vectors, and components of parallel ones, run through loops on their arrays,
+ * any other N_Vector and every sum over ranks through the operations of the vector. Weights are reciprocal: norm(x) = sqrt(mean (x_i w_i)^2).
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_SPACE_H
 #define STF_SPACE_H
@@ -10,6 +10,8 @@
 
 typedef struct stf_space {
   sunindextype n;
+  sunindextype
+    rows; /* of n, how many are here; -1: they are not in an array of this process's own */
   bool serial;
   N_Vector like;
   long *sums; /* counts norms and the like: sums over all ranks; NULL: nobody does */
@@ -58,6 +60,13 @@ void stf_mix(const stf_space *space, int rows, int columns, const sunrealtype *M
 /* z_i += the same. */
 void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtype *M,
                  N_Vector const *x, N_Vector *z);
+/* sums[j] = x . v_j, j < count; _here: its part of the components that are here, which stf_sum_up adds up over the
+ * ranks. Vectors without an array of their own know only the whole, and nothing is to be added. */
+void stf_dots(const stf_space *space, int count, N_Vector x, N_Vector const *v,
+              sunrealtype *sums);
+void stf_dots_here(const stf_space *space, int count, N_Vector x, N_Vector const *v,
+                   sunrealtype *sums);
+void stf_sum_up(const stf_space *space, int count, sunrealtype *sums);
 sunrealtype stf_norm(const stf_space *space, N_Vector x, N_Vector w);
 /* The root mean square of the norms of several vectors. */
 sunrealtype stf_norms(const stf_space *space, int count, N_Vector const *x, N_Vector w);

@@ -1,13 +1,12 @@
 /* augmented.c: vectors of size n + p, their products with the augmented matrix, orthogonalisation.
  *
- * Serial vectors are taken in blocks that stay in the first cache, so that the basis is read
- * once per pass. Classical Gram-Schmidt, repeated where it cancelled ("twice is enough": L.
+ * Classical Gram-Schmidt, repeated where it cancelled ("twice is enough": L.
  * Giraud and others, Numer. Math. 101, 2005).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "action.h"
 
-enum { BLOCK = 1024, CHUNK = 10 };
+enum { CHUNK = 10 };
 
 int stf_state_grow(steif_action *a, int count)
 {
@@ -43,28 +42,24 @@ void stf_state_start(steif_action *a, stf_state *x)
   for (int j = 0; j < a->aux; j++) x->z[j] = j + 1 == a->aux ? 1 / a->eta : 0;
 }
 
-/* sum x_i y_i of `size` entries, in four partial sums. */
-static double dot(sunindextype size, const sunrealtype *x, const sunrealtype *y)
+double stf_vector_norm(const stf_space *space, N_Vector x)
 {
-  double sum[4] = {0};
-  sunindextype i = 0;
-  for (; i + 4 <= size; i += 4)
-    for (int k = 0; k < 4; k++) sum[k] += x[i + k] * y[i + k];
-  for (; i < size; i++) sum[0] += x[i] * y[i];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  double square;
+  stf_dots(space, 1, x, &x, &square);
+  return sqrt(square);
 }
 
-static double square(const stf_space *space, N_Vector x)
+/* Of the p further entries. */
+static double dot(int size, const double *x, const double *y)
 {
-  if (!space->serial) return N_VDotProd(x, x);
-  return dot(space->n, STF_ARRAY(x), STF_ARRAY(x));
+  double sum = 0;
+  for (int i = 0; i < size; i++) sum += x[i] * y[i];
+  return sum;
 }
-
-double stf_vector_norm(const stf_space *space, N_Vector x) { return sqrt(square(space, x)); }
 
 double stf_state_norm(const steif_action *a, const stf_state *x)
 {
-  return sqrt(square(&a->space, x->v) + dot(a->aux, x->z, x->z));
+  return hypot(stf_vector_norm(&a->space, x->v), sqrt(dot(a->aux, x->z, x->z)));
 }
 
 void stf_state_scale(const steif_action *a, double c, stf_state *x)
@@ -79,29 +74,20 @@ void stf_state_add(const steif_action *a, double c, const stf_state *x, stf_stat
   for (int j = 0; j < a->aux; j++) y->z[j] += c * x->z[j];
 }
 
-/* out += sum_j c_j basis_j from entry `from` on */
-static void add_block(const steif_action *a, int count, const double *c, sunindextype from,
-                      sunindextype size, sunrealtype *restrict out)
+/* The vectors of the first m of the basis. */
+static void vectors(const steif_action *a, int m, N_Vector *v)
 {
-  for (int j = 0; j < count; j++) {
-    const sunrealtype *restrict x = STF_ARRAY(a->basis[j].v) + from;
-    const double f = c[j];
-    for (sunindextype i = 0; i < size; i++) out[i] += f * x[i];
-  }
+  for (int j = 0; j < m; j++) v[j] = a->basis[j].v;
 }
 
 /* y += sum_j c_j basis_j */
 static void add(const steif_action *a, int count, const double *c, stf_state *y)
 {
-  const sunindextype n = a->space.n;
+  N_Vector v[STF_DIMENSION + 2];
+  vectors(a, count, v);
   for (int j = 0; j < count; j++)
     for (int i = 0; i < a->aux; i++) y->z[i] += c[j] * a->basis[j].z[i];
-  if (!a->space.serial) {
-    for (int j = 0; j < count; j++) N_VLinearSum(c[j], a->basis[j].v, 1, y->v, y->v);
-    return;
-  }
-  for (sunindextype from = 0; from < n; from += BLOCK)
-    add_block(a, count, c, from, n - from < BLOCK ? n - from : BLOCK, STF_ARRAY(y->v) + from);
+  stf_mix_add(&a->space, 1, count, c, v, &y->v);
 }
 
 void stf_state_combine(const steif_action *a, int count, const double *c, stf_state *y)
@@ -114,17 +100,10 @@ void stf_state_combine(const steif_action *a, int count, const double *c, stf_st
 /* h_j = <basis_j, w> for j < m */
 static void project(const steif_action *a, int m, const stf_state *w, double *h)
 {
-  const sunindextype n = a->space.n;
-  for (int j = 0; j < m; j++) h[j] = dot(a->aux, a->basis[j].z, w->z);
-  if (!a->space.serial) {
-    for (int j = 0; j < m; j++) h[j] += N_VDotProd(a->basis[j].v, w->v);
-    return;
-  }
-  for (sunindextype from = 0; from < n; from += BLOCK) {
-    const sunindextype size = n - from < BLOCK ? n - from : BLOCK;
-    const sunrealtype *y = STF_ARRAY(w->v) + from;
-    for (int j = 0; j < m; j++) h[j] += dot(size, STF_ARRAY(a->basis[j].v) + from, y);
-  }
+  N_Vector v[STF_DIMENSION + 2];
+  vectors(a, m, v);
+  stf_dots(&a->space, m, w->v, v, h);
+  for (int j = 0; j < m; j++) h[j] += dot(a->aux, a->basis[j].z, w->z);
 }
 
 void stf_state_orthogonalise(const steif_action *a, int m, double *h)

@@ -53,10 +53,10 @@ static bool parted(const stf_gmres *g)
 /* sums[i] = x . v_i on this rank, or of all where the vectors do not part the two. */
 static void local(const stf_gmres *g, int count, N_Vector x, N_Vector *v, double *sums)
 {
-  if (count > 0 && parted(g))
+  if (g->space.rows < 0 && count > 0 && parted(g))
     N_VDotProdMultiLocal(count, x, v, sums);
   else
-    for (int i = 0; i < count; i++) sums[i] = N_VDotProd(x, v[i]);
+    stf_dots_here(&g->space, count, x, v, sums);
 }
 
 /* Numbers of all ranks from those of this one. False: a callback has failed somewhere. */
