@@ -67,7 +67,8 @@ static double digits(steif_solver *s, const steif_problem *p)
   return scd;
 }
 
-/* Without a step more, and with fewer iterations of Newton, since products follow every shift. */
+/* Without a step more for the digits that come out, which are more by bdf, of order 5 here, and with fewer iterations of
+ * Newton, since products follow every shift. */
 static void as_good_as_direct(void)
 {
   static const char *const methods[] = {"bdf", "radau:s=3"};
@@ -82,9 +83,10 @@ static void as_good_as_direct(void)
     CHECK(scd > wanted - 0.3 && scd > 4);
     const steif_stats *d = steif_statistics(direct), *k = steif_statistics(krylov);
     CHECK(d->nli == 0 && 2 * k->nli > k->nsolve && k->nli < 4 * k->nsolve);
-    CHECK((double)k->steps < 1.1 * (double)d->steps);
+    const double worth = m == 0 ? pow(10, (scd - wanted) / 5) : 1;
+    CHECK((double)k->steps < 1.1 * worth * (double)d->steps);
     CHECK(k->nlu > 0 && 2 * k->nlu < 3 * d->nlu); /* made about as often as factors */
-    if (m == 0) CHECK((double)k->nfe < 0.8 * (double)d->nfe);
+    if (m == 0) CHECK((double)k->nfe < 0.8 * worth * (double)d->nfe);
     steif_solver_free(&direct), steif_solver_free(&krylov);
   }
   end();

@@ -161,10 +161,11 @@ static sunrealtype share(const stf_step *s, stf_carried *c)
 /* Of e, in parts that are carried on: the longer, the less there is to know. */
 static bool due(const stf_step *s, const stf_carried *c, sunrealtype sigma)
 {
-  const sunrealtype most = 0.5, parts = 2;
+  const sunrealtype most = 0.5, parts = 2, long_pause = 8;
+  if (c->dear) return (c->time + s->h_try) * sigma > long_pause * LONGEST;
   if (watched(c)) return c->time * sigma >= parts * LONGEST;
   const bool rare = c->steps > c->first && c->remembered > most * (sunrealtype)c->steps;
-  const sunrealtype pause = c->exact ? 1 : rare ? 8 : 2;
+  const sunrealtype pause = c->exact ? 1 : rare ? long_pause : 2;
   return (c->time + s->h_try) * sigma > pause * LONGEST;
 }
 

@@ -68,6 +68,7 @@ typedef struct stf_carried {
   N_Vector e, work, other; /* e NULL: not followed */
   long steps;
   bool exact;             /* all that e has lived through is carried on, and trusted */
+  bool dear;              /* solves are: e is carried on as rarely as may be */
   bool always;            /* the share of a step is that of all remembered from the start */
   sunrealtype time;       /* since e was carried on */
   sunrealtype growth;     /* of e, 1 where what it had grown is gone */
