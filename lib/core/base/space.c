@@ -79,9 +79,20 @@ void stf_sum(const stf_space *space, sunrealtype a, N_Vector x, sunrealtype b, N
   for (sunindextype i = 0; i < space->rows; i++) w[i] = a * u[i] + b * v[i];
 }
 
+void stf_by_component(const stf_space *space, N_Vector x, N_Vector y, N_Vector z)
+{
+  if (!local(space)) {
+    N_VProd(x, y, z);
+    return;
+  }
+  const sunrealtype *u = own(space, x), *v = own(space, y);
+  sunrealtype *w = own(space, z);
+  for (sunindextype i = 0; i < space->rows; i++) w[i] = u[i] * v[i];
+}
+
 /* Components are taken in blocks that stay in the first cache while the terms pass over them, four at
- * a time; each is the sum of its terms in their order, on every machine. */
-enum { BLOCK = 256, TERMS = 4 };
+ * a time; each is the sum of its terms in their order, on every machine. Wider ones where every array is asked for. */
+enum { BLOCK = 256, WIDE = 1024, TERMS = 4 };
 
 INLINE void add_terms(int terms, const sunrealtype *f, const sunrealtype *const *a, int size,
                       sunrealtype *restrict sum)
@@ -161,18 +172,14 @@ static void few_sums(const stf_space *space, int count, const sunrealtype *c, N_
   }
 }
 
-static int block_size(sunindextype n, sunindextype from)
-{
-  return n - from < BLOCK ? (int)(n - from) : BLOCK;
-}
-
 /* Rows of a block one after another, so that its x are read from the first cache. */
 static void mix_blocks(const stf_space *space, int rows, int columns, const sunrealtype *M,
                        N_Vector const *x, N_Vector *z, bool add)
 {
-  sunrealtype sum[BLOCK];
-  for (sunindextype from = 0; from < space->rows; from += BLOCK) {
-    const int size = block_size(space->rows, from);
+  sunrealtype sum[WIDE];
+  const int most = space->serial ? BLOCK : WIDE;
+  for (sunindextype from = 0; from < space->rows; from += most) {
+    const int size = space->rows - from < most ? (int)(space->rows - from) : most;
     for (int i = 0; i < rows; i++) {
       sunrealtype *out = own(space, z[i]) + from;
       for (int k = 0; k < size; k++) sum[k] = 0;
@@ -216,24 +223,23 @@ void stf_mix_add(const stf_space *space, int rows, int columns, const sunrealtyp
     for (int j = 0; j < columns; j++) N_VLinearSum(M[i * columns + j], x[j], 1, z[i], z[i]);
 }
 
-/* sum x_i y_i of `size` components, in four partial sums. */
+/* sum x_i y_i of `size` components, in four partial sums, which do not wait for each other. */
 static sunrealtype dot(sunindextype size, const sunrealtype *x, const sunrealtype *y)
 {
   sunrealtype sum[4] = {0};
   sunindextype i = 0;
   for (; i + 4 <= size; i += 4)
     for (int k = 0; k < 4; k++) sum[k] += x[i + k] * y[i + k];
-  for (; i < size; i++) sum[0] += x[i] * y[i];
+  for (; i < size; i++) sum[i % 4] += x[i] * y[i];
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 void stf_dots_here(const stf_space *space, int count, N_Vector x, N_Vector const *v,
                    sunrealtype *sums)
 {
-  enum { STRETCH = 1024 }; /* stays in the first cache */
   for (int j = 0; j < count; j++) sums[j] = local(space) ? 0 : N_VDotProd(x, v[j]);
-  for (sunindextype from = 0; from < space->rows; from += STRETCH) {
-    const sunindextype size = space->rows - from < STRETCH ? space->rows - from : STRETCH;
+  for (sunindextype from = 0; from < space->rows; from += WIDE) {
+    const sunindextype size = space->rows - from < WIDE ? space->rows - from : WIDE;
     const sunrealtype *y = own(space, x) + from;
     for (int j = 0; j < count; j++) sums[j] += dot(size, own(space, v[j]) + from, y);
   }

@@ -51,6 +51,8 @@ void stf_scale(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y); /
 void stf_axpy(const stf_space *space, sunrealtype c, N_Vector x, N_Vector y);  /* y += c x */
 void stf_sum(const stf_space *space, sunrealtype a, N_Vector x, sunrealtype b, N_Vector y,
              N_Vector z); /* z = a x + b y */
+void stf_by_component(const stf_space *space, N_Vector x, N_Vector y,
+                      N_Vector z); /* z_i = x_i y_i */
 /* z = sum_{j<count} c_j x_j; z may be x_0. */
 void stf_combine(const stf_space *space, int count, const sunrealtype *c, N_Vector const *x,
                  N_Vector z);

@@ -232,7 +232,7 @@ static stf_map map_of(steif_pencil *p, bool pair)
                  .left = aims,
                  .relative = p->op.tolerance > 0 ? p->op.tolerance : TOLERANCE};
   if (!aims) return map;
-  N_VProd(p->weights, p->weights, k->squares);
+  stf_by_component(&k->gmres.space, p->weights, p->weights, k->squares);
   map.squares = k->squares, map.relative = p->relative, map.ahead = p->ahead;
   map.tolerance = p->aim * sqrt((pair ? 2 : 1) * (double)p->n) *
                   (p->op.precondition ? 1 : hypot(k->s.re, k->s.im));

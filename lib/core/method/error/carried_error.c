@@ -58,7 +58,7 @@ static sunrealtype largest(stf_step *s, const stf_carried *c, N_Vector x)
 {
   if (!s->system.space.serial) {
     stf_count_sum(&s->system.space);
-    N_VProd(x, s->weights, c->work);
+    stf_by_component(&s->system.space, x, s->weights, c->work);
     return N_VMaxNorm(c->work);
   }
   const sunrealtype *a = STF_ARRAY(x), *w = STF_ARRAY(s->weights);

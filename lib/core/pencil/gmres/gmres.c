@@ -74,8 +74,8 @@ static bool sum(stf_gmres *g, int count)
 static stf_pair weighed(stf_gmres *g, const stf_map *map, stf_pair x)
 {
   if (!map->squares) return x;
-  N_VProd(map->squares, x.re, g->weighed[0]);
-  if (x.im) N_VProd(map->squares, x.im, g->weighed[1]);
+  stf_by_component(&g->space, map->squares, x.re, g->weighed[0]);
+  if (x.im) stf_by_component(&g->space, map->squares, x.im, g->weighed[1]);
   return of(g->weighed, x.im != NULL);
 }
 
