@@ -26,19 +26,22 @@ static long end(rod *r, const char *method, int serial, sunrealtype *y)
   return steps;
 }
 
-static void compare(rod *many, rod *one, const char *method)
+/* One rank has the same loops and sums as a serial vector: steif's own methods, the same bits. */
+static void compare(rod *many, rod *one, const char *method, int own)
 {
   sunrealtype here[64], all[64], worst = 0;
   const long steps = end(many, method, 0, here), alone = end(one, method, 1, all);
   EVERYWHERE(many, steps > 0 && steps == alone);
   for (sunindextype i = 0; i < many->rows; i++)
     worst = fmax(worst, fabs(here[i] - all[many->first + i]));
+  if (own && many->size == 1) EVERYWHERE(many, worst == 0);
   if (!EVERYWHERE(many, worst <= 0.1 * 1e-4) && many->rank == 0)
     printf("  %s: %.2e, %ld and %ld steps\n", method, worst, steps, alone);
 }
 
 void test_runs(MPI_Comm comm)
 {
+  enum { OWN = 9 };
   static const char *const methods[] = {"be",        "bdf",       "dirk:hw43", "radau:s=2",
                                         "radau:s=3", "gauss:s=3", "rodas4",    "exprb32",
                                         "auto",      "cvode",     "ida",       "arkode"};
@@ -47,7 +50,7 @@ void test_runs(MPI_Comm comm)
     rod_open(&many, comm, 40, uneven);
     rod_open(&one, MPI_COMM_SELF, 40, 0);
     for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
-      compare(&many, &one, methods[k]);
+      compare(&many, &one, methods[k], k < OWN);
     rod_close(&many), rod_close(&one);
   }
 }
