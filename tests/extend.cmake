@@ -1,6 +1,6 @@
 # One file extends the house: a copy of the tree gets one file more on each shelf, is built, and serves
 # every new name; no other file is touched. The files stand in tests/extend.
-#   cmake -DSOURCE= -DFOLDER= -DCC= -DTYPE= -DWERROR= -DLAUNCHER= -P extend.cmake
+#   cmake -DSOURCE= -DFOLDER= -DBUILD= -DCC= -DTYPE= -DFLAGS= -DWERROR= -DSANITIZE= -DLAUNCHER= -P extend.cmake
 # FOLDER: scratch, made and removed
 cmake_minimum_required(VERSION 3.19)
 include(${CMAKE_CURRENT_LIST_DIR}/expect.cmake)
@@ -28,8 +28,15 @@ function(run)
   endif()
 endfunction()
 run(${CMAKE_COMMAND} -S ${FOLDER}/source -B ${FOLDER}/source/build -DSTEIF_TESTS=OFF
-    -DSTEIF_WERROR=${WERROR}
+    -DSTEIF_WERROR=${WERROR} -DSTEIF_SANITIZE=${SANITIZE} -DCMAKE_C_FLAGS=${FLAGS}
     -DCMAKE_C_COMPILER=${CC} -DCMAKE_BUILD_TYPE=${TYPE} -DCMAKE_C_COMPILER_LAUNCHER=${LAUNCHER})
+# Files that are the same have been compiled; lists of shelves, which are written for each build, are not.
+file(GLOB_RECURSE objects RELATIVE ${BUILD} ${BUILD}/CMakeFiles/*.c.o)
+list(FILTER objects EXCLUDE REGEX "^CMakeFiles/[^/]*/shelf/")
+foreach(object ${objects})
+  configure_file(${BUILD}/${object} ${FOLDER}/source/build/${object} COPYONLY)
+  file(TOUCH_NOCREATE ${FOLDER}/source/build/${object})
+endforeach()
 run(${CMAKE_COMMAND} --build ${FOLDER}/source/build --target steif_program --parallel 2)
 
 # On y' = -y both methods of order 2 make (1 - h + h^2/2)^10 with h = 0.1, and the engine e^-1.

@@ -35,13 +35,9 @@ house_test(examples -DBUILD=${PROJECT_BINARY_DIR} -DLIBDIR=${CMAKE_INSTALL_LIBDI
            -DDOCDIR=${CMAKE_INSTALL_DOCDIR} -DCC=${CMAKE_C_COMPILER} -DCMAKE_CTEST_COMMAND=${CMAKE_CTEST_COMMAND}
            -DFLAGS=${flags})
 
-# With a compiler cache the objects there are serve again, else no optimisation is the quickest.
-set(how -DTYPE=Debug -DWERROR=OFF -DLAUNCHER=)
-if(CMAKE_C_COMPILER_LAUNCHER)
-  set(how -DTYPE=${CMAKE_BUILD_TYPE} -DWERROR=${STEIF_WERROR} -DLAUNCHER=${CMAKE_C_COMPILER_LAUNCHER})
-endif()
-house_test(extend -DSOURCE=${PROJECT_SOURCE_DIR} -DFOLDER=${PROJECT_BINARY_DIR}/extend
-           -DCC=${CMAKE_C_COMPILER} ${how})
+house_test(extend -DSOURCE=${PROJECT_SOURCE_DIR} -DFOLDER=${PROJECT_BINARY_DIR}/extend -DBUILD=${PROJECT_BINARY_DIR}
+           -DCC=${CMAKE_C_COMPILER} -DTYPE=${CMAKE_BUILD_TYPE} -DFLAGS=${CMAKE_C_FLAGS} -DWERROR=${STEIF_WERROR}
+           -DSANITIZE=${STEIF_SANITIZE} -DLAUNCHER=${CMAKE_C_COMPILER_LAUNCHER})
 
 if(TARGET steif_program)
   house_test(endings -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/endings
