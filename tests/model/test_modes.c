@@ -164,6 +164,57 @@ static void a_jump_that_makes_an_event(void)
   fixture_close(&s);
 }
 
+/* The same ends there: what is shown last is what the jump has left, no velocity along the rope. */
+static int along_the_rope(steif_solver *solver, sunrealtype t, N_Vector y, void *user)
+{
+  double *along = user;
+  const double *q = N_VGetArrayPointer(y);
+  (void)solver, (void)t;
+  *along = q[0] * q[2] + q[1] * q[3];
+  return 0;
+}
+
+/* By a terminal event, or since the handler says so at the event that the jump makes. */
+static int (*handler)(sunrealtype, N_Vector, const int *, void *);
+
+static int ends_when_slack(sunrealtype t, N_Vector y, const int *fired, void *user)
+{
+  const int wish = handler(t, y, fired, user);
+  return fired[1] ? STEIF_FINISH : wish;
+}
+
+static void ends_at_the_jump(fixture *s, const char *method, const double *q)
+{
+  double along = 1;
+  steif_options o = steif_defaults();
+  o.observe = along_the_rope, o.observer = &along;
+  steif_solver *solver = steif_solver_new(s->ctx, &s->p, method, &o);
+  CHECK(solver && steif_solve_to(solver, 2) == STEIF_EVENT);
+  CLOSE_FLOOR(along, 0, 1e-6, 1);
+  for (int i = 0; solver && i < 4; i++)
+    CLOSE_FLOOR(NV_Ith_S(steif_solution(solver), i), q[i], 1e-4, 1);
+  steif_solver_free(&solver);
+}
+
+static void a_jump_that_ends_the_run(void)
+{
+  char text[sizeof slack + 60];
+  const char *const last = strrchr(slack, ':');
+  snprintf(text, sizeof text, "%.*s: stop \"slack\"\ntime 0 to 2\n", (int)(last - slack),
+           slack);
+  double q[] = {0.6, 0, 1, 4};
+  fly_and_catch(q, 0);
+  for (int told = 0; told < 2; told++) {
+    fixture s;
+    CU_ASSERT_FATAL(fixture_text(&s, told ? slack : text, "") == STEIF_OK);
+    handler = s.p.handle_event;
+    if (told) s.p.handle_event = ends_when_slack;
+    for (int k = 0; k < METHODS; k++) ends_at_the_jump(&s, methods[k], q);
+    s.p.handle_event = handler;
+    fixture_close(&s);
+  }
+}
+
 /* A run that is asked for the time of the jump shows what is after it, and goes on from there. */
 static void the_time_of_the_jump(void)
 {
@@ -305,6 +356,7 @@ CU_TestInfo tests_of_modes[] = {
   {"an index that falls and rises again", an_index_that_falls_and_rises_again},
   {"a rope catches a fall", a_rope_catches_a_fall},
   {"a jump that makes an event", a_jump_that_makes_an_event},
+  {"a jump that ends the run", a_jump_that_ends_the_run},
   {"the time of the jump", the_time_of_the_jump},
   {"both sides are shown", both_sides_are_shown},
   {"a saved run knows its mode", a_saved_run_knows_its_mode},
