@@ -9,6 +9,7 @@ extern CU_TestInfo tests_of_conditions[];
 extern CU_TestInfo tests_of_circuits[];
 extern CU_TestInfo tests_of_growth[];
 extern CU_TestInfo tests_of_modes[];
+extern CU_TestInfo tests_of_starts[];
 extern CU_TestInfo tests_of_interface[];
 extern CU_TestInfo tests_of_products[];
 extern CU_TestInfo tests_of_grids[];
@@ -22,6 +23,7 @@ SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_e
            {.pName = "circuits with diodes", .pTests = tests_of_circuits},
            {.pName = "errors that grow again", .pTests = tests_of_growth},
            {.pName = "modes of a DAE", .pTests = tests_of_modes},
+           {.pName = "starts", .pTests = tests_of_starts},
            {.pName = "the interface", .pTests = tests_of_interface},
            {.pName = "grids, and compiled models", .pTests = tests_of_grids},
            {.pName = "products with derivatives", .pTests = tests_of_products},

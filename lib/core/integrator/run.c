@@ -273,12 +273,17 @@ int steif_solve_to(steif_solver *s, sunrealtype t)
   return stf_agreed_end(s, code);
 }
 
+/* Steps are never evaluated anew at their end, which may be a break, where f is another function already. */
 int stf_dense(steif_solver *s, sunrealtype t, N_Vector y)
 {
   const steif_method *method = s->step.method;
+  const stf_step *step = &s->step;
   if (s->engine) return s->engine->dense(&s->run, s->engine_state, t, y);
   if (stf_event_passed(s)) return stf_event_recall(s, t, y);
-  return method->dense ? method->dense(&s->step, t, y) : method->dense_by_f(&s->step, t, y);
+  if (method->dense) return method->dense(step, t, y);
+  if (fabs(t - step->t) > 2 * STF_EPS * fabs(t)) return method->dense_by_f(&s->step, t, y);
+  stf_copy(&step->system.space, step->y, y);
+  return STEIF_OK;
 }
 
 int steif_dense(steif_solver *s, sunrealtype t, N_Vector y)

@@ -44,9 +44,11 @@ int stf_event_open(steif_solver *s)
   w->y = stf_pool_vector(s->pool, s->shown);
   w->after = stf_pool_vector(s->pool, s->shown);
   w->slope = stf_pool_vector(s->pool, s->shown);
+  w->place = stf_pool_vector(s->pool, s->shown);
   w->low = stf_pool_array(s->pool, m * (5 + STF_NODES + STF_FINE + 1), sizeof *w->low);
-  w->sign = stf_pool_array(s->pool, 6 * m, sizeof *w->sign);
-  if (!w->y || !w->after || !w->slope || !w->low || !w->sign) return STEIF_NO_MEMORY;
+  w->sign = stf_pool_array(s->pool, 7 * m, sizeof *w->sign);
+  if (!w->y || !w->after || !w->slope || !w->place || !w->low || !w->sign)
+    return STEIF_NO_MEMORY;
   w->high = w->low + m, w->mid = w->high + m, w->next = w->mid + m, w->noise = w->next + m;
   w->node = w->noise + m, w->fine = w->node + m * STF_NODES;
   w->fired = w->sign + m;
@@ -54,6 +56,7 @@ int stf_event_open(steif_solver *s)
   w->seen = w->sign + 3 * m;
   w->rests = w->sign + 4 * m;
   w->first = w->sign + 5 * m;
+  w->coarse = w->sign + 6 * m;
   s->events = w;
   return stf_event_pass_open(s);
 }
@@ -97,7 +100,8 @@ bool stf_event_crosses(const steif_solver *s, int i, sunrealtype g)
 {
   const stf_detector *w = s->events;
   const int asked = s->problem->event_list ? s->problem->event_list[i].direction : 0;
-  const bool changes = w->sign[i] != 0 && side(g) != w->sign[i] && !w->rests[i];
+  const bool changes =
+    w->sign[i] != 0 && side(g) != w->sign[i] && !w->rests[i] && !stf_event_kept(w, i, g);
   return changes && (asked == 0 || (asked > 0) == (w->sign[i] < 0));
 }
 
@@ -112,8 +116,9 @@ static bool any_crosses(const steif_solver *s, const sunrealtype *g)
 static void take_sides(stf_detector *w, const sunrealtype *g)
 {
   for (int i = 0; i < w->count; i++)
-    if (!w->rests[i] && (w->sign[i] != 0 || fabs(g[i]) > w->noise[i]))
-      w->sign[i] = side(g[i]), w->noise[i] = 0;
+    if (!w->rests[i] && (w->sign[i] != 0 || fabs(g[i]) > w->noise[i]) &&
+        !stf_event_kept(w, i, g[i]))
+      w->sign[i] = side(g[i]), w->noise[i] = 0, w->coarse[i] = 0;
 }
 
 /* -- bracket -------------------------------------------------------------------------------------- */

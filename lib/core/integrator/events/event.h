@@ -15,6 +15,7 @@ typedef struct stf_detector {
   int count;         /* event functions */
   N_Vector y, after; /* inside the step; the state at the last event, then behind it */
   N_Vector slope;    /* y' of `after`, if it is settled */
+  N_Vector place;    /* kept_sides.c: the state at the event, on its constraints */
   sunrealtype t;     /* before it the step has been searched ... */
   sunrealtype *low;  /* ... and g had these values */
   sunrealtype *high, *mid, *next;
@@ -26,6 +27,7 @@ typedef struct stf_detector {
   int *seen;           /* horizon.c: side at the looks so far; 0: none yet */
   sunrealtype horizon; /* found there; not behind s->end: to be looked for */
   int *first;          /* those that fired before the jump that they have made */
+  int *coarse;         /* kept_sides.c: `noise` is what errors of the step make of it */
   int *rests;          /* resting.c: it is zero in this part of the step but for errors */
   int *leaves;      /* the side to which y' takes a function that is at zero when a step begins;
                        0: not known, or not at zero */
@@ -68,6 +70,12 @@ sunrealtype stf_event_tolerance(const steif_solver *s, sunrealtype t);
 int stf_event_below(steif_solver *s, int i, sunrealtype t, sunrealtype h);
 /* Does function i leave its side for g in the direction asked for? */
 bool stf_event_crosses(const steif_solver *s, int i, sunrealtype g);
+
+/* --- kept_sides.c --- */
+/* w->noise of what fires at t, before the reaction, by w->after. */
+int stf_event_find_noise(steif_solver *s, sunrealtype t);
+/* Is function i kept on the side to which it has fired, as long as no more than this is seen? */
+bool stf_event_kept(const stf_detector *w, int i, sunrealtype g);
 
 /* --- resting.c --- */
 /* w->rests for the part of a step that ends at t, from w->node. */

@@ -54,8 +54,10 @@ static int collect(steif_solver *s, sunrealtype t, sunrealtype to, bool *any)
     const bool touched = now && (w->mid[i] > 0) - (w->mid[i] < 0) == w->sign[i];
     w->fired[i] = (now || soon) && !touched ? -w->sign[i] : 0;
     *any = *any || w->fired[i];
+    const bool kept = !w->fired[i] && stf_event_kept(w, i, after);
     if (w->fired[i]) w->noise[i] = jumps(s, i, t) ? 0 : 8 * fabs(w->mid[i] - w->low[i]);
-    if (w->fired[i] || w->sign[i] != 0) w->sign[i] = (after > 0) - (after < 0);
+    if (w->fired[i]) w->coarse[i] = 0;
+    if (w->fired[i] || (w->sign[i] != 0 && !kept)) w->sign[i] = (after > 0) - (after < 0);
   }
   name_fired(s);
   return STEIF_OK;
@@ -191,6 +193,7 @@ static int react(steif_solver *s, sunrealtype t)
   stf_observe(s, t, w->after);
   if (s->saltation) STEIF_TRY(stf_saltation_before(s, t));
   if (s->quadratures) STEIF_TRY(stf_quadrature_to(s, t));
+  STEIF_TRY(stf_event_find_noise(s, t));
   N_VScale(1, w->after, w->y);
   STEIF_TRY(stf_event_ask(s, t, w->after, w->mid));
   STEIF_TRY(stf_event_pass(s, t));
@@ -347,9 +350,9 @@ static int start_watch(steif_solver *s)
   STEIF_TRY(stf_event_ask(s, s->end, y, w->low));
   if (w->started && !w->moved) return STEIF_OK;
   for (int i = 0; i < w->count; i++) {
-    if (!w->fired[i]) w->noise[i] = 0;
+    if (!w->fired[i]) w->noise[i] = 0, w->coarse[i] = 0;
     const bool off = fabs(w->low[i]) > w->noise[i];
-    w->sign[i] = off ? (w->low[i] > 0) - (w->low[i] < 0) : 0;
+    w->sign[i] = off ? (w->low[i] > 0) - (w->low[i] < 0) : w->coarse[i] ? w->fired[i] : 0;
   }
   w->started = true;
   return look_ahead(s, y);

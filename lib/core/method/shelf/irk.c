@@ -90,14 +90,18 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 }
 
 /* Stage increments of the next step from the last one's; zero for linear systems, whose one solve
- * needs no start. */
+ * needs no start. Of equations that are not linear in y' the slope at the start says which solution is meant. */
 static void predict(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
   if (s->system.linear && (!s->system.krylov || s->absolute)) return;
   if (!e->history || s->restart) {
-    for (int j = 0; j < e->s; j++) stf_zero(space, e->trial[j]);
+    const bool known =
+      s->yp_known && s->system.form == STEIF_IMPLICIT && (s->restart || s->count == 0);
+    for (int j = 0; j < e->s; j++)
+      known ? stf_scale(space, e->table->c[j] * h, s->yp, e->trial[j])
+            : stf_zero(space, e->trial[j]);
     return;
   }
   stf_mix(space, e->s, e->s, stf_stage_polynomial_ahead(&e->u, h / s->h), e->Z, e->trial);

@@ -159,9 +159,10 @@ typedef struct stf_model {
   stf_lookup *lookups; /* tables, then three that belong to each: see table_wave.c */
   int32_t tables;
   sunrealtype *y0, *yp0;
-  uint8_t *start;  /* n: '=', '~' or 0 */
-  char moved[600]; /* guesses that the start found is away from; "": none */
-  int32_t *owner;  /* n: symbol of each unknown */
+  sunrealtype *slope; /* n: where `state x' = ...` begins to look for yp0; NULL: nowhere */
+  uint8_t *start;     /* n: '=', '~' or 0 */
+  char moved[600];    /* guesses that the start found is away from; "": none */
+  int32_t *owner;     /* n: symbol of each unknown */
   const char **unknown, **equation;
   steif_names problem_names;
   stf_sweep sweep;

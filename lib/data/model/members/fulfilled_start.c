@@ -59,8 +59,10 @@ static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *att
 {
   const steif_request request = {.attribute = attribute};
   steif_start start = {0};
+  p->yp0 = m->slope;
   int code = steif_consistent(m->ctx, p, NULL, &request, &start);
   const bool found = !code;
+  if (!found) p->yp0 = m->yp0;
   if (found) {
     tell(m, start.y);
     code = stf_other_start(m, p, &request, start.y);

@@ -53,12 +53,33 @@ int stf_bind_element(stf_builder *b, const stf_statement *said, const stf_symbol
   return STEIF_OK;
 }
 
+/* A slope of the highest order is no unknown, but where its search begins. */
+static int slope(stf_model *m, stf_builder *b, const stf_statement *said)
+{
+  const stf_symbol *s = stf_symbol_of(m, said->name);
+  if (said->primes > s->order || !said->start) return STEIF_OK;
+  if (!m->slope && !(m->slope = stf_pool_array(m->pool, (size_t)m->n, sizeof *m->slope)))
+    return STEIF_NO_MEMORY;
+  for (int32_t k = 0; k < s->size; k++) {
+    sunrealtype *at = m->slope + s->first[s->order - 1] + k;
+    b->bindings.count = 0;
+    STEIF_TRY(stf_bind_element(b, said, s, k));
+    STEIF_TRY(stf_value(b, &said->value, at));
+    if (!isfinite(*at))
+      return stf_complain(&m->syntax.sources, said->at, STEIF_NOT_FINITE,
+                          "the slope of '%s' at the start is %g",
+                          m->unknown[s->first[s->order - 1] + k], *at);
+  }
+  b->bindings.count = 0;
+  return STEIF_OK;
+}
+
 /* Start values of one statement; those of order `primes` where that is an
  * unknown. */
 static int start(stf_model *m, stf_builder *b, const stf_statement *said)
 {
   const stf_symbol *s = stf_symbol_of(m, said->name);
-  if (said->primes >= s->order && said->primes) return STEIF_OK;
+  if (said->primes >= s->order && said->primes) return slope(m, b, said);
   for (int32_t k = 0; k < s->size; k++) {
     const int32_t at = s->first[said->primes] + k;
     if (m->start[at] && said->primes)
