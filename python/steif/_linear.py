@@ -258,6 +258,8 @@ def _convention(context, query, method, start, convention):
 
 
 def _weak_query(method, start, h, halvings, component):
+    if component is not None and (not isinstance(component, (int, np.integer)) or component < 0):
+        raise ValueError("component is %r and must be a whole number from 0, or None for all" % (component,))
     query = Struct("weak_query")
     query.set("method", POINTER, c.c_char_p(choice("method", method)))
     if start is not None:

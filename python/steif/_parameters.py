@@ -225,6 +225,8 @@ def _columns(problem, t, data, sd):
     rows = [real("data", data[k] if isinstance(data, dict) else np.atleast_2d(data)[k]) for k in keys]
     if any(row.shape != t.shape for row in rows):
         raise ValueError("data must have %d values for each unknown, one for each time" % t.size)
+    if any(np.isinf(row).any() for row in rows):
+        raise ValueError("data has an infinite value; nan is where nothing was measured")
     if not isinstance(data, dict) and len(rows) != problem.run.n:
         raise ValueError("data has %d rows, there are %d unknowns; a dict {unknown: values} names some"
                          % (len(rows), problem.run.n))

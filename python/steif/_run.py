@@ -8,8 +8,8 @@ import numpy as np
 
 from ._library import INT, POINTER, REAL, WHOLE, SteifError, Struct, lib
 from ._record import OBSERVER
-from ._values import (choice, explained, fill_sparse, grids, kind, memory, reader, real, returned, right_hand_side,
-                      sparse_columns)
+from ._values import (choice, explained, fill_sparse, grids, kind, memory, places_of, reader, real, returned,
+                      right_hand_side, sparse_columns, spread_sparse)
 
 _RHS = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER)
 _JACOBIAN = c.CFUNCTYPE(INT, REAL, POINTER, POINTER, POINTER, POINTER, POINTER, POINTER, POINTER)
@@ -139,7 +139,7 @@ class Run:
             def work(t, y, fy, J, user, a, b, d):
                 M = value(t, y)
                 M = M if hasattr(M, "tocsc") else returned("jac", M, (n, n))
-                fill_sparse(J, sparse_columns(M, n, "jac"), "jac")
+                fill_sparse(J, spread_sparse(sparse_columns(M, n, "jac"), self.pattern, n, "jac"))
         else:
             grid = grids((n, n))
 
@@ -162,7 +162,7 @@ class Run:
             self.problem.set("nnz_E", WHOLE, max(columns[2].size, 1))
 
             def work(t, y, yp, E, user):
-                fill_sparse(E, columns, "mass")
+                fill_sparse(E, columns)
         else:
             full = np.array(real("mass", M.toarray() if hasattr(M, "toarray") else M))
 
@@ -238,15 +238,11 @@ class Run:
             raise ValueError("%s has the shape %s, %s is needed" % (name, np.shape(pattern), (self.n, self.n)))
         self.is_sparse = True
         self.problem.set("storage", INT, _SPARSE)
+        self.pattern = places, start, rows = places_of(pattern, self.n)
         if given:
-            self.problem.set("nnz", WHOLE, max(int(pattern.nnz if hasattr(pattern, "nnz")
-                                                   else np.count_nonzero(pattern)), 1))
+            self.problem.set("nnz", WHOLE, max(places.size, 1))
             return
-        rows, columns = pattern.nonzero() if hasattr(pattern, "nonzero") else np.nonzero(pattern)
-        places = np.unique(columns.astype(np.int64) * self.n + rows)  # once each, by columns
-        columns, rows = np.divmod(places, self.n)
-        start, kept = np.searchsorted(columns, np.arange(self.n + 1)).astype(WHOLE), Struct("pattern")
-        rows = np.ascontiguousarray(rows, dtype=WHOLE)
+        kept = Struct("pattern")
         kept.set("column", POINTER, start.ctypes.data)
         kept.set("row", POINTER, rows.ctypes.data)
         self.problem.set("pattern", POINTER, kept.address)
@@ -402,7 +398,7 @@ def _sign(event, i):
 
 
 def _event_value(g, i):
-    if isinstance(g, (bool, np.bool_)):
+    if isinstance(g, (bool, np.bool_)) or getattr(g, "dtype", None) == bool:
         raise TypeError("event %d returned %s: return a number that changes its sign at the event, y[0] - 1 instead of "
                         "y[0] > 1" % (i + 1, g))
     if g is None or np.size(g) != 1:

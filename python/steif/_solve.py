@@ -69,6 +69,8 @@ def _interval(t_span):
 def _find(context, spec, found):
     """A problem by its name, a model file, or a text of several lines that is a model."""
     pointer = context.pointer
+    if "\0" in str(spec):
+        raise ValueError("a model, or its name, has a character of value 0, which ends texts")
     if isinstance(spec, str) and "\n" not in spec and ("'" in spec or spec.startswith("state ")):
         raise ValueError("%r is no model: a text has a line for each statement, \"state x = 1\\nx' = -x\\n\"" % spec)
     if isinstance(spec, str) and "\n" in spec:

@@ -166,13 +166,39 @@ def sparse_columns(M, n, name):
     return np.searchsorted(columns, np.arange(n + 1)), rows, M[rows, columns]
 
 
-def fill_sparse(to, columns, name):
+def places_of(pattern, n):
+    """Of the entries of a pattern, once each: column * n + row, ascending; by columns: starts, rows."""
+    stored = pattern.tocoo() if hasattr(pattern, "tocoo") else None  # zeros that are stored count
+    rows, columns = (stored.row, stored.col) if stored is not None else np.nonzero(pattern)
+    places = np.unique(columns.astype(np.int64) * n + rows)
+    columns, rows = np.divmod(places, n)
+    start = np.searchsorted(columns, np.arange(n + 1)).astype(WHOLE)
+    return places, start, np.ascontiguousarray(rows, dtype=WHOLE)
+
+
+def spread_sparse(columns, pattern, n, name):
+    """The matrix with all places of the pattern, which factors are analysed for once; 0 where it has no entry."""
+    places, start, rows = pattern
+    begun, at, values = columns
+    if values.size == rows.size and np.array_equal(begun, start) and np.array_equal(at, rows):
+        return start, rows, values
+    own = np.repeat(np.arange(n, dtype=np.int64), np.diff(begun)) * n + at
+    own, values = own[values != 0], values[values != 0]
+    found = np.searchsorted(places, own)
+    known = found < places.size
+    known[known] = places[found[known]] == own[known]
+    if not known.all():
+        column, row = np.divmod(own[~known][0], n)
+        raise ValueError("%s has an entry in row %d, column %d (from 0), where its pattern has none: give jac_sparsity "
+                         "with all places where there may be one" % (name, row, column))
+    spread = np.zeros(places.size)
+    spread[found] = values
+    return start, rows, spread
+
+
+def fill_sparse(to, columns):
     """Into a sparse matrix of the library, by columns."""
     start, rows, values = columns
-    room = lib.SUNSparseMatrix_NNZ(to)
-    if values.size > room:
-        raise ValueError("%s has %d entries, at the start it had room for %d: give jac_sparsity with all "
-                         "places where there may be one" % (name, values.size, room))
     for address, array, kind in ((lib.SUNSparseMatrix_IndexPointers(to), start, WHOLE),
                                  (lib.SUNSparseMatrix_IndexValues(to), rows, WHOLE),
                                  (lib.SUNSparseMatrix_Data(to), values, REAL)):

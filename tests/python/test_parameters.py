@@ -185,6 +185,7 @@ class Sweep(unittest.TestCase):
                                  "sd has the shape"),
                                 (lambda: steif.fit(chain, [-1, 2], {0: [1, 2]}, p=[1, 2], y0=[1, 0]), "give t_span"),
                                 (lambda: steif.sensitivity(chain, (0, 1), [1, 0], p=[]), "p is empty"),
+                                (lambda: steif.fit(chain, [1, 2], {0: [1, math.inf]}, p=[1, 2], y0=[1, 0]), "infinite"),
                                 (lambda: steif.fit("rober", None, {"y1": [1, 1]}), "t is missing")):
             with self.assertRaisesRegex(ValueError, sentence):
                 wrong()

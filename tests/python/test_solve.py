@@ -118,6 +118,20 @@ class Solve(unittest.TestCase):
             steif.solve(f, (0, 0.1), np.sin(math.pi * x), jac_sparsity=np.eye(3))
 
     @unittest.skipIf(sparse is None, "no SciPy")
+    def test_sparse_jacobians_whose_entries_change_place(self):
+        def jac(t, y):
+            return sparse.csr_matrix([[-1, 1e-9], [0, -1]] if t < 0.3 else [[-1, 0], [1e-9, -1]])
+
+        def f(t, y):
+            return [-y[0], -y[1]]
+
+        for method in ("auto", "bdf", "radau:s=3", "cvode", "ida", "arkode"):
+            sol = steif.solve(f, (0, 5), [1, 1], jac=jac, jac_sparsity=np.ones((2, 2)), method=method, rtol=1e-8)
+            np.testing.assert_allclose(sol.y[:, -1], np.exp(-5), atol=1e-7)
+        with self.assertRaisesRegex(ValueError, "row 1, column 0 .* give jac_sparsity"):
+            steif.solve(f, (0, 5), [1, 1], jac=jac, rtol=1e-8)
+
+    @unittest.skipIf(sparse is None, "no SciPy")
     def test_sparse_jacobians_as_scipy_takes_them(self):
         # u' = L u - u^3 on 20 x 20 points, with a mass matrix 2 I over twice the time, and differences
         m = 20
@@ -174,7 +188,8 @@ class Solve(unittest.TestCase):
                 (lambda: steif.solve(f, (0, 1), y0, max_step=0), "max_step is 0"),
                 (lambda: steif.solve(f, 10, y0), "t_span"),
                 (lambda: steif.solve(f, (0, 1)), "y0 .* is missing"),
-                (lambda: steif.solve(f, y0=y0), "t_span .* is missing")):
+                (lambda: steif.solve(f, y0=y0), "t_span .* is missing"),
+                (lambda: steif.solve("state x = 1\nx' = -x\n\0\n", (0, 1)), "character of value 0")):
             with self.assertRaisesRegex(ValueError, sentence):
                 wrong()
         with self.assertRaisesRegex(TypeError, "complex"):
