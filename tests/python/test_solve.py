@@ -129,7 +129,7 @@ class Solve(unittest.TestCase):
             sol = steif.solve(f, (0, 5), [1, 1], jac=jac, jac_sparsity=np.ones((2, 2)), method=method, rtol=1e-8)
             np.testing.assert_allclose(sol.y[:, -1], np.exp(-5), atol=1e-7)
         with self.assertRaisesRegex(ValueError, "row 1, column 0 .* give jac_sparsity"):
-            steif.solve(f, (0, 5), [1, 1], jac=jac, rtol=1e-8)
+            steif.solve(f, (0, 5), [1, 1], jac=jac, method="rodas4p", rtol=1e-8)
 
     @unittest.skipIf(sparse is None, "no SciPy")
     def test_sparse_jacobians_as_scipy_takes_them(self):
