@@ -10,7 +10,7 @@ enum { METHODS = sizeof methods / sizeof *methods };
 static void ends_at(const char *text, double expected)
 {
   fixture s;
-  double y[2];
+  double y[3];
   CU_ASSERT_FATAL(fixture_text(&s, text, "") == STEIF_OK);
   for (int k = 0; k < METHODS; k++) {
     CHECK(fixture_run(&s, methods[k], 1e-7, y) == STEIF_OK);
