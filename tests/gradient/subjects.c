@@ -1,6 +1,8 @@
 /* subjects.c: problems with parameters.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "subjects.h"
+#include "base/failing.h"
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -299,4 +301,48 @@ void gradient_of(steif_context *ctx, const struct subject *s, const char *method
   const int code = steif_gradient_find(ctx, &s->problem, method, &o, J, g);
   if (code) printf("\n  %s: %s", method, steif_message(ctx));
   CU_ASSERT_FATAL(code == STEIF_OK);
+}
+
+int weighted_sum(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  (void)t, (void)user;
+  g[0] = 0;
+  for (sunindextype i = 0; i < NV_LENGTH_S(y); i++)
+    g[0] += cos(1.0 + (double)i) * NV_Ith_S(y, i);
+  return 0;
+}
+
+int weighted_slopes(sunrealtype t, N_Vector y, int i, int at_end, N_Vector dy, sunrealtype *dp,
+                    void *user)
+{
+  (void)t, (void)y, (void)i, (void)at_end, (void)dp, (void)user;
+  for (sunindextype j = 0; j < NV_LENGTH_S(dy); j++) NV_Ith_S(dy, j) = cos(1.0 + (double)j);
+  return 0;
+}
+
+static bool survives(const steif_problem *p, const char *method, const steif_options *o,
+                     const steif_functional *J, int checkpoints, long k)
+{
+  failing f = {.refuse_at = 0};
+  const steif_setup setup = failing_setup(&f);
+  steif_context *ctx = steif_context_new(&setup);
+  f.served = 0, f.refuse_at = k;
+  steif_gradient g = {.checkpoints = checkpoints};
+  const int code = steif_gradient_find(ctx, p, method, o, J, &g);
+  CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
+  CHECK(code == STEIF_OK || !g.value);
+  const bool all = code == STEIF_OK && f.served < k;
+  steif_gradient_free(ctx, &g);
+  steif_context_free(&ctx);
+  CHECK(f.alive == 0);
+  return all;
+}
+
+void requests_fail(const steif_problem *p, const char *method, const steif_options *o,
+                   const steif_functional *J, int checkpoints)
+{
+  enum { MOST = 4000 };
+  long k = 2;
+  while (k < MOST && !survives(p, method, o, J, checkpoints, k)) k++;
+  CHECK(k < MOST);
 }

@@ -27,4 +27,13 @@ void gradient_of(steif_context *ctx, const struct subject *s, const char *method
                  sunrealtype rtol, sunrealtype t1, const steif_functional *J,
                  steif_gradient *g);
 
+/* w . y with w_i = cos(1 + i), counted from 0: an integrand, or .end; and its .slopes. */
+int weighted_sum(sunrealtype t, N_Vector y, sunrealtype *g, void *user);
+int weighted_slopes(sunrealtype t, N_Vector y, int i, int at_end, N_Vector dy, sunrealtype *dp,
+                    void *user);
+
+/* Gradients whose request k for memory fails, k = 2, 3, ..., until one is not refused: a code, and nothing is lost. */
+void requests_fail(const steif_problem *p, const char *method, const steif_options *o,
+                   const steif_functional *J, int checkpoints);
+
 #endif

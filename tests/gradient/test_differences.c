@@ -18,23 +18,8 @@ static int note(steif_solver *s, sunrealtype t, N_Vector y, void *user)
   return 0;
 }
 
-static int sum(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
-{
-  (void)t, (void)user;
-  g[0] = 0;
-  for (sunindextype i = 0; i < NV_LENGTH_S(y); i++) g[0] += cos(1 + (double)i) * NV_Ith_S(y, i);
-  return 0;
-}
-
-static int weights(sunrealtype t, N_Vector y, int i, int at_end, N_Vector dy, sunrealtype *dp,
-                   void *user)
-{
-  (void)t, (void)y, (void)i, (void)at_end, (void)dp, (void)user;
-  for (sunindextype j = 0; j < NV_LENGTH_S(dy); j++) NV_Ith_S(dy, j) = cos(1 + (double)j);
-  return 0;
-}
-
-static const steif_functional J = {.count = 1, .integrand = sum, .end = sum, .slopes = weights};
+static const steif_functional J = {
+  .count = 1, .integrand = weighted_sum, .end = weighted_sum, .slopes = weighted_slopes};
 
 static int set(steif_context *ctx, steif_problem *p, int k, sunrealtype x)
 {

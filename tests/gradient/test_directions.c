@@ -91,29 +91,12 @@ static void through_events(void)
   steif_context_free(&ctx);
 }
 
-static int weighted(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
-{
-  (void)t, (void)user;
-  g[0] = 0;
-  for (sunindextype i = 0; i < NV_LENGTH_S(y); i++)
-    g[0] += cos(1. + (double)i) * NV_Ith_S(y, i);
-  return 0;
-}
-
-static int weights(sunrealtype t, N_Vector y, int i, int at_end, N_Vector dy, sunrealtype *dp,
-                   void *user)
-{
-  (void)t, (void)y, (void)i, (void)at_end, (void)dp, (void)user;
-  for (sunindextype j = 0; j < NV_LENGTH_S(dy); j++) NV_Ith_S(dy, j) = cos(1. + (double)j);
-  return 0;
-}
-
 /* w . (J v) = (J^T w) . v, with start values in v; the gradient of the line itself is that number too. */
 static void with_start_values(void)
 {
   static const char *const methods[] = {"radau:s=3", "gauss:s=2", "bdf:p=3", "dirk:esdirk43"};
   const sunrealtype v[] = {0.5, -1, 0.25, 2}, u[] = {0.3, -0.7};
-  const steif_functional J = {.count = 1, .end = weighted, .slopes = weights};
+  const steif_functional J = {.count = 1, .end = weighted_sum, .slopes = weighted_slopes};
   steif_context *ctx = steif_context_new(NULL);
   struct subject s;
   subject_lotka(&s);

@@ -8,29 +8,12 @@ static const char *const methods[] = {
   "bdf:p=5",   "dirk:hw43",     "radau:s=7",   "dirk:alexander2", "dirk:esdirk43"};
 enum { METHODS = sizeof methods / sizeof *methods };
 
-static int weighted(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
-{
-  (void)t, (void)user;
-  g[0] = 0;
-  for (sunindextype i = 0; i < NV_LENGTH_S(y); i++)
-    g[0] += cos(1.0 + (double)i) * NV_Ith_S(y, i);
-  return 0;
-}
-
-static int weights(sunrealtype t, N_Vector y, int i, int at_end, N_Vector dy, sunrealtype *dp,
-                   void *user)
-{
-  (void)t, (void)y, (void)i, (void)at_end, (void)dp, (void)user;
-  for (sunindextype j = 0; j < NV_LENGTH_S(dy); j++) NV_Ith_S(dy, j) = cos(1.0 + (double)j);
-  return 0;
-}
-
 /* w . S of the run forward against the gradient of w . y(T), given steps. */
 static void forward_and_back(const struct subject *s, sunrealtype h, sunrealtype t1,
                              double floor)
 {
   steif_context *ctx = steif_context_new(NULL);
-  const steif_functional J = {.count = 1, .end = weighted, .slopes = weights};
+  const steif_functional J = {.count = 1, .end = weighted_sum, .slopes = weighted_slopes};
   for (int m = 0; m < METHODS; m++) {
     steif_options o = steif_defaults();
     steif_gradient g = {0};
@@ -45,7 +28,7 @@ static void forward_and_back(const struct subject *s, sunrealtype h, sunrealtype
     for (int k = 0; k < g.parameters; k++) {
       sunrealtype sum, size = 0;
       CHECK(steif_sensitivity(forward, t1, k, S) == STEIF_OK);
-      weighted(t1, S, &sum, NULL);
+      weighted_sum(t1, S, &sum, NULL);
       for (sunindextype i = 0; i < NV_LENGTH_S(S); i++) size = fmax(size, fabs(NV_Ith_S(S, i)));
       CLOSE_FLOOR(g.dp[k], sum, floor, size);
     }

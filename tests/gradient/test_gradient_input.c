@@ -1,7 +1,6 @@
 /* test_gradient_input.c: what is refused, and failing allocations.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "subjects.h"
-#include "base/failing.h"
 #include <stdbool.h>
 #include <string.h>
 
@@ -84,7 +83,6 @@ static void without_parameters(void)
   steif_context_free(&ctx);
 }
 
-/* The k-th request for memory fails: a code, and nothing is lost. */
 static void failing_requests(void)
 {
   const steif_functional J = {.count = 1, .end = good};
@@ -92,24 +90,8 @@ static void failing_requests(void)
   o.rtol = 1e-4, o.t1 = 0.1;
   struct subject s;
   subject_lotka(&s);
-  for (int images = 0; images < 4; images += 3) {
-    bool done = false;
-    for (long k = 2; !done && k < 2000; k++) {
-      failing f = {.refuse_at = 0};
-      const steif_setup setup = failing_setup(&f);
-      steif_context *ctx = steif_context_new(&setup);
-      f.served = 0, f.refuse_at = k;
-      steif_gradient g = {.checkpoints = images};
-      const int code = steif_gradient_find(ctx, &s.problem, "radau:s=3", &o, &J, &g);
-      CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
-      CHECK(code == STEIF_OK || !g.value);
-      done = code == STEIF_OK && f.served < k;
-      steif_gradient_free(ctx, &g);
-      steif_context_free(&ctx);
-      CHECK(f.alive == 0);
-    }
-    CHECK(done);
-  }
+  for (int images = 0; images < 4; images += 3)
+    requests_fail(&s.problem, "radau:s=3", &o, &J, images);
 }
 
 CU_TestInfo tests_of_gradient_input[] = {{"refused with a sentence", refused},

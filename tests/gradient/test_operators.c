@@ -1,7 +1,6 @@
 /* test_operators.c: gradients with Krylov storage: of products, transposed too, and of matrices that it keeps.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "net.h"
-#include "base/failing.h"
 #include <stdbool.h>
 #include <string.h>
 
@@ -10,28 +9,11 @@ static const char *const methods[] = {"radau:s=1",     "radau:s=2", "radau:s=3",
                                       "dirk:esdirk43", "bdf",       "lobatto3c:s=3"};
 enum { METHODS = sizeof methods / sizeof *methods };
 
-static int weighted(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
-{
-  (void)t, (void)user;
-  g[0] = 0;
-  for (sunindextype i = 0; i < NV_LENGTH_S(y); i++)
-    g[0] += cos(1.0 + (double)i) * NV_Ith_S(y, i);
-  return 0;
-}
-
-static int weights(sunrealtype t, N_Vector y, int i, int at_end, N_Vector dy, sunrealtype *dp,
-                   void *user)
-{
-  (void)t, (void)y, (void)i, (void)at_end, (void)dp, (void)user;
-  for (sunindextype j = 0; j < NV_LENGTH_S(dy); j++) NV_Ith_S(dy, j) = cos(1.0 + (double)j);
-  return 0;
-}
-
-static const steif_functional J = {.count = 1, .end = weighted, .slopes = weights},
+static const steif_functional J = {.count = 1, .end = weighted_sum, .slopes = weighted_slopes},
                               both = {.count = 1,
-                                      .end = weighted,
-                                      .integrand = weighted,
-                                      .slopes = weights};
+                                      .end = weighted_sum,
+                                      .integrand = weighted_sum,
+                                      .slopes = weighted_slopes};
 
 enum kind { PLAIN, PRECONDITIONED, INCOMPLETE, INSTEAD, MASS, GROWING, KINDS };
 static const char *const kinds[] = {"products",         "preconditioned", "ILU(0)",
@@ -73,7 +55,7 @@ static double apart(steif_context *ctx, const struct net *w, const char *method,
   for (int k = 0; k < g->parameters; k++) {
     sunrealtype sum;
     CHECK(steif_sensitivity(forward, o.t1, k, S) == STEIF_OK);
-    weighted(o.t1, S, &sum, NULL);
+    weighted_sum(o.t1, S, &sum, NULL);
     most = fmax(most, fabs(sum - g->dp[k]) / fmax(fabs(sum), N_VMaxNorm(S)));
   }
   N_VDestroy(S);
@@ -192,26 +174,11 @@ static void failing_requests(void)
   static const char *const some[] = {"radau:s=3", "bdf", "dirk:hw43"};
   for (enum kind kind = 0; kind < MASS; kind++)
     for (int m = 0; m < 3; m++) {
-      bool done = false;
       struct net w;
       steif_options o;
       make(kind, &w, &o);
       o.h = 0.05, o.t1 = 0.1;
-      for (long k = 2; !done && k < 4000; k++) {
-        failing f = {.refuse_at = 0};
-        const steif_setup setup = failing_setup(&f);
-        steif_context *ctx = steif_context_new(&setup);
-        f.served = 0, f.refuse_at = k;
-        steif_gradient g = {.checkpoints = 0};
-        const int code = steif_gradient_find(ctx, &w.s.problem, some[m], &o, &J, &g);
-        CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
-        CHECK(code == STEIF_OK || !g.value);
-        done = code == STEIF_OK && f.served < k;
-        steif_gradient_free(ctx, &g);
-        steif_context_free(&ctx);
-        CHECK(f.alive == 0);
-      }
-      CHECK(done);
+      requests_fail(&w.s.problem, some[m], &o, &J, 0);
     }
 }
 
