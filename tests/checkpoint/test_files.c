@@ -73,7 +73,7 @@ static void damage_is_noticed(void)
   CHECK(refused(ctx, path, &p, NULL, STEIF_UNSUPPORTED, "another order of bytes"));
   f.bytes[8] ^= 5, f.bytes[12] ^= 1; /* version */
   spill(path, f.bytes, f.count);
-  CHECK(refused(ctx, path, &p, NULL, STEIF_UNSUPPORTED, "has version 3, this steif reads 2"));
+  CHECK(refused(ctx, path, &p, NULL, STEIF_UNSUPPORTED, "has version 2, this steif reads 3"));
   CHECK(!steif_solve_to(s, p.t1)); /* the run that was saved */
   free(f.bytes), remove(path);
   steif_solver_free(&s), steif_context_free(&ctx);

@@ -5,6 +5,7 @@
 extern CU_TestInfo tests_of_examples[];
 extern CU_TestInfo tests_of_derivatives[];
 extern CU_TestInfo tests_of_events[];
+extern CU_TestInfo tests_of_sides[];
 extern CU_TestInfo tests_of_conditions[];
 extern CU_TestInfo tests_of_circuits[];
 extern CU_TestInfo tests_of_growth[];
@@ -19,6 +20,7 @@ extern CU_TestInfo tests_of_wrong_models[];
 SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_examples},
            {.pName = "derivatives against differences", .pTests = tests_of_derivatives},
            {.pName = "events", .pTests = tests_of_events},
+           {.pName = "events of algebraic unknowns", .pTests = tests_of_sides},
            {.pName = "conditions", .pTests = tests_of_conditions},
            {.pName = "circuits with diodes", .pTests = tests_of_circuits},
            {.pName = "errors that grow again", .pTests = tests_of_growth},

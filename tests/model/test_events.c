@@ -212,91 +212,6 @@ static void a_corner_of_a_constraint_is_crossed(void)
   fixture_close(&s);
 }
 
-/* Behind an event z is put on its equation: it crosses once, whatever the step had made of it. */
-static void an_algebraic_unknown_crosses_once(void)
-{
-  static const char *const methods[] = {"auto",      "bdf",     "radau:s=3", "radau:s=5",
-                                        "gauss:s=3", "rodas5p", "rodas4p",   "dirk:esdirk43"};
-  static const double rtols[] = {1e-3, 1e-4, 1e-5, 1e-6, 1e-8};
-  fixture s;
-  double y[3];
-  CU_ASSERT_FATAL(!fixture_text(&s,
-                                "state x = 0, z, d = 0\nx' = 1\nd' = -0.1*d\n0 = z^3 + z - x\n"
-                                "when z > 1: d = d + 1\ntime 0 to 4\n",
-                                ""));
-  for (int m = 0; m < 8; m++)
-    for (int k = 0; k < 5; k++) {
-      CHECK(fixture_run(&s, methods[m], rtols[k], y) == STEIF_OK);
-      CLOSE_FLOOR(y[2], exp(-0.2), 1e-3, 1); /* once more: 0.8 */
-    }
-  fixture_close(&s);
-}
-
-/* So does the force in the rod of a pendulum, of index 3: it swings from the side through the bottom, where T = 3 g, and T
- * passes 15 upwards once in each half of a period of 2.3686 s (4 K(1/2)/g^(1/2)): 4 times until 4.5 s. */
-static void a_force_crosses_once(void)
-{
-  static const char *const methods[] = {"auto", "radau:s=3", "radau:s=5"};
-  static const double rtols[] = {1e-3, 1e-4, 1e-6, 1e-8};
-  fixture s;
-  double y[6];
-  CU_ASSERT_FATAL(
-    !fixture_text(&s,
-                  "param g = 9.81\nstate x = 1, y = 0, vx = 0, vy = 0, T, c = 0\n"
-                  "x' = vx\ny' = vy\nvx' = -T*x\nvy' = -T*y - g\n0 = x^2 + y^2 - 1\n"
-                  "c' = 0\nwhen T > 15: c = c + 1\ntime 0 to 4.5\n",
-                  ""));
-  for (int m = 0; m < 3; m++)
-    for (int k = 0; k < 4; k++) {
-      CHECK(fixture_run(&s, methods[m], rtols[k], y) == STEIF_OK);
-      CLOSE_FLOOR(y[5], 4, 1e-6, 1);
-    }
-  fixture_close(&s);
-}
-
-/* A break of f and an event at the same time: steps that are evaluated anew for dense output end before it. */
-static void a_break_and_an_event(void)
-{
-  static const char *const methods[] = {"dopri87", "exprb32", "exprb43", "auto", "bdf"};
-  fixture s;
-  double y[3];
-  CU_ASSERT_FATAL(
-    !fixture_text(&s,
-                  "state s = 0, z = 0, y = 0\ns' = if t < 3 then 1 else 0\nz' = 1\n"
-                  "y' = floor(t)\ntime 0 to 8\n",
-                  ""));
-  for (int m = 0; m < 5; m++) {
-    CHECK(fixture_run(&s, methods[m], 1e-6, y) == STEIF_OK);
-    CLOSE_FLOOR(y[0], 3, 1e-10, 1);
-    CLOSE_FLOOR(y[2], 28, 1e-10, 1);
-  }
-  fixture_close(&s);
-}
-
-/* A tank whose outlet has a check valve: a state between events is put on the algebraic equations of its mode, else the
- * valve is found open and closed in turn. radau:s=5, radau:s=7, gauss:s=4 and gauss:s=5 at 1e-12 agree in all digits. */
-static void a_valve_opens_and_closes(void)
-{
-  static const char *const methods[] = {"auto",      "bdf",     "radau:s=3", "radau:s=7",
-                                        "gauss:s=3", "rodas5p", "rodas4p",   "dirk:esdirk43"};
-  static const double rtols[] = {1e-4, 1e-6, 1e-8};
-  fixture s;
-  double y[3];
-  CU_ASSERT_FATAL(!fixture_text(&s,
-                                "state h = 1, q ~ 0, p ~ 1\nh' = -q\n"
-                                "0 = p - h - 0.5*sin(5*t)\n"
-                                "0 = q - (if p > 0.8 then 2*(p - 0.8) else 0)\ntime 0 to 10\n",
-                                ""));
-  for (int m = 0; m < 8; m++)
-    for (int k = 0; k < 3; k++) {
-      CHECK(fixture_run(&s, methods[m], rtols[k], y) == STEIF_OK);
-      CLOSE_FLOOR(y[0], 0.332529003414, 10 * rtols[k], 1);
-      CLOSE_FLOOR(y[2], 0.201341576562, 10 * rtols[k], 1);
-      CHECK(fabs(y[1]) < 10 * rtols[k]);
-    }
-  fixture_close(&s);
-}
-
 /* A pendulum of index 3 strikes a wall: x = sin a, y = -cos a, a'' = -g sin a, radau:s=7 and gauss:s=5 at 1e-12. */
 static void a_pendulum_strikes_a_wall(void)
 {
@@ -375,12 +290,8 @@ CU_TestInfo tests_of_events[] = {
   {"a ball does not sink", a_ball_does_not_sink_into_the_ground},
   {"a thousand bounces", a_thousand_bounces_find_the_ground_where_it_is},
   {"a tank runs empty", a_tank_runs_empty},
-  {"a valve", a_valve_opens_and_closes},
   {"a pendulum strikes a wall", a_pendulum_strikes_a_wall},
   {"a corner of a constraint", a_corner_of_a_constraint_is_crossed},
-  {"an algebraic unknown crosses once", an_algebraic_unknown_crosses_once},
-  {"a force crosses once", a_force_crosses_once},
-  {"a break and an event", a_break_and_an_event},
   {"kinks", kinks_are_events},
   {"conditions of time", conditions_of_time_are_breaks},
   {"a short pulse", a_short_pulse_is_seen},

@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { VERSION = 2, ORDER = 0x01020304 };
+enum { VERSION = 3, ORDER = 0x01020304 };
 static const char magic[8] = {'s', 't', 'e', 'i', 'f', ' ', 'c', 'k'};
 
 /* The first bytes, the same on every machine but for the order of bytes. */

@@ -40,6 +40,7 @@ static void keep_events(steif_solver *s, stf_image *m)
   stf_keep(m, w->low, count * sizeof *w->low);
   stf_keep(m, w->noise, count * sizeof *w->noise);
   stf_keep(m, w->sign, count * sizeof *w->sign);
+  stf_keep(m, w->coarse, count * sizeof *w->coarse);
   stf_keep(m, w->fired, count * sizeof *w->fired);
   STF_KEEP(m, w->t);
   STF_KEEP(m, w->started);
