@@ -49,7 +49,9 @@ static bool shown(const struct verb *verb, size_t i, const struct option *o)
 void call_help(const struct verb *verb)
 {
   const struct option *o;
-  printf("steif %s %s\n\n%s.\n\n", verb->name, verb->usage, verb->about);
+  printf("steif %s %s\n\n%s.\n", verb->name, verb->usage, verb->about);
+  if (verb->method) printf("Without METHOD: %s.\n", verb->method);
+  putchar('\n');
   for (size_t i = 0; (o = option_at(verb, i)); i++)
     if (shown(verb, i, o)) line(o);
   if (strstr(verb->usage, "METHOD")) fputs(method_help, stdout);
