@@ -76,13 +76,16 @@ static enum stf_auto_method rosenbrock(const steif_problem *p, const steif_optio
   return p->autonomous ? STF_AUTO_RODAS4 : STF_AUTO_RODAS4P2;
 }
 
+/* May events of a DAE make it one of index 3? */
+static bool changes(const steif_problem *p) { return p->dae_index > 0 && p->handle_event; }
+
 /* Does a Rosenbrock method pay for few digits of few unknowns? More digits, and forces that oscillate,
  * need many steps. */
 static bool linearly(const steif_problem *p, const steif_options *o)
 {
   const sunrealtype most = p->n <= TINY ? 1e-2 : p->autonomous ? 1e-4 : 1e-1;
-  if (p->dae_index > 1 || !p->jac || (o->like && stf_spread(o->like)) || !p->y0 || o->ewt ||
-      !stf_above_rounding(p, o, p->y0, 100))
+  if (p->dae_index > 1 || changes(p) || !p->jac || (o->like && stf_spread(o->like)) || !p->y0 ||
+      o->ewt || !stf_above_rounding(p, o, p->y0, 100))
     return false;
   return p->n <= (p->autonomous ? SOME : FEW) && o->rtol >= 0.9 * most;
 }
@@ -113,7 +116,7 @@ static bool jumps(const steif_problem *p, const steif_options *o, int form)
  * steps only, but collocation does so too, which takes complex shifts then: dear where an LU is. */
 static sunrealtype linearly_to(const steif_problem *p, const steif_options *o, int form)
 {
-  if ((form != STEIF_ODE && form != STEIF_MASS) || !p->jac) return INFINITY;
+  if ((form != STEIF_ODE && form != STEIF_MASS) || !p->jac || changes(p)) return INFINITY;
   return p->linear ? cheap(p, o) ? 1e-3 : 1e-9 : cheap(p, o) ? 1e-6 : INFINITY;
 }
 

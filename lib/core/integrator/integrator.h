@@ -178,6 +178,7 @@ void stf_rounding_keep(steif_solver *s, stf_image *m);
 
 /* output/recomputed.c: are unknowns of index 2 and 3 recomputed for output; that of the solution shown. */
 bool stf_recomputes(const steif_solver *s);
+bool stf_recomputes_at(const steif_solver *s, sunrealtype t);
 int stf_recompute_shown(steif_solver *s);
 /* y at t, and y', on the constraints of the mode behind an event: dense output is off them by a tolerance, which short
  * steps would divide by h, and unknowns of index 2 and 3 without a derivative belong to the mode before. *known: they
@@ -190,8 +191,9 @@ int stf_mode_begin(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool
 /* y where it will be put when the mode begins. */
 int stf_mode_show(steif_solver *s, sunrealtype t, N_Vector y);
 int stf_mode_exactly(steif_solver *s, sunrealtype t, N_Vector y);
-/* sensitivity/saltation.c: S+ through that jump, from y (n values) behind the reaction. */
+/* sensitivity/saltation.c: S+ through that jump, from y (n values) behind the reaction; and where y moves by errors alone. */
 int stf_saltation_place(steif_solver *s, const sunrealtype *y);
+int stf_saltation_recompute(steif_solver *s, const sunrealtype *y);
 void stf_mode_keep(steif_solver *s, stf_image *m);
 /* breaks.c: at a break, before the next step, what holds after it is shown. */
 int stf_break_shown(steif_solver *s);

@@ -279,7 +279,7 @@ int stf_dense(steif_solver *s, sunrealtype t, N_Vector y)
   const steif_method *method = s->step.method;
   const stf_step *step = &s->step;
   if (s->engine) return s->engine->dense(&s->run, s->engine_state, t, y);
-  if (stf_event_passed(s)) return stf_event_recall(s, t, y);
+  if (stf_event_passed(s)) return stf_event_recall(s, -1, t, y);
   if (method->dense) return method->dense(step, t, y);
   if (fabs(t - step->t) > 2 * STF_EPS * fabs(t)) return method->dense_by_f(&s->step, t, y);
   stf_copy(&step->system.space, step->y, y);

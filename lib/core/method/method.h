@@ -174,6 +174,8 @@ struct stf_step {
   struct stf_carry *carry; /* derivatives by parameters; NULL: none */
   int undamped;            /* attempts of this step rejected for undamped components */
   sunrealtype undamped_start, undamped_end; /* their deviations there, in tolerances */
+  const char
+    *no_multipliers; /* of a method that does not find those of index 3, its name; else NULL */
 };
 
 typedef struct stf_method_entry {
@@ -213,6 +215,9 @@ int stf_spectral_radius(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunr
 /* step_image.c: what the method in use remembers, and the step with its system; stf_step_keep before. */
 void stf_method_keep(stf_step *s, stf_image *m);
 void stf_step_keep(stf_step *s, stf_image *m);
+
+/* Does the method in use find the multipliers of the index that s->problem has now (error/error_estimate.c)? */
+int stf_check_mode_index(const stf_step *s);
 
 /* y <-> next. */
 void stf_swap(stf_step *s);

@@ -20,7 +20,7 @@ typedef struct state {
   bool have_z, have_F0;
 } state;
 
-static int check(const stf_step *s, const char *name)
+static int check(stf_step *s, const char *name)
 {
   STEIF_CHECK(stf_mass_regular(s->problem), s->ctx, STEIF_UNSUPPORTED,
               "'%s' takes a mass matrix that varies only where it is regular, but for rows and "

@@ -41,7 +41,7 @@ typedef struct stf_detector {
   bool crowded;     /* the run ended since they follow each other ever faster */
   int gathered;     /* restarts in a row with almost no time between them */
   char name[160];   /* of the last event */
-  /* passed.c; passed: NULL: methods have dense output of their own */
+  /* passed.c; passed: of y, then of each column of S; NULL: methods have dense output of their own */
   N_Vector *passed;
   sunrealtype from,
     to; /* the way of the last step up to its event, and whether it is asked for */
@@ -94,7 +94,8 @@ int stf_event_pass_open(steif_solver *s);
 int stf_event_pass(steif_solver *s, sunrealtype t);
 /* Is dense output of the last step to be had from there? At t. */
 bool stf_event_passed(const steif_solver *s);
-int stf_event_recall(const steif_solver *s, sunrealtype t, N_Vector y);
+/* y, or column k >= 0 of S. */
+int stf_event_recall(const steif_solver *s, int k, sunrealtype t, N_Vector y);
 
 /* --- event_handler.c --- */
 /* The event at t: tell, react; low, high: g on both sides of it. */

@@ -27,6 +27,7 @@ static int take_index(steif_solver *s, const stf_repair *found)
   r->count = found->count;
   if (!found->report.number && found->problem.dae_index != 1) return STEIF_OK;
   r->problem.dae_index = found->problem.dae_index;
+  STEIF_TRY(stf_check_mode_index(&s->step));
   r->problem.index = NULL;
   if (!found->problem.index) return STEIF_OK;
   if (!r->mode && !(r->mode = stf_pool_array(s->pool, n, sizeof *r->mode)))
@@ -124,6 +125,20 @@ int stf_mode_exactly(steif_solver *s, sunrealtype t, N_Vector y)
   return follows(s) ? begin(s, t, EXACT, y) : STEIF_OK;
 }
 
+/* y was `before` where S was found. */
+static int recompute(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool *known)
+{
+  if (!s->saltation) return stf_recompute_mode(s, t, y, yp, known);
+  const size_t bytes = (size_t)s->problem->n * sizeof(sunrealtype);
+  sunrealtype *before = stf_allocate(s->ctx, bytes / sizeof *before, sizeof *before);
+  if (!before) return STEIF_NO_MEMORY;
+  memcpy(before, stf_array(y), bytes);
+  int code = stf_recompute_mode(s, t, y, yp, known);
+  if (!code && *known) code = stf_saltation_recompute(s, before);
+  stf_release(s->ctx, before);
+  return code;
+}
+
 int stf_mode_begin(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool *known)
 {
   *known = false;
@@ -131,7 +146,7 @@ int stf_mode_begin(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool
   if (!s->saltation) STEIF_TRY(stf_recompute_mode(s, t, y, yp, known)); /* the mode goes on */
   if (*known) return STEIF_OK;
   STEIF_TRY(begin(s, t, BEGINS, y));
-  return s->saltation ? STEIF_OK : stf_recompute_mode(s, t, y, yp, known);
+  return recompute(s, t, y, yp, known);
 }
 
 void stf_mode_keep(steif_solver *s, stf_image *m)

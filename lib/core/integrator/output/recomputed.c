@@ -88,6 +88,17 @@ bool stf_recomputes(const steif_solver *s)
          s->step.system.storage != STEIF_KRYLOV && !s->step.system.krylov;
 }
 
+/* Equations that hold from the end of the step on do not tell of times before. */
+static bool before_event(const steif_solver *s, sunrealtype t)
+{
+  return s->events && s->events->cut && t < s->end;
+}
+
+bool stf_recomputes_at(const steif_solver *s, sunrealtype t)
+{
+  return stf_recomputes(s) && !before_event(s, t);
+}
+
 /* y at t as the method has it moves where it belongs, or stays where that cannot be told. */
 static int put_in_place(steif_solver *s, sunrealtype t, N_Vector y)
 {
@@ -111,7 +122,7 @@ static int put_in_place(steif_solver *s, sunrealtype t, N_Vector y)
 int stf_recompute_shown(steif_solver *s)
 {
   s->drift = s->corrected = NAN;
-  if (!s->options.recompute || !stf_recomputes(s)) return STEIF_OK;
+  if (!s->options.recompute || !stf_recomputes_at(s, s->t_shown)) return STEIF_OK;
   if (s->shown != s->dense) N_VScale(1, s->shown, s->dense);
   STEIF_TRY(put_in_place(s, s->t_shown, s->dense));
   s->shown = s->dense;
@@ -126,7 +137,7 @@ int steif_output(steif_solver *s, sunrealtype t, N_Vector y)
   else
     STEIF_TRY(steif_dense(s, t, y));
   s->drift = s->corrected = NAN;
-  return stf_recomputes(s) ? put_in_place(s, t, y) : STEIF_OK;
+  return stf_recomputes_at(s, t) ? put_in_place(s, t, y) : STEIF_OK;
 }
 
 int steif_recomputed(const steif_solver *s, sunrealtype *drift, sunrealtype *corrected)

@@ -147,11 +147,11 @@ static int add(steif_solver *s, sunrealtype t, N_Vector y, int column, sunrealty
                sunrealtype *sum)
 {
   stf_quadratures *w = s->quadratures;
-  stf_carry *T = s->step.carry;
+  const stf_carry *T = s->step.carry;
   if (column < 0)
     STEIF_TRY(value(s, t, y, w->g));
   else {
-    STEIF_TRY(T->carrier->dense(T, column, t, w->S));
+    STEIF_TRY(stf_column_dense(s, column, t, w->S));
     STEIF_TRY(slope(s, t, y, w->S, T->parameter[column], w->g));
   }
   for (int i = 0; i < w->count; i++) sum[i] += factor * w->g[i];

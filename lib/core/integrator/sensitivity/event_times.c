@@ -7,9 +7,15 @@
 enum { NODES = 8, PROBES = 6 };
 static const sunrealtype grazing = 1e-6; /* of |g_y f- + g_t| in |g_y| |f-| */
 
-/* The slope of dense output, from values at nine times about t: exact up to degree 8. */
+/* The slope of dense output, from values at nine times about t: exact up to degree 8. Dense output that evaluates f would
+ * do so beyond t, where it may be another: f before t is the slope. */
 static int slope_at(steif_solver *s, sunrealtype t, N_Vector out)
 {
+  if (!s->engine && !s->step.method->dense) {
+    const sunrealtype before = nextafter(t, -INFINITY);
+    const int code = stf_system_rhs(&s->step.system, before, s->saltation->y, out);
+    return code > 0 ? steif_status(s->ctx) : code;
+  }
   sunrealtype node[NODES + 1], weight[NODES + 1];
   const sunrealtype h = s->step.h;
   for (int j = 0; j <= NODES; j++) {
@@ -29,13 +35,13 @@ static int slope_at(steif_solver *s, sunrealtype t, N_Vector out)
 int stf_saltation_look(steif_solver *s, sunrealtype t)
 {
   stf_saltation *w = s->saltation;
-  stf_carry *T = s->step.carry;
+  const stf_carry *T = s->step.carry;
   w->t = t;
   STEIF_TRY(stf_dense(s, t, w->y));
   STEIF_TRY(slope_at(s, t, w->slope));
   for (int k = 0; k < stf_columns(s); k++)
     if (t != s->step.t)
-      STEIF_TRY(T->carrier->dense(T, k, t, w->S[k]));
+      STEIF_TRY(stf_column_dense(s, k, t, w->S[k]));
     else
       stf_copy(&s->step.system.space, T->S[k], w->S[k]);
   return STEIF_OK;

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static int put(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
+int stf_recomputed(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
 {
   steif_start start;
   const steif_point at = {.y = stf_array(y), .t = t};
@@ -17,7 +17,7 @@ static int put(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
   return code == STEIF_NO_MEMORY || !code ? code : STEIF_RETRY;
 }
 
-/* found = dC; v: four more vectors. */
+/* found = dC; v: five more vectors. */
 static int along(steif_solver *s, sunrealtype t, int k, N_Vector S, N_Vector found, N_Vector *v)
 {
   stf_saltation here = {.y = v[0], .point = v[1], .t = t}, *const own = s->saltation;
@@ -28,7 +28,7 @@ static int along(steif_solver *s, sunrealtype t, int k, N_Vector S, N_Vector fou
     STEIF_TRY(steif_dense(s, t, v[0]));
   const bool before = stf_silence(s->ctx, true);
   s->saltation = &here;
-  const int code = stf_along(s, put, &line, found, v + 2);
+  const int code = stf_along(s, stf_recomputed, &line, found, v + 2);
   s->saltation = own;
   stf_silence(s->ctx, before);
   return code;
@@ -38,11 +38,11 @@ static int along(steif_solver *s, sunrealtype t, int k, N_Vector S, N_Vector fou
 int steif_sensitivity_output(steif_solver *s, sunrealtype t, int k, N_Vector dy)
 {
   STEIF_TRY(steif_sensitivity(s, t, k, dy));
-  if (!stf_recomputes(s)) return STEIF_OK;
+  if (!stf_recomputes_at(s, t)) return STEIF_OK;
   stf_pool *pool = stf_pool_new(s->ctx);
-  N_Vector *v = pool ? stf_pool_vectors(pool, 5, dy) : NULL;
-  int code = v ? along(s, t, k, dy, v[4], v) : STEIF_NO_MEMORY;
-  const sunrealtype *found = code ? NULL : stf_array(v[4]);
+  N_Vector *v = pool ? stf_pool_vectors(pool, 6, dy) : NULL;
+  int code = v ? along(s, t, k, dy, v[5], v) : STEIF_NO_MEMORY;
+  const sunrealtype *found = code ? NULL : stf_array(v[5]);
   for (sunindextype i = 0; found && i < s->problem->n; i++)
     if (s->problem->index[i] > 1) stf_array(dy)[i] = found[i];
   if (code == STEIF_RETRY) steif_forget(s->ctx);

@@ -70,6 +70,7 @@ int stf_saltation_open(steif_solver *s)
   s->saltation = NULL;
   if (!s->step.carry) return STEIF_OK;
   if (!s->problem->event && s->problem->break_count == 0) return STEIF_OK;
+  STEIF_TRY(stf_breaks_check(s));
   STEIF_TRY(stf_saltation_claim(s));
   return by_reset(s) ? STEIF_OK
                      : stf_saltation_remember(s, "sensitivities need parameters.reset, or");
@@ -162,14 +163,27 @@ static int by_callback(steif_solver *s, int k)
   return STEIF_OK;
 }
 
-/* Is anything to be differentiated? Handlers tell when they are called. */
-static int restarts(steif_solver *s, sunrealtype t, bool *yes)
+/* What is the wish of the handler? It tells when it is called; STEIF_CONTINUE: nothing is to be differentiated. */
+static int ask_wish(steif_solver *s, sunrealtype t, int *wish)
 {
   stf_saltation *w = s->saltation;
   w->asked = false, w->t = t;
   const int code = reaction(s, t, s->events->after, w->r[0]);
-  *yes = !code && w->wish == STEIF_RESTART;
+  *wish = code ? STEIF_CONTINUE : w->wish;
   return code == STEIF_RETRY ? STEIF_OK : code; /* it fails: its own call will say so */
+}
+
+/* Timers that fire have gone on to their next time behind the handler. A time without a derivative is told when somebody
+ * asks for it. */
+static int final_times(steif_solver *s, sunrealtype t)
+{
+  const bool before = stf_silence(s->ctx, true);
+  const int code = stf_saltation_times(s, t);
+  stf_silence(s->ctx, before);
+  if (code != STEIF_UNSUPPORTED) return code;
+  s->saltation->known = false;
+  steif_forget(s->ctx);
+  return STEIF_OK;
 }
 
 int stf_saltation_before(steif_solver *s, sunrealtype t)
@@ -177,12 +191,13 @@ int stf_saltation_before(steif_solver *s, sunrealtype t)
   const steif_problem *p = s->problem;
   stf_saltation *w = s->saltation;
   const bool callback = by_reset(s);
-  bool yes = true;
+  int wish = STEIF_RESTART;
   if ((!callback || w->keeper) && w->bytes)
     STEIF_CHECK(p->save(w->bytes, p->user) == w->size, s->ctx, STEIF_CALLBACK,
                 "save of problem '%s' changed its length at t = %.12g", p->name, t);
-  if (!callback) STEIF_TRY(restarts(s, t, &yes));
-  if (!yes) return w->keeper ? stf_transition_pass(s) : STEIF_OK;
+  if (!callback) STEIF_TRY(ask_wish(s, t, &wish));
+  if (wish == STEIF_FINISH) STEIF_TRY(final_times(s, t));
+  if (wish != STEIF_RESTART) return w->keeper ? stf_transition_pass(s) : STEIF_OK;
   STEIF_TRY(stf_saltation_times(s, t));
   STEIF_TRY(stf_quadrature_before(s, t, w->y));
   for (int k = 0; k < stf_columns(s); k++)
@@ -216,6 +231,26 @@ int stf_saltation_place(steif_solver *s, const sunrealtype *y)
     const int code = stf_along(s, placed, &line, w->r[0], w->r + 1);
     if (code) return no_derivative(s, code, T->parameter[k], "the jump to the new equations");
     N_VLinearSum(1, w->direction, 1, w->r[0], w->jump[k]);
+  }
+  return STEIF_OK;
+}
+
+/* S of dense output is off the constraints differentiated by its errors, which the first steps of index 2 and 3 divide by
+ * their lengths. Where differences do not tell it stays so. */
+int stf_saltation_recompute(steif_solver *s, const sunrealtype *y)
+{
+  stf_saltation *w = s->saltation;
+  const stf_carry *T = s->step.carry;
+  memcpy(stf_array(w->y), y, (size_t)s->problem->n * sizeof *y);
+  for (int k = 0; k < stf_columns(s); k++) {
+    const stf_line line = {.dt = w->tau[k], .dy = w->jump[k], .k = T->parameter[k]};
+    const int code = stf_along(s, stf_recomputed, &line, w->r[0], w->r + 1);
+    if (code == STEIF_RETRY)
+      steif_forget(s->ctx);
+    else if (code)
+      return code;
+    else
+      N_VScale(1, w->r[0], w->jump[k]);
   }
   return STEIF_OK;
 }
@@ -305,6 +340,8 @@ int stf_saltation_after(steif_solver *s, sunrealtype t)
   for (int k = 0; k < stf_columns(s); k++)
     stf_axpy(&s->step.system.space, -w->tau[k], w->after, w->jump[k]);
   STEIF_TRY(stf_saltation_jumps(s, nextafter(t, INFINITY), d->after));
+  if (s->problem->dae_index > 1 && !s->step.system.krylov)
+    STEIF_TRY(stf_columns_constrain(s, nextafter(t, INFINITY), d->after, w->after, w->jump));
   w->pending = true;
   if (w->keeper) STEIF_TRY(stf_transition_after(s, d->after));
   return stf_quadrature_after(s, t, d->after, w->tau);

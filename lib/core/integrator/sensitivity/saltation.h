@@ -53,8 +53,9 @@ int stf_undifferentiable(steif_solver *s, int i, int code);
 /* saltation.c: with no columns where S is not carried; `bytes` where the problem remembers something. */
 int stf_saltation_claim(steif_solver *s);
 int stf_saltation_remember(steif_solver *s, const char *who);
-/* saltation_breaks.c: d breaks[i]/dp_k. */
+/* saltation_breaks.c: d breaks[i]/dp_k; given steps meet no breaks, and none may move. */
 int stf_break_slope(steif_solver *s, int i, int k, sunrealtype *slope);
+int stf_breaks_check(steif_solver *s);
 /* y' of a run that is at (t, y); that at the first time behind t into `after`, or a known one. */
 int stf_saltation_slope(steif_solver *s, sunrealtype t, N_Vector y, N_Vector slope);
 int stf_saltation_behind(steif_solver *s, sunrealtype t, N_Vector y, N_Vector known);
@@ -79,9 +80,16 @@ typedef struct stf_line {
   N_Vector dy;
   int k;
 } stf_line;
+/* recomputed_columns.c: out = y on all constraints, unknowns of index 2 and 3 computed from the others. */
+int stf_recomputed(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out);
+/* constrained_columns.c: S at (t, y, yp) onto the algebraic equations differentiated, of at most STEIF_DIAGNOSE_LARGEST
+ * unknowns. */
+int stf_columns_constrain(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, N_Vector *S);
+/* Column k of S inside the last step. */
+int stf_column_dense(steif_solver *s, int k, sunrealtype t, N_Vector S);
 typedef int (*stf_quantity_at)(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out);
-/* out = the derivative along the line at the event, by central differences of two lengths. STEIF_RETRY: shorter
- * ones do not agree, or there are no values; the sentence is the caller's. work: two more vectors. */
+/* out = the derivative along the line at the event, by central differences of three lengths. STEIF_RETRY: shorter
+ * ones do not agree, or there are no values; the sentence is the caller's. work: three more vectors. */
 int stf_along(steif_solver *s, stf_quantity_at what, const stf_line *line, N_Vector out,
               N_Vector *work);
 /* jump = dy + (derivative of `what` along (tau, dy, e_k)), dy = S- + f- tau; what options.reinitialise does behind a

@@ -18,6 +18,26 @@ int stf_break_slope(steif_solver *s, int i, int k, sunrealtype *slope)
   return STEIF_OK;
 }
 
+int stf_breaks_check(steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const stf_carry *T = s->step.carry;
+  if (s->step.adaptive || !p->parameters || !p->parameters->break_slope) return STEIF_OK;
+  for (int i = 0; i < p->break_count; i++)
+    for (int k = 0; k < (T ? T->count : p->parameters->count); k++) {
+      const int number = T ? T->parameter[k] : k;
+      sunrealtype slope;
+      STEIF_TRY(stf_break_slope(s, i, number, &slope));
+      STEIF_CHECK(slope == 0 || !(p->breaks[i] > p->t0 && p->breaks[i] < s->t1), s->ctx,
+                  STEIF_UNSUPPORTED,
+                  "the break of problem '%s' at t = %.12g moves with parameter %d, and given "
+                  "steps do not end at breaks: their results do not show its derivative; let "
+                  "steps be chosen",
+                  p->name, p->breaks[i], number + 1);
+    }
+  return STEIF_OK;
+}
+
 /* Its time, where it depends on p. */
 static int break_times(steif_solver *s, int i, sunrealtype *tau)
 {

@@ -176,12 +176,18 @@ int stf_column(const steif_solver *s, int k, int *i)
   return STEIF_OK;
 }
 
+int stf_column_dense(steif_solver *s, int k, sunrealtype t, N_Vector S)
+{
+  stf_carry *T = s->step.carry;
+  return stf_event_passed(s) ? stf_event_recall(s, k, t, S) : T->carrier->dense(T, k, t, S);
+}
+
 int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy)
 {
   int i = 0;
   if (s && s->run.columns.count) return stf_engine_carried(s, t, k, dy);
   STEIF_TRY(stf_column(s, k, &i));
-  stf_carry *T = s->step.carry;
+  const stf_carry *T = s->step.carry;
   STEIF_CHECK(dy && N_VGetLength(dy) == s->problem->n, s->ctx, STEIF_BAD_INPUT,
               "a vector of %lld components is needed for dy/dp", (long long)s->problem->n);
   const stf_step *step = &s->step;
@@ -190,7 +196,7 @@ int steif_sensitivity(steif_solver *s, sunrealtype t, int k, N_Vector dy)
               "t = %.17g lies outside the last step [%.17g, %.17g]", t, step->t - step->h,
               s->end);
   const bool behind = s->saltation && s->saltation->pending && t >= s->end;
-  if (t != step->t && !behind) return T->carrier->dense(T, i, t, dy);
+  if (t != step->t && !behind) return stf_column_dense(s, i, t, dy);
   N_VScale(1, behind ? s->saltation->jump[i] : T->S[i], dy);
   return STEIF_OK;
 }

@@ -145,12 +145,14 @@ static int jump(steif_solver *s, stf_carry *T, const stf_point_columns *c)
   return STEIF_OK;
 }
 
-static bool jumps(const steif_solver *s)
+static bool may_jump(const steif_solver *s)
 {
   const stf_system *system = &s->step.system;
-  return system->form != STEIF_ODE && !system->linear && !system->krylov && s->step.adaptive &&
-         s->problem->dae_index == 1;
+  return system->form != STEIF_ODE && !system->linear && !system->krylov && s->step.adaptive;
 }
+
+/* The index of a mode is that of the equations that hold now. */
+static bool jumps(const steif_solver *s) { return may_jump(s) && s->problem->dae_index == 1; }
 
 int stf_start_jumps(steif_solver *s, stf_carry *T)
 {
@@ -172,7 +174,7 @@ int stf_saltation_jumps(steif_solver *s, sunrealtype t, N_Vector y)
   const stf_saltation *w = s->saltation;
   const stf_point_columns c = {
     .t = t, .y = y, .yp = w->after, .S = w->jump, .found = w->found, .before = w->found_before};
-  if (!w->found) return STEIF_OK;
+  if (!w->found || !jumps(s)) return STEIF_OK;
   const int code = jump(s, s->step.carry, &c);
   return code == STEIF_RETRY ? STEIF_OK : code;
 }
@@ -181,7 +183,7 @@ int stf_saltation_jumps_claim(steif_solver *s)
 {
   stf_saltation *w = s->saltation;
   const int count = stf_columns(s);
-  if (count == 0 || !jumps(s)) return STEIF_OK;
+  if (count == 0 || !may_jump(s)) return STEIF_OK;
   w->found = stf_pool_vectors(s->pool, count, s->step.y);
   w->found_before = stf_pool_vectors(s->pool, count, s->step.y);
   return w->found && w->found_before ? STEIF_OK : STEIF_NO_MEMORY;

@@ -10,6 +10,7 @@
 int stf_transitions_watch(steif_solver *s, const stf_transition_keeper *keeper)
 {
   if (s->engine || !(s->problem->event || s->problem->break_count > 0)) return STEIF_OK;
+  STEIF_TRY(stf_breaks_check(s));
   if (!s->saltation) STEIF_TRY(stf_saltation_claim(s));
   s->saltation->keeper = keeper;
   return stf_saltation_remember(s, "going back through them needs");

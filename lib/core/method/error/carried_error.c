@@ -35,7 +35,6 @@ int stf_carried_open(stf_step *s, sunrealtype rounding, sunrealtype all, bool ex
   c->exact = exact;
   c->loose = c->always ? MOST : 0;
   c->growth = 1;
-  c->summed = s->problem->dae_index > (c->goal > 0 ? 2 : 1);
   c->least = fmin(MOST, rounding / s->options->rtol);
   c->whole = 1 / s->options->rtol;
   c->e = stf_pool_vector(s->pool, s->y);
@@ -169,6 +168,12 @@ static bool due(const stf_step *s, const stf_carried *c, sunrealtype sigma)
   return (c->time + s->h_try) * sigma > pause * LONGEST;
 }
 
+/* Is e not carried on, of the index that holds now? Events change it. */
+static bool summed(const stf_step *s, const stf_carried *c)
+{
+  return s->problem->dae_index > (c->goal > 0 ? 2 : 1);
+}
+
 /* Steps on problems of index 3, and of index 2 where no goal is set, are all remembered: R does not carry on
  * the errors of their hidden constraints. */
 void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector error,
@@ -181,7 +186,7 @@ void stf_carried_add(stf_step *s, stf_carried *c, sunrealtype sigma, N_Vector er
   c->jumped = c->jumped || s->crossed;
   c->remembered++;
   c->sum += c->goal > 0 ? norm : largest(s, c, error);
-  if (c->summed) {
+  if (summed(s, c)) {
     c->size = c->sum;
     c->loose = c->always ? share(s, c) : 0;
     return;

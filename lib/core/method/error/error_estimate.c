@@ -267,12 +267,19 @@ int stf_test_undamped(stf_step *s, N_Vector first, sunrealtype times, bool diver
   return STEIF_OK;
 }
 
-int stf_check_index(const stf_step *s, const char *name)
+int stf_check_mode_index(const stf_step *s)
 {
+  const char *name = s->no_multipliers;
   STEIF_CHECK(
-    !s->adaptive || s->problem->dae_index < 3, s->ctx, STEIF_UNSUPPORTED,
+    !name || !s->adaptive || s->problem->dae_index < 3, s->ctx, STEIF_UNSUPPORTED,
     "'%s' cannot choose steps for problem '%s' of index %d, whose multipliers it does "
     "not find: use radau, or give steps with h",
     name, s->problem->name, s->problem->dae_index);
   return STEIF_OK;
+}
+
+int stf_check_index(stf_step *s, const char *name)
+{
+  s->no_multipliers = name;
+  return stf_check_mode_index(s);
 }

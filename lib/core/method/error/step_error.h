@@ -87,7 +87,6 @@ typedef struct stf_carried {
   int first;         /* steps before anything is known; 0: as many as multistep methods take */
   stf_by_E *product; /* NULL: by the pencil, ... */
   stf_by_shift *solve; /* ... as is this */
-  bool summed;         /* e is not carried on */
   bool rises;          /* e has grown by much at some time */
   bool forgets;        /* the errors of few steps were remembered at some time */
   bool jumped; /* at an event, e as well, by the derivative of what is done there: not known */
@@ -195,7 +194,7 @@ int stf_filter_rounds(const stf_step *s);
 
 /* Refuses chosen steps on problems of index 3: methods whose stages have order 1 or
  * that do not damp do not find the multipliers there, and no estimate of theirs would tell. */
-int stf_check_index(const stf_step *s, const char *name);
+int stf_check_index(stf_step *s, const char *name);
 /* What Newton's iteration of a method of order p may leave of velocities and multipliers of index 3, which
  * h^(index - 1) makes small in its norm: N ~ rtol^(-1/p) steps add it up to N^2 of it in positions. */
 sunrealtype stf_multipliers_known(sunrealtype rtol, int p);

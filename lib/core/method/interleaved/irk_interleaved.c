@@ -65,6 +65,15 @@ static int open_derivatives(stf_step *s)
   return stf_stage_polynomial_open(s->pool, e->table, e->B, &e->u);
 }
 
+/* What Newton's iteration may leave, of the index that holds now: events change it. */
+static double left(const stf_step *s)
+{
+  if (s->options->newton > 0) return s->options->newton;
+  return s->problem->dae_index < 3
+           ? 1e-4
+           : 10 * stf_multipliers_known(s->options->rtol, s->table->order);
+}
+
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 {
   (void)spec;
@@ -83,9 +92,6 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
   for (int j = 0; j < e->s; j++) stf_irk_interleaved_basis(e, j);
   e->itmax =
     s->options->iterations ? s->options->iterations : 7 + (e->s > 3 ? 5 * (e->s - 3) / 2 : 0);
-  e->kappa = s->options->newton > 0 ? s->options->newton : 1e-4;
-  if (s->problem->dae_index >= 3 && !(s->options->newton > 0))
-    e->kappa = 10 * stf_multipliers_known(s->options->rtol, table->order);
   e->eta = e->eta_of = 1, e->J_new = true;
   stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
   e->carried.product = stf_irk_interleaved_product, e->carried.solve = stf_irk_interleaved_damp;
@@ -100,6 +106,7 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
 static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
+  if (s->restart || s->count == 0) e->kappa = left(s);
   stf_irk_interleaved_predict(s, e, h);
   STEIF_TRY(stf_irk_interleaved_prepare(s, h));
   STEIF_TRY(stf_irk_interleaved_iterate(s, h));

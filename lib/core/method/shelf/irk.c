@@ -59,8 +59,16 @@ static int blend(stf_step *s)
   e->filter = re / (re * re + im * im);
   newton->shift_ratio_most = 2, newton->renew_with_factors = true, newton->stale_rate = 0.4;
   if (!s->options->iterations) newton->iterations = 14;
-  if (!(s->options->newton > 0) && s->problem->dae_index < 2) newton->tolerance = 0.03;
   return stf_newton_blend(s->pool, s->table, newton);
+}
+
+/* What the iteration may leave, of the index that holds now: events change it. */
+static void aim(stf_step *s)
+{
+  const bool blended = s->newton.gamma > 0;
+  stf_stages_known(s, blended ? 0 : s->table->order);
+  if (blended && !(s->options->newton > 0) && s->problem->dae_index < 2)
+    s->newton.tolerance = 0.03;
 }
 
 static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
@@ -83,7 +91,6 @@ static int open(stf_step *s, const steif_spec *spec, const steif_table *table)
               table->name);
   const bool factors = s->system.storage == STEIF_SPARSE && !s->system.krylov,
              blended = s->adaptive && table->s > 1 && !s->system.linear && factors;
-  stf_stages_known(s, blended ? 0 : table->order);
   if (blended) STEIF_TRY(blend(s));
   stf_estimate_open(&e->higher_order, table, &transform, s->options->rtol);
   return STEIF_OK;
@@ -131,6 +138,7 @@ static int attempt(stf_step *s, sunrealtype h)
 {
   state *e = s->state;
   const stf_space *space = &s->system.space;
+  aim(s);
   predict(s, h);
   STEIF_TRY(solve(s, h));
   if (e->lost) {
