@@ -222,6 +222,10 @@ int stf_quadrature_step(steif_solver *s);
 int stf_quadrature_to(steif_solver *s, sunrealtype t);
 /* The larger of *e and their errors in the attempt, in tolerances. */
 int stf_quadrature_test(steif_solver *s, sunrealtype h, sunrealtype *e);
+/* low_orders.c: does an integrand read what the method knows badly? */
+typedef int (*stf_integrand)(steif_solver *s, sunrealtype t, N_Vector y, sunrealtype *g);
+int stf_quadrature_orders(steif_solver *s, stf_integrand value, N_Vector moved, int count,
+                          sunrealtype *g, sunrealtype *other);
 int stf_quadrature_before(steif_solver *s, sunrealtype t, N_Vector y);
 int stf_quadrature_after(steif_solver *s, sunrealtype t, N_Vector y, const sunrealtype *tau);
 

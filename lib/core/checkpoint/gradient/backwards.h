@@ -164,6 +164,9 @@ int stf_matrices_for(stf_backwards *B, bool second, stf_system **system);
 
 /* functional.c: B->g, B->gy and B->gp of the integrand, or of what is said of the end, at (t, y). */
 int stf_functional_at(stf_backwards *B, int at_end, sunrealtype t, N_Vector y);
+/* end_unknowns.c: has the step what B->gy asks for, inside and at its end? */
+int stf_check_inside_unknowns(stf_backwards *B, const steif_solver *s);
+int stf_check_end_unknowns(stf_backwards *B, const steif_solver *s);
 /* to += c g of the integrands; and B->g := derivatives by t of what is said of the end. */
 int stf_functional_add(stf_backwards *B, sunrealtype c, sunrealtype t, N_Vector y,
                        sunrealtype *to);

@@ -180,9 +180,11 @@ int stf_journey_end(stf_journey *J)
   stf_backwards *B = &J->back;
   J->ended = true;
   for (int i = 0; i < B->count; i++) B->nu[i] = 1;
+  STEIF_TRY(stf_check_inside_unknowns(B, J->runner));
   if (!B->functional->end) return STEIF_OK;
   if (B->tangent) STEIF_TRY(bend_end(B, &J->runner->step));
   STEIF_TRY(stf_functional_at(B, 1, J->runner->end, stf_last(J->runner)));
+  STEIF_TRY(stf_check_end_unknowns(B, J->runner));
   for (int i = 0; i < B->count; i++) {
     J->end[i] = B->value[i] = B->g[i];
     stf_copy(&B->space, B->gy[i], B->lambda[i]);

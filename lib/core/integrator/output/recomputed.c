@@ -99,6 +99,20 @@ bool stf_recomputes_at(const steif_solver *s, sunrealtype t)
   return stf_recomputes(s) && !before_event(s, t);
 }
 
+/* Cubics by slopes of stages of order 1, which of index 2 and 3 have few digits: what is shown is off by as much. */
+static int check_drift(const steif_solver *s, sunrealtype t, sunrealtype drift)
+{
+  const steif_table *T = s->step.table;
+  STEIF_CHECK(
+    drift <= furthest || !T || T->stage_order > 1 || t == s->step.t, s->ctx,
+    STEIF_NOT_CERTIFIED,
+    "the solution of problem '%s' that '%s' has inside its steps, at t = %.12g, is %.2g "
+    "tolerances off the constraints: take radau or bdf for times between the steps of "
+    "problems of index %d",
+    s->problem->name, s->method, t, drift, s->problem->dae_index);
+  return STEIF_OK;
+}
+
 /* y at t as the method has it moves where it belongs, or stays where that cannot be told. */
 static int put_in_place(steif_solver *s, sunrealtype t, N_Vector y)
 {
@@ -115,7 +129,8 @@ static int put_in_place(steif_solver *s, sunrealtype t, N_Vector y)
     s->drift = drift, s->corrected = corrected;
   }
   steif_start_clear(&start);
-  if (code) steif_forget(s->ctx);
+  if (!code) return check_drift(s, t, drift);
+  steif_forget(s->ctx);
   return STEIF_OK;
 }
 

@@ -214,7 +214,7 @@ int stf_quadrature_step(steif_solver *s)
     if (!served) STEIF_TRY(along(s, s->end, column, sum_of(w, column)));
   }
   w->t = s->end;
-  return STEIF_OK;
+  return stf_quadrature_orders(s, value, w->moved, w->count, w->g, w->other);
 }
 
 /* ---- test ------------------------------------------------------------------------------------- */

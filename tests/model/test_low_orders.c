@@ -1,0 +1,99 @@
+/* test_low_orders.c: unknowns that a method has to a few digits only are not shown, integrated or differentiated.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "fixture.h"
+#include <math.h>
+#include <steif/gradient.h>
+#include <steif/quadrature.h>
+
+/* x = A sin(w t), lam = m A w cos(w t) + A sin(w t), of index 2. */
+static const char forced[] =
+  "param A = 1.2, w = 2, m = 0.5\nstate x = 0, lam\nm*x' = -x + lam\n"
+  "0 = x - A*sin(w*t)\ntime 0 to 3\n";
+
+static int last(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  (void)t, (void)user;
+  g[0] = NV_Ith_S(y, NV_LENGTH_S(y) - 1);
+  return 0;
+}
+
+static int first(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  (void)t, (void)user;
+  g[0] = NV_Ith_S(y, 0);
+  return 0;
+}
+
+/* dJ/dA of what `functional` says; NAN: refused as unsupported. */
+static double by_amplitude(fixture *s, const char *method, const steif_functional *functional)
+{
+  steif_options o = steif_defaults();
+  steif_gradient g = {0};
+  const int code = steif_gradient_find(s->ctx, &s->p, method, &o, functional, &g);
+  CHECK(code == STEIF_OK || code == STEIF_UNSUPPORTED);
+  const double d = code ? NAN : g.dp[0];
+  steif_gradient_free(s->ctx, &g);
+  return d;
+}
+
+static void gradients_of_ends_and_integrals(void)
+{
+  static const char *const poor[] = {"dirk:hw43", "gauss:s=2", "gauss:s=3"};
+  static const char *const good[] = {"radau:s=3", "radau:s=5", "bdf"};
+  const steif_functional lam = {.count = 1, .end = last}, x = {.count = 1, .end = first},
+                         sum = {.count = 1, .integrand = last};
+  const double dlam = 0.5 * 2 * cos(6) + sin(6), dx = sin(6),
+               dsum = 0.5 * sin(6) + (1 - cos(6)) / 2;
+  fixture s;
+  CU_ASSERT_FATAL(!fixture_text(&s, forced, ""));
+  for (int m = 0; m < 3; m++) {
+    CHECK(isnan(by_amplitude(&s, poor[m], &lam)));
+    CLOSE(by_amplitude(&s, poor[m], &x), dx, 1e-4);
+    CLOSE(by_amplitude(&s, good[m], &lam), dlam, 1e-4);
+    CLOSE(by_amplitude(&s, good[m], &sum), dsum, 1e-4);
+  }
+  CHECK(isnan(by_amplitude(&s, "dirk:hw43", &sum)));
+  CLOSE(by_amplitude(&s, "gauss:s=3", &sum), dsum, 1e-3); /* its stages have lam */
+  fixture_close(&s);
+}
+
+static void integrals_beside_runs(void)
+{
+  static const steif_quadrature sum = {.count = 1, .value = last},
+                                of_x = {.count = 1, .value = first};
+  fixture s;
+  CU_ASSERT_FATAL(!fixture_text(&s, forced, ""));
+  for (int both = 0; both < 2; both++) {
+    s.p.quadrature = both ? &of_x : &sum;
+    steif_options o = steif_defaults();
+    steif_solver *solver = steif_solver_new(s.ctx, &s.p, "dirk:hw43", &o);
+    CHECK(solver && steif_solve_to(solver, 3) == (both ? STEIF_OK : STEIF_UNSUPPORTED));
+    steif_solver_free(&solver);
+  }
+  fixture_close(&s);
+}
+
+/* lam at times between the steps of two methods with stages of order 2, and of one without. */
+static void output_between_steps(void)
+{
+  static const char *const methods[] = {"dirk:trbdf2", "radau:s=3", "dirk:hw43"};
+  fixture s;
+  CU_ASSERT_FATAL(!fixture_text(&s, forced, ""));
+  for (int m = 0; m < 3; m++) {
+    steif_options o = steif_defaults();
+    o.recompute = 1;
+    steif_solver *solver = steif_solver_new(s.ctx, &s.p, methods[m], &o);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(solver);
+    const int code = steif_solve_to(solver, 0.75);
+    CHECK(code == (m < 2 ? STEIF_OK : STEIF_NOT_CERTIFIED));
+    if (m < 2) CLOSE(NV_Ith_S(steif_solution(solver), 1), 1.2 * (cos(1.5) + sin(1.5)), 1e-4);
+    steif_solver_free(&solver);
+  }
+  fixture_close(&s);
+}
+
+CU_TestInfo tests_of_low_orders[] = {
+  {"gradients of ends and integrals", gradients_of_ends_and_integrals},
+  {"integrals beside runs", integrals_beside_runs},
+  {"output between steps", output_between_steps},
+  CU_TEST_INFO_NULL};
