@@ -31,7 +31,8 @@ struct steif_parameters {
   const sunrealtype *scale; /* typical |p_k|; NULL: |p_k|, and 1 where that is 0 */
   /* out = dF/dp_k, k from 0; NULL: differences of F. Returns as all callbacks do. */
   int (*dFdp)(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user);
-  /* dy0/dp_k; NULL: 0, or differences of problem.start where that is given. */
+  /* dy0/dp_k; NULL: 0, or differences of problem.start where that is given. Where both are there, one that contradicts
+   * the differences of the other beyond their errors is STEIF_BAD_INPUT (of DAEs of index 1, in E dy0/dp_k). */
   int (*start)(int k, N_Vector S0, void *user);
   /* out_k += w . dF/dp_k for all k at once; NULL: one k after the other. */
   int (*dFdp_transposed)(sunrealtype t, N_Vector y, N_Vector yp, N_Vector w, sunrealtype *out,

@@ -205,6 +205,8 @@ int stf_sensitivity_open(steif_solver *s);
 /* engine_columns.c: the same of an engine that carries them. */
 int stf_engine_carry(steif_solver *s);
 int stf_engine_carried(steif_solver *s, sunrealtype t, int k, N_Vector dy);
+/* probe_starts.c: STEIF_BAD_INPUT where dy0/dp_k of y' = f is given, and is not the derivative of problem.start. */
+int stf_probe_start(steif_context *ctx, const steif_problem *p, int k, N_Vector given);
 /* saltation.c: them through events and breaks, s->saltation, where there are any. Another event has come, at t; before
  * handle_event is called there; after it, when the run restarts; and when the next step begins. Before and after break i. */
 int stf_saltation_open(steif_solver *s);

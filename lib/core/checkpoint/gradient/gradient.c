@@ -233,6 +233,7 @@ static int by_parameter(stf_journey *J, int k)
 {
   stf_backwards *B = &J->back;
   STEIF_TRY(as_status(B->ctx, steif_parameter_start(B->ctx, B->problem, k, B->work)));
+  STEIF_TRY(stf_probe_start(B->ctx, B->problem, k, B->work));
   for (int i = 0; i < B->count; i++)
     J->out->dp[i * B->P + k] = B->mu[i * B->P + k] + N_VDotProd(B->work, B->lambda[i]);
   if (!J->line) return STEIF_OK;

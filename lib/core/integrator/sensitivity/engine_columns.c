@@ -41,7 +41,8 @@ static int choose(steif_solver *s, int i)
               q->value[k], typical);
   c->parameter[i] = k, c->scale[i] = typical > 0 ? typical : 1;
   const int code = steif_parameter_start(s->ctx, s->problem, k, c->S[i]);
-  return code > 0 ? steif_status(s->ctx) : code;
+  if (code) return code > 0 ? steif_status(s->ctx) : code;
+  return stf_probe_start(s->ctx, s->problem, k, c->S[i]);
 }
 
 int stf_engine_carry(steif_solver *s)

@@ -154,6 +154,7 @@ int stf_sensitivity_open(steif_solver *s)
                 s->problem->name);
   }
   STEIF_TRY(stf_probe_slopes(s, T));
+  STEIF_TRY(stf_probe_starts(s, T));
   STEIF_TRY(stf_start_derivatives(s, T));
   STEIF_TRY(stf_start_jumps(s, T));
   STEIF_TRY(check_start(s, T));
