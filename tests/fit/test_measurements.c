@@ -38,6 +38,9 @@ static void a_good_file(void)
   CHECK(!read_text(ctx, "t,sd_y1,y1\n0,0.25,1\n1,,\n2,0.75,2\n", 0, NULL, &d));
   CHECK(d.count == 2 && d.sd && d.sd[0] == 0.25 && d.sd[1] == 0.75 && d.value[1] == 2);
   steif_measurements_free(ctx, &d);
+  CHECK(!read_text(ctx, "\xEF\xBB\xBFt,y1\r\n0,1\r\n2,5\r\n", 0, NULL, &d)); /* Excel */
+  CHECK(d.count == 2 && d.t[1] == 2 && d.value[1] == 5);
+  steif_measurements_free(ctx, &d);
   CHECK(!read_text(ctx, "t,y1\n0,1\n", 0, NULL, &d) && !d.sd);
   steif_measurements_free(ctx, &d);
   CHECK(!d.t);

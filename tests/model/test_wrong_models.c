@@ -189,6 +189,9 @@ static void of_files_beside(void)
   beside(table, "f.csv", "t {s},T {K}\n0,1\n1,2\n", NULL,
          "m.steif:2:7: time is in {min} (line 4), the column 't {s}' of f.csv in {s}; convert "
          "one");
+  beside(table, "f.csv", "\xEF\xBB\xBFt {s},T {K}\n0,1\n1,2\n", NULL,
+         "m.steif:2:7: time is in {min} (line 4), the column 't {s}' of f.csv in {s}; convert "
+         "one");
   beside(table, "f.csv", "t {min},T\n0,1\n1,2\n", NULL, NULL);
   beside(table, "f.csv", "t,T {K}\n0,1\n1,2\n", NULL, NULL);
   beside(table, "f.csv", "t,T\n0,1\n1,\"2,5\"\n", NULL,

@@ -77,6 +77,13 @@ FILE *stf_input_open(steif_context *ctx, const char *path)
   return file;
 }
 
+/* The byte order mark that spreadsheets put before UTF-8, where text begins with it: its length. */
+static size_t mark_of(const char *text, size_t size)
+{
+  static const char mark[] = {'\xEF', '\xBB', '\xBF'};
+  return size >= sizeof mark && !memcmp(text, mark, sizeof mark) ? sizeof mark : 0;
+}
+
 /* The file into text[0 .. size-1] and a zero byte behind it. */
 static int fill(steif_context *ctx, const char *path, FILE *file, char *text, size_t size)
 {
@@ -84,7 +91,8 @@ static int fill(steif_context *ctx, const char *path, FILE *file, char *text, si
   const size_t used = fread(text, 1, size, file);
   if (ferror(file)) return refuse(ctx, path);
   text[used] = 0;
-  const size_t length = strlen(text);
+  const size_t length = strlen(text), mark = mark_of(text, used);
+  if (length == used) memmove(text, text + mark, used - mark + 1);
   if (length == used) return STEIF_OK;
   long line = 1;
   for (size_t i = 0; i < length; i++) line += text[i] == '\n';
@@ -124,12 +132,12 @@ char *stf_input_text(steif_context *ctx, const char *path)
   return text;
 }
 
-/* More bytes into the empty chunk; used = 0 at the end of the file. */
+/* More bytes into the empty chunk; used = at at the end of the file. */
 static int refill(stf_lines *l)
 {
   errno = 0;
-  l->at = 0;
   l->used = fread(l->chunk, 1, sizeof l->chunk, l->file);
+  l->at = l->number == 0 ? mark_of(l->chunk, l->used) : 0;
   return l->used == 0 && ferror(l->file) ? refuse(l->ctx, l->path) : STEIF_OK;
 }
 
@@ -139,7 +147,7 @@ int stf_line_next(stf_lines *l, int *more)
   *more = 0;
   for (bool ended = false; !ended;) {
     if (l->at == l->used) STEIF_TRY(refill(l));
-    if (!l->used) break;
+    if (l->at == l->used) break;
     if (!*more) *more = 1, l->number++;
     const char *from = l->chunk + l->at, *end = memchr(from, '\n', l->used - l->at);
     const size_t taken = end ? (size_t)(end - from) : l->used - l->at;

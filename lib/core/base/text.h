@@ -19,7 +19,7 @@ void stf_plain_end(stf_plain *plain);
 
 /* A regular file, open to be read, or for "-" a copy of standard input; NULL with the message set. */
 FILE *stf_input_open(steif_context *ctx, const char *path);
-/* All of a file, ended by a zero byte; refuses zero bytes inside. stf_release it. */
+/* All of a file behind a byte order mark, ended by a zero byte; refuses zero bytes inside. stf_release it. */
 char *stf_input_text(steif_context *ctx, const char *path);
 
 /* The first bytes of a text, fit for a sentence: up to 40, unprintable ones as '?'. */
@@ -30,7 +30,7 @@ const char *stf_input_shown(const char *text, char shown[STF_SHOWN]);
 bool stf_has_data(const char *line);
 const char *stf_next_line(const char *line);
 
-/* Lines of an open file, in order. */
+/* Lines of an open file behind a byte order mark, in order. */
 enum { STF_LINE = 1000, STF_CHUNK = 1 << 15 };
 typedef struct stf_lines {
   steif_context *ctx;
