@@ -68,7 +68,7 @@ enum steif_fit_scale { STEIF_FIT_AUTO, STEIF_FIT_LOG, STEIF_FIT_LINEAR };
 typedef struct steif_fit_options {
   const steif_options *run;   /* of the runs; NULL: rtol 1e-8 */
   int count;                  /* parameters that are fitted: */
-  const int *parameter;       /* numbers from 0; NULL: all */
+  const int *parameter;       /* numbers from 0; NULL: all, count is 0 or that of all */
   const sunrealtype *start;   /* count values to begin with; NULL: those of the problem */
   const sunrealtype *low;     /* count bounds; NULL or -infinity: none */
   const sunrealtype *high;    /* NULL or infinity: none */
@@ -124,7 +124,8 @@ STEIF_EXPORT int steif_fit_find(steif_context *ctx, steif_problem *problem, cons
                                 const steif_fit_options *options, steif_fit *fit);
 STEIF_EXPORT void steif_fit_free(steif_context *ctx, steif_fit *fit);
 
-/* The t with P(|T| <= t) = probability, T of Student's distribution with dof >= 1 degrees of freedom, to 1e-9. */
+/* The t with P(|T| <= t) = probability, in (0, 1), T of Student's distribution with dof >= 1 degrees of freedom, to
+ * 1e-9 of itself. */
 STEIF_EXPORT int steif_student(steif_context *ctx, sunrealtype probability, long dof,
                                sunrealtype *t);
 /* The probability of a value of at least chi2 >= 0 by the chi-square distribution with dof >= 1 degrees of freedom, to

@@ -61,7 +61,11 @@ static void bad_input(void)
   const steif_fit_options two = {.parameter = twice, .count = 2},
                           none = {.parameter = far, .count = 1}, out = {.low = low},
                           log = {.start = minus, .scale = STEIF_FIT_LOG},
-                          few = {.evaluations = -1};
+                          few = {.evaluations = -1}, unnamed = {.count = 1},
+                          negative = {.count = -1}, scale = {.scale = (enum steif_fit_scale)3};
+  refused(p, &d, &unnamed, "bdf", STEIF_BAD_INPUT, "options.count = 1 without");
+  refused(p, &d, &negative, "bdf", STEIF_BAD_INPUT, "options.count = -1 without");
+  refused(p, &d, &scale, "bdf", STEIF_BAD_INPUT, "options.scale = 3");
   refused(&bare, &d, NULL, "bdf", STEIF_BAD_INPUT, "has no parameters");
   refused(p, &d, &two, "bdf", STEIF_BAD_INPUT, "named twice");
   refused(p, &d, &none, "bdf", STEIF_BAD_INPUT, "must lie in 0 .. 3");

@@ -19,6 +19,17 @@ static void quantiles_of_student(void)
   CLOSE(t, tan(0.475 * 3.14159265358979323846), 1e-9);
   CHECK(!steif_student(ctx, 0.95, 2, &t));
   CLOSE(t, 0.95 * sqrt(2 / (1 - 0.95 * 0.95)), 1e-9);
+  for (double q = 1e-3; q > 1e-15; q /= 16) {
+    const double p = 1 - q, rest = 1 - p; /* which is exact */
+    CHECK(!steif_student(ctx, p, 1, &t));
+    CLOSE(t, 1 / tan(rest * 3.14159265358979323846 / 2), 1e-9);
+    CHECK(!steif_student(ctx, p, 2, &t));
+    CLOSE(t, p * sqrt(2 / (rest * (2 - rest))), 1e-9);
+    CHECK(!steif_student(ctx, p, 2000, &t) && !steif_student(ctx, p, 2001, &u));
+    CHECK(t > u && t - u < 1e-4 * t);
+  }
+  CHECK(!steif_student(ctx, 1 - 1e-12, 10, &t));
+  CHECK(fabs(t - 43.457) < 1e-3); /* SciPy 1.10, t.isf((1 - p)/2, 10) */
   for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
     CHECK(!steif_student(ctx, 0.95, known[i].dof, &t));
     CHECK(fabs(t - known[i].t) <= known[i].digits);

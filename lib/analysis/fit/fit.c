@@ -53,7 +53,12 @@ static int check_parameter(const stf_descent *d, int i)
 /* theta = log p wherever it can be. */
 static int choose_scale(stf_descent *d, const steif_fit_options *o)
 {
+  const int scale = (int)o->scale;
   bool positive = true;
+  STEIF_CHECK(scale >= STEIF_FIT_AUTO && scale <= STEIF_FIT_LINEAR, d->ctx, STEIF_BAD_INPUT,
+              "options.scale = %d is none of STEIF_FIT_AUTO, STEIF_FIT_LOG and "
+              "STEIF_FIT_LINEAR",
+              scale);
   for (int i = 0; i < d->P; i++)
     positive &= d->p0[i] > 0 && (d->low[i] == -INFINITY || d->low[i] > 0);
   STEIF_CHECK(positive || o->scale != STEIF_FIT_LOG, d->ctx, STEIF_BAD_INPUT,
@@ -101,6 +106,10 @@ static int name_parameters(stf_descent *d, const steif_fit_options *o)
               "problem '%s' has no parameters: set .parameters", d->problem->name);
   STEIF_CHECK(!o->parameter || o->count > 0, d->ctx, STEIF_BAD_INPUT,
               "options.count = %d must be positive", o->count);
+  STEIF_CHECK(o->parameter || o->count == 0 || o->count == q->count, d->ctx, STEIF_BAD_INPUT,
+              "options.count = %d without options.parameter: name the parameters, or set 0 for "
+              "all %d of them",
+              o->count, q->count);
   d->P = o->parameter ? o->count : q->count;
   int *parameter = stf_pool_array(d->pool, (size_t)d->P, sizeof *parameter);
   if (!parameter) return STEIF_NO_MEMORY;
