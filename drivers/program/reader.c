@@ -30,6 +30,7 @@ static const struct {
   {"raise options.run->t1", "raise --t1"},
   {"run longer (t1)", "run longer (--t1)"},
   {"raise options.evaluations", "raise --evaluations"},
+  {"the linear scale (options.scale)", "the linear scale (--linear)"},
   {"name fewer in options.active", "name fewer with --parameters"},
   {"take a gradient (gradient.h)", "take a gradient (--adjoint)"},
   {"raise .memory or set .folder", "raise --memory"},

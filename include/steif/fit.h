@@ -16,7 +16,10 @@
  *
  * Each descent goes on until chi2, or p, would change by less than rtol of the runs, relative. A step that
  * makes the run fail is rejected, and its sentence kept. Bounds are kept by projection: a parameter that a step
- * takes to its bound stays there until the slope of chi2 leads inward.
+ * takes to its bound stays there until the slope of chi2 leads inward. No minimum is an end where chi2 has no slope along
+ * a parameter, by runs nearby, and is less beside it; where parameters went to 0 or infinity, and chi2 hardly
+ * changes; where runs fail beyond; and where J promises a fall of chi2 that is worth half a standard deviation, and no
+ * step brings it (J is wrong, or chi2 has a jump or a kink, as where an event meets the time of a measurement).
  *
  * With J = dr/dtheta, the covariance of theta is C = (J^T J)^-1 where the standard deviations of the measurements are
  * given: they are taken for known, and 95 % intervals are theta -+ 1.96 sqrt(C_ii), by the normal distribution. Else C is
@@ -106,7 +109,8 @@ typedef struct steif_fit {
   int starts, best;              /* best: which descent, from 0 */
   sunrealtype *chi2_of;          /* of each; infinity: its first run failed */
   long runs, failed, iterations; /* of all descents; failed runs; of the best descent */
-  /* 1: the best descent was ended by options.evaluations; STEIF_STOPPED, STEIF_TIME_LIMIT: the search by options.run */
+  /* 1: the best descent was ended by options.evaluations; 2: where there is no minimum, as the message says, and sd and
+   * intervals are not those of one; STEIF_STOPPED, STEIF_TIME_LIMIT: the search by options.run */
   int exhausted;
   char message[1400]; /* one sentence or more: what was found, and what to doubt */
   char failure[500];  /* of the last run that failed; "" */
@@ -116,7 +120,7 @@ typedef struct steif_fit {
 
 /* The parameters of the problem have the values they had when it returns. STEIF_BAD_INPUT: fewer measurements than
  * parameters, a start outside the bounds and the like; STEIF_NO_CONVERGENCE: options.evaluations were too few,
- * and fit holds the best so far; STEIF_STOPPED, STEIF_TIME_LIMIT: the search was ended by options.run, and fit holds the
+ * or the best descent ended where there is no minimum; fit holds the best so far; STEIF_STOPPED, STEIF_TIME_LIMIT: the search was ended by options.run, and fit holds the
  * best run it had made, if there was one (else p is NULL); STEIF_UNSUPPORTED: steif was built without cminpack, or the method carries no
  * sensitivities; codes of the run where the first of every descent failed. */
 STEIF_EXPORT int steif_fit_find(steif_context *ctx, steif_problem *problem, const char *method,

@@ -12,6 +12,17 @@ typedef struct stf_datum {
   size_t place;
 } stf_datum;
 
+/* Where a descent has ended, and what has become of a parameter. */
+enum stf_end { STF_AT_A_MINIMUM, STF_AT_A_FLAT, STF_AWAY, STF_AT_A_WALL, STF_AGAINST_SLOPES };
+enum stf_fate {
+  STF_FOUND,
+  STF_IDLE,     /* chi2 has no slope along it, and is not less elsewhere, ... */
+  STF_NO_SLOPE, /* ... or less, ... */
+  STF_AT_REST,  /* ... or more to both sides */
+  STF_TO_ZERO,
+  STF_TO_INFINITY
+};
+
 /* theta is counted from the start of the descent: p = p0 exp(x), or p0 + x unit. */
 typedef struct stf_descent {
   steif_context *ctx;
@@ -25,12 +36,13 @@ typedef struct stf_descent {
   const int *parameter;
   bool log;
   const sunrealtype *unit, *low, *high; /* of p; bounds may be infinite */
-  sunrealtype *p0, *p;
+  sunrealtype *p0, *p, *from; /* from: where the descent began; at the end, the best one */
   N_Vector S;
   size_t outputs;                       /* of a model, if some are measured; 0 */
   sunrealtype *output, *slope, *toward; /* their values and derivatives; a direction of p */
   sunrealtype *at;                      /* x of the last good run ... */
-  sunrealtype *r, *J;                   /* ... its residuals, and dr/dx by columns */
+  sunrealtype *r, *J;                   /* ... its residuals, and dr/dx by columns ... */
+  sunrealtype *column;                  /* ... whose lengths, bounds aside, are these */
   sunrealtype *
     best; /* p, r, J of the run of least chi2 in all descents, for a search that is stopped ... */
   sunrealtype least; /* ... its chi2, and in which descent */
@@ -41,7 +53,12 @@ typedef struct stf_descent {
   sunrealtype *values; /* of all parameters when it began */
   int evaluations;
   long runs, failed, iterations;
-  int stopped; /* the code of a failed run that other parameters do not cure; 0 */
+  long blocked; /* failed runs of the descent; at the end, of the best one */
+  enum stf_fate *fate;
+  enum stf_end end;
+  bool none;         /* of the parameters is determined */
+  sunrealtype share; /* of chi2 that J promises it to fall by */
+  int stopped;       /* the code of a failed run that other parameters do not cure; 0 */
   char failure[500];
   char used[200]; /* the method of the last good run */
 } stf_descent;
@@ -66,9 +83,21 @@ void stf_fit_recall(stf_descent *d);
 /* From p0: p, r, J, chi2 at the end; *exhausted: evaluations were used up. STEIF_RETRY: the first run failed. */
 int stf_fit_descend(stf_descent *d, int *exhausted);
 
+/* --- fit_verdict.c --- */
+/* Is this share of chi2 more than errors of the runs are? */
+bool stf_fit_above_noise(const stf_descent *d, sunrealtype share);
+/* fate of parameters along which chi2 has no slope: by runs in other places, and one more at p0. */
+int stf_fit_look_around(stf_descent *d);
+/* In words, where parameter i is. */
+const char *stf_fit_place(const stf_descent *d, int i);
+/* fate and end, by singular values; `share`: of chi2 that J promises it to fall by. */
+void stf_fit_end_of(stf_descent *d, const steif_fit *fit, sunrealtype share);
+
 /* --- fit_statistics.c --- */
 /* Everything of `fit` that follows from p, r and J. */
 int stf_fit_judge(stf_descent *d, steif_fit *fit);
+/* An entry of (J^T J)^-1, of what is determined. */
+sunrealtype stf_fit_variance(const steif_fit *fit, int i, int j);
 
 /* --- fit_sentence.c --- */
 /* Parameter i of those fitted; `room` of STEIF_SPEC_WORD bytes. */

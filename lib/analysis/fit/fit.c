@@ -116,10 +116,13 @@ static int name_parameters(stf_descent *d, const steif_fit_options *o)
   for (int i = 0; i < d->P; i++) parameter[i] = o->parameter ? o->parameter[i] : i;
   d->parameter = parameter;
   d->p0 = copy(d, o->start, 0), d->p = copy(d, NULL, 0), d->at = copy(d, NULL, 0);
+  d->from = copy(d, NULL, 0), d->column = copy(d, NULL, 0);
+  d->fate = stf_pool_array(d->pool, (size_t)d->P, sizeof *d->fate);
   d->low = copy(d, o->low, -INFINITY), d->high = copy(d, o->high, INFINITY);
   d->values = stf_pool_array(d->pool, (size_t)q->count, sizeof *d->values);
   sunrealtype *unit = copy(d, NULL, 1);
-  if (!d->p0 || !d->p || !d->at || !d->low || !d->high || !d->values || !unit)
+  if (!d->from || !d->column || !d->fate || !d->p0 || !d->p || !d->at || !d->low || !d->high ||
+      !d->values || !unit)
     return STEIF_NO_MEMORY;
   memcpy(d->values, q->value, (size_t)q->count * sizeof *q->value);
   for (int i = 0; i < d->P; i++) {
@@ -227,7 +230,9 @@ static int descend_all(stf_descent *d, steif_fit *f)
   sunrealtype *start = copy(d, d->p0, 0), *best = copy(d, d->p0, 0);
   if (!start || !best) return STEIF_NO_MEMORY;
   f->best = -1, f->chi2 = INFINITY;
+  long blocked = 0;
   for (int k = 0; k < f->starts; k++) {
+    const long failed = d->failed;
     int exhausted;
     begin_at(d, start, k);
     d->descent = k;
@@ -236,12 +241,18 @@ static int descend_all(stf_descent *d, steif_fit *f)
     f->chi2_of[k] = code ? INFINITY : d->chi2;
     if (code || !(d->chi2 < f->chi2)) continue;
     f->best = k, f->chi2 = d->chi2, f->exhausted = exhausted, f->iterations = d->iterations;
+    blocked = d->failed - failed;
     memcpy(best, d->p0, (size_t)d->P * sizeof *best);
   }
   if (f->best < 0) return steif_status(d->ctx); /* the sentence of the last run */
+  begin_at(d, start, f->best);
+  memcpy(d->from, d->p0, (size_t)d->P * sizeof *best);
   memcpy(d->p0, best, (size_t)d->P * sizeof *best);
   memset(best, 0, (size_t)d->P * sizeof *best);
-  return stf_fit_run(d, best) ? cut_short(d, f, steif_status(d->ctx)) : STEIF_OK;
+  d->blocked = blocked;
+  int code = stf_fit_run(d, best);
+  if (!code && !f->exhausted) code = stf_fit_look_around(d);
+  return code == STEIF_RETRY ? cut_short(d, f, steif_status(d->ctx)) : code;
 }
 
 /* ---- the result ------------------------------------------------------------------------------ */

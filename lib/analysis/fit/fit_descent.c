@@ -1,5 +1,6 @@
 /* fit_descent.c: one descent by MINPACK's lmder, in x = theta - theta_0 with the unit matrix as scaling: the
- * first step changes p by a factor of e at most.
+ * first step changes p by a factor of e at most. Where so short a step changes chi2 by less than its tolerance, and
+ * J promises more, longer ones follow.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "descent.h"
 #include <math.h>
@@ -77,14 +78,14 @@ static int open(stf_descent *d, work *w)
   return STEIF_OK;
 }
 
-/* One call of lmder from p0; its return value. */
-static int round_of(stf_descent *d, work *w, int evaluations)
+/* One call of lmder from p0, with a first step of at most `radius`; its return value. */
+static int round_of(stf_descent *d, work *w, sunrealtype radius, int evaluations)
 {
   const int P = d->P, m = (int)d->data->count + P;
   const sunrealtype tolerance = d->run.rtol;
   int calls = 0, slopes = 0;
   const int info = lmder(evaluate, d, m, P, w->x, w->r, w->J, m, tolerance, tolerance, 0,
-                         evaluations, w->diag, 2, 1, 0, &calls, &slopes, w->pivot, w->qtf,
+                         evaluations, w->diag, 2, radius, 0, &calls, &slopes, w->pivot, w->qtf,
                          w->wa, w->wa + P, w->wa + 2 * P, w->wa + 3 * P);
   d->iterations += slopes;
   return info;
@@ -97,6 +98,27 @@ static void move(stf_descent *d, work *w)
   for (int i = 0; i < d->P; i++) d->p[i] = stf_fit_value(d, w->x, i, &bound);
   memcpy(d->p0, d->p, (size_t)d->P * sizeof *d->p);
   memset(w->x, 0, (size_t)d->P * sizeof *w->x);
+}
+
+/* How long the first step may be for another round; 0: along no single parameter chi2 would fall by more than its
+ * tolerance. */
+static sunrealtype longer(const stf_descent *d, sunrealtype radius)
+{
+  const size_t m = d->data->count;
+  sunrealtype share = 0, square = 0;
+  for (size_t k = 0; k < (size_t)d->P; k++) {
+    sunrealtype slope = 0, size = 0;
+    for (size_t j = 0; j < m; j++) {
+      const sunrealtype entry = d->J[k * m + j];
+      slope += entry * d->r[j], size += entry * entry;
+    }
+    if (size == 0) continue;
+    share = fmax(share, slope * slope / size / d->chi2);
+    square += slope * slope / size / size;
+  }
+  if (!(share > 10 * d->run.rtol) || !isfinite(square) || !stf_fit_above_noise(d, share))
+    return 0;
+  return fmax(1, fmin(sqrt(square), d->log ? 10 * radius : INFINITY));
 }
 
 /* Is there more to find: a bound that may be left, or did the anchors weigh too much where J became smaller? */
@@ -115,17 +137,19 @@ static bool unfinished(const stf_descent *d, const work *w)
 static int rounds(stf_descent *d, work *w, int *exhausted)
 {
   const long end = d->runs + d->evaluations;
-  sunrealtype before = INFINITY;
+  sunrealtype before = INFINITY, radius = 1;
   *exhausted = 0;
   for (int k = 0; k < ROUNDS; k++) {
     d->hold = 0;
-    const int info = round_of(d, w, (int)(end - d->runs));
+    const int info = round_of(d, w, radius, (int)(end - d->runs));
     if (info < 0) return d->stopped ? d->stopped : STEIF_RETRY;
     move(d, w);
     STEIF_TRY(stf_fit_run(d, w->x));
     *exhausted = info == 5 || d->runs >= end;
-    if (*exhausted || !unfinished(d, w) || d->chi2 >= before * (1 - d->run.rtol))
+    const sunrealtype next = longer(d, radius);
+    if (*exhausted || !(unfinished(d, w) || next > 0) || d->chi2 >= before * (1 - d->run.rtol))
       return STEIF_OK;
+    radius = fmax(1, next);
     before = d->chi2;
   }
   return STEIF_OK;

@@ -123,7 +123,7 @@ static int finite(const stf_descent *d)
   return STEIF_OK;
 }
 
-/* Columns of parameters beyond their bounds, and of those at a bound that chi2 descends through, are 0. */
+/* Lengths of columns. Those of parameters beyond their bounds, and of those at a bound that chi2 descends through, are 0. */
 static void project(stf_descent *d, const sunrealtype *x)
 {
   const size_t m = d->data->count;
@@ -131,8 +131,10 @@ static void project(stf_descent *d, const sunrealtype *x)
     int bound;
     const sunrealtype p = stf_fit_value(d, x, k, &bound);
     const sunrealtype raw = d->log ? d->p0[k] * exp(x[k]) : d->p0[k] + x[k] * d->unit[k];
-    sunrealtype *column = d->J + (size_t)k * m, slope = 0;
-    for (size_t j = 0; j < m; j++) slope += column[j] * d->r[j];
+    sunrealtype *column = d->J + (size_t)k * m, slope = 0, square = 0;
+    for (size_t j = 0; j < m; j++)
+      slope += column[j] * d->r[j], square += column[j] * column[j];
+    d->column[k] = sqrt(square);
     if (bound && (raw != p || bound * slope <= 0)) memset(column, 0, m * sizeof *column);
   }
 }

@@ -51,12 +51,80 @@ static void weigh(steif_fit *f)
         ratio, large);
 }
 
+/* "p and q", of the parameters with this fate. */
+static void list(const stf_descent *d, steif_fit *f, enum stf_fate fate)
+{
+  char room[STEIF_SPEC_WORD];
+  const char *before = "";
+  for (int i = 0; i < f->count; i++) {
+    if (d->fate[i] != fate) continue;
+    add(f, "%s%.40s", before, stf_fit_name(d, i, room));
+    before = " and ";
+  }
+}
+
+static void flats(const stf_descent *d, steif_fit *f)
+{
+  int less = -1, any = 0;
+  for (int i = 0; i < f->count; i++) {
+    if (d->fate[i] == STF_NO_SLOPE) less = i;
+    if (d->fate[i] == STF_IDLE) any = i;
+  }
+  add(f, ": no minimum: chi2 has no slope along ");
+  list(d, f, less < 0 ? STF_IDLE : STF_NO_SLOPE);
+  add(f, " %s%s: start elsewhere, or take several starts",
+      stf_fit_place(d, less < 0 ? any : less), less < 0 ? "" : ", and is less elsewhere");
+}
+
+static void ways(const stf_descent *d, steif_fit *f)
+{
+  char room[STEIF_SPEC_WORD];
+  const char *before = ": no minimum: ";
+  bool zero = false;
+  for (int i = 0; i < f->count; i++) {
+    const bool to_zero = d->fate[i] == STF_TO_ZERO;
+    if (!to_zero && d->fate[i] != STF_TO_INFINITY) continue;
+    add(f, "%s%.40s ran from %.4g to %.4g", before, stf_fit_name(d, i, room), d->from[i],
+        f->p[i]);
+    before = ", ";
+    zero |= to_zero;
+  }
+  add(f, ", where chi2 hardly changes: %s",
+      zero ? "log p reaches neither 0 nor another sign, which the linear scale "
+             "(options.scale) does; or start "
+             "elsewhere, fix it or give bounds"
+           : "start elsewhere, fix it or give bounds");
+}
+
+/* Why it is none. */
+static void no_minimum(const stf_descent *d, steif_fit *f)
+{
+  if (d->end == STF_AT_A_FLAT)
+    flats(d, f);
+  else if (d->end == STF_AWAY)
+    ways(d, f);
+  else if (d->end == STF_AT_A_WALL)
+    add(f,
+        ": no minimum: chi2 falls on along its derivatives, by %.2g of it, to where runs fail",
+        d->share);
+  else
+    add(
+      f,
+      ": no minimum: chi2 does not go down along its derivatives, which promise it to fall by "
+      "%.2g of it: they are wrong (parameters.dFdp, parameters.start), or chi2 has a "
+      "jump or a kink, or the tolerance of the runs is too loose",
+      d->share);
+  add(f, "; sd and intervals are those of a minimum, which this is not");
+}
+
 static void judge(const stf_descent *d, steif_fit *f)
 {
   add(f, "chi2 = %.6g with %ld degrees of freedom", f->chi2, f->dof);
   if (f->exhausted < 0)
     add(f, ", the best of %ld runs when the search was stopped%s; go on from here", f->runs,
         f->exhausted == STEIF_TIME_LIMIT ? " by max_seconds" : "");
+  else if (f->exhausted && d->end)
+    no_minimum(d, f);
   else if (f->exhausted)
     add(f,
         ", and still falling: %d runs of a descent were not enough; go on from here, or raise "
@@ -72,6 +140,27 @@ static void judge(const stf_descent *d, steif_fit *f)
         sqrt(f->chi2 / (sunrealtype)f->dof));
 }
 
+/* The parameter without a slope whose direction k is; -1. */
+static int slopeless(const stf_descent *d, const steif_fit *f, int k)
+{
+  for (int i = 0; i < f->count; i++)
+    if (d->fate[i] != STF_FOUND && d->fate[i] < STF_TO_ZERO &&
+        fabs(f->direction[k * f->count + i]) > 0.999)
+      return i;
+  return -1;
+}
+
+static void without_slope(const stf_descent *d, steif_fit *f, int i)
+{
+  char room[STEIF_SPEC_WORD];
+  if (d->end == STF_AT_A_FLAT) return;
+  add(f, ". chi2 has no slope along %.40s %s, and is %s", stf_fit_name(d, i, room),
+      stf_fit_place(d, i),
+      d->fate[i] == STF_AT_REST
+        ? "more to both sides: no derivatives tell its standard deviation"
+        : "not less elsewhere: the data do not determine it there; fix it, or start elsewhere");
+}
+
 static void undetermined(const stf_descent *d, steif_fit *f)
 {
   char room[STEIF_SPEC_WORD];
@@ -80,6 +169,11 @@ static void undetermined(const stf_descent *d, steif_fit *f)
   for (int i = 0; i < P; i++) fixed += f->bound[i] != 0;
   for (int k = P - fixed - f->undetermined; k < P - fixed; k++) {
     const char *before = " (";
+    const int lone = slopeless(d, f, k);
+    if (lone >= 0) {
+      without_slope(d, f, lone);
+      continue;
+    }
     add(f, ". The data do not determine the direction");
     for (int i = 0; i < P; i++) {
       const sunrealtype part = f->direction[k * P + i];

@@ -11,7 +11,7 @@ static const sunrealtype normal =
   1.959963984540054; /* 97.5 % lie below; M. Abramowitz and I. A. Stegun, table 26.6, with more digits */
 
 /* sum_k v_ki v_kj / sigma_k^2 over what is determined. */
-static sunrealtype covariance(const steif_fit *f, int i, int j)
+sunrealtype stf_fit_variance(const steif_fit *f, int i, int j)
 {
   const int P = f->count;
   sunrealtype sum = 0;
@@ -22,10 +22,11 @@ static sunrealtype covariance(const steif_fit *f, int i, int j)
   return sum;
 }
 
-/* Has parameter i a part in a direction that is not determined? */
-static bool loose(const steif_fit *f, int i)
+/* Has parameter i a part in a direction that is not determined, or does nothing determine it where it is? */
+static bool loose(const stf_descent *d, const steif_fit *f, int i)
 {
   if (f->bound[i]) return false;
+  if (d->fate[i] != STF_FOUND) return true;
   for (int k = 0; k < f->count; k++)
     if (!(f->singular[k] > undetermined * f->singular[0]) &&
         fabs(f->direction[k * f->count + i]) > part)
@@ -59,15 +60,34 @@ static int hold(steif_fit *f)
   return P - last;
 }
 
+/* Of chi2, |U^T r|^2, with U diag(sigma) in J. */
+static sunrealtype promised(const stf_descent *d, const steif_fit *f)
+{
+  const size_t m = d->data->count;
+  sunrealtype sum = 0;
+  for (int k = 0; k < f->count; k++) {
+    if (!(f->singular[k] > undetermined * f->singular[0])) continue;
+    sunrealtype part_of_r = 0;
+    for (size_t j = 0; j < m; j++)
+      part_of_r += d->J[(size_t)k * m + j] / f->singular[k] * d->r[j];
+    sum += part_of_r * part_of_r;
+  }
+  return d->chi2 > 0 ? sum / d->chi2 : 0;
+}
+
 static void decompose(stf_descent *d, steif_fit *f)
 {
   const int P = f->count;
   stf_jacobi_svd(d->data->count, (size_t)P, d->J, f->singular, f->direction);
+  const sunrealtype share = promised(d, f);
   const int fixed = hold(f);
   f->undetermined = 0;
   for (int k = 0; k < P - fixed; k++)
     f->undetermined += !(f->singular[k] > undetermined * f->singular[0]);
   f->dof = (long)d->data->count - (P - fixed - f->undetermined);
+  if (f->exhausted) return;
+  stf_fit_end_of(d, f, share);
+  if (d->end) f->exhausted = 2;
 }
 
 /* dp/dtheta. */
@@ -83,13 +103,14 @@ static void spread(const stf_descent *d, steif_fit *f)
   const bool told = d->data->sd || f->dof > 0;
   const sunrealtype known = d->data->sd || !told ? 1 : f->chi2 / (sunrealtype)f->dof;
   for (int i = 0; i < P; i++)
-    for (int j = 0; j < P; j++) f->covariance_theta[i * P + j] = known * covariance(f, i, j);
+    for (int j = 0; j < P; j++)
+      f->covariance_theta[i * P + j] = known * stf_fit_variance(f, i, j);
   for (int i = 0; i < P; i++)
     for (int j = 0; j < P; j++) {
       const sunrealtype both = f->covariance_theta[i * P + j];
       const sunrealtype a = f->covariance_theta[i * P + i], b = f->covariance_theta[j * P + j];
       const bool undefined =
-        !(told || f->bound[i] || f->bound[j]) || loose(f, i) || loose(f, j);
+        !(told || f->bound[i] || f->bound[j]) || loose(d, f, i) || loose(d, f, j);
       f->correlation[i * P + j] = i == j ? 1 : a > 0 && b > 0 ? both / sqrt(a) / sqrt(b) : 0;
       f->covariance[i * P + j] = !undefined ? both * unit_of(d, f, i) * unit_of(d, f, j)
                                  : i == j   ? INFINITY
@@ -112,7 +133,7 @@ static int intervals(const stf_descent *d, steif_fit *f)
   STEIF_TRY(quantile(d, f));
   for (int i = 0; i < f->count; i++) {
     const int at = i * f->count + i;
-    const sunrealtype theta = loose(f, i) ? INFINITY : sqrt(f->covariance_theta[at]);
+    const sunrealtype theta = loose(d, f, i) ? INFINITY : sqrt(f->covariance_theta[at]);
     const sunrealtype p = f->p[i], half = theta > 0 ? f->quantile * theta : 0;
     f->sd[i] = sqrt(f->covariance[at]);
     f->low[i] = d->log ? p * exp(-half) : p - half * d->unit[i];
@@ -130,7 +151,8 @@ int stf_fit_judge(stf_descent *d, steif_fit *f)
     sunrealtype size = 0;
     for (size_t j = 0; j < m; j++) size = fmax(size, fabs(d->J[(size_t)i * m + j]));
     const sunrealtype p = f->p[i] = d->p0[i];
-    f->bound[i] = size > 0 ? 0 : p <= d->low[i] ? -1 : p >= d->high[i];
+    f->bound[i] = size > 0 || d->fate[i] ? 0 : p <= d->low[i] ? -1 : p >= d->high[i];
+    if (d->fate[i]) memset(d->J + (size_t)i * m, 0, m * sizeof *d->J);
   }
   decompose(d, f);
   spread(d, f);
