@@ -150,7 +150,7 @@ static int begun(stf_backwards *B, const stf_transition *w)
   return stf_pull_start(B, w->behind, B->Y[0], B->Yp[0]);
 }
 
-/* lambda := R_y^T lambda + sigma g_y^T, mu likewise, of one functional. */
+/* lambda := lambda + E_y^T lambda + sigma g_y^T, mu likewise, of one functional. */
 static void react(stf_backwards *B, const stf_transition *w, int i, sunrealtype sigma)
 {
   sunrealtype *lambda = STF_ARRAY(B->lambda[i]), *mu = B->mu + i * B->P;

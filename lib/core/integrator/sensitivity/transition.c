@@ -152,21 +152,31 @@ static int by_reset(steif_solver *s, N_Vector dy, sunrealtype dt, int k, N_Vecto
   return STEIF_OK;
 }
 
-/* w->r[0] := (R_y - 1) dy + R_t dt, or with k >= 0 the derivative by p_k, dy being 0 then. reaction NULL: by
- * parameters.reset, whose part by p_0 is in w->r[3]. */
+/* w->r[0] := R_y dy + R_t dt, with k >= 0 + R_p by p_k, less dy. reaction NULL: by parameters.reset, whose part by p_0 at
+ * rest is in w->r[3]. */
 static int along(steif_solver *s, stf_quantity_at reaction, N_Vector dy, sunrealtype dt, int k)
 {
   stf_saltation *w = s->saltation;
   if (!reaction) {
     STEIF_TRY(by_reset(s, dy, dt, k < 0 ? 0 : k, w->r[0]));
-    if (k >= 0) return STEIF_OK;
     N_VLinearSum(1, w->r[0], -1, dy, w->r[0]);
-    N_VLinearSum(1, w->r[0], -1, w->r[3], w->r[0]);
+    if (k < 0) N_VLinearSum(1, w->r[0], -1, w->r[3], w->r[0]);
     return STEIF_OK;
   }
   const stf_line line = {.dt = dt, .dy = dy, .k = k};
   const int code = stf_along(s, reaction, &line, w->r[0], w->r + 1);
   return code ? undifferentiable(s, code) : STEIF_OK;
+}
+
+/* The same where y_j, or with j < 0 p_k, moves, and the event with it: handlers that ask whether it is there agree. */
+static int along_event(steif_solver *s, stf_quantity_at reaction, sunindextype j, int k)
+{
+  stf_saltation *w = s->saltation;
+  const stf_transition *open = w->open;
+  const sunrealtype tau = -(j < 0 ? open->gp[k] : open->gy[j]) / open->rate;
+  N_VScale(tau, w->slope, w->direction);
+  if (j >= 0) stf_array(w->direction)[j] += 1;
+  return along(s, reaction, w->direction, tau, j < 0 ? k : -1);
 }
 
 /* The entries of w->r[0] that are not 0, into a column. */
@@ -216,17 +226,13 @@ static int reaction_slopes(steif_solver *s, stf_quantity_at reaction)
   N_VConst(0, w->direction);
   if (!reaction) STEIF_TRY(by_reset(s, w->direction, 0, 0, w->r[3]));
   for (int k = 0; k < P; k++) {
-    STEIF_TRY(along(s, reaction, w->direction, 0, k));
+    STEIF_TRY(along_event(s, reaction, -1, k));
     STEIF_TRY(enter(s, open, n + k));
   }
-  STEIF_TRY(along(s, reaction, w->slope, 1, -1));
-  const sunrealtype *before = stf_array(w->slope), *jump = stf_array(w->r[0]);
-  for (sunindextype i = 0; i < n; i++) open->across[i] = before[i] + jump[i];
+  memcpy(open->across, stf_array(w->slope), (size_t)n * sizeof *open->across);
   STEIF_TRY(leaves_alone(s, reaction, &alone));
   for (sunindextype j = 0; !alone && j < n; j++) {
-    N_VConst(0, w->direction);
-    stf_array(w->direction)[j] = 1;
-    STEIF_TRY(along(s, reaction, w->direction, 0, -1));
+    STEIF_TRY(along_event(s, reaction, j, -1));
     STEIF_TRY(enter(s, open, j));
   }
   return STEIF_OK;

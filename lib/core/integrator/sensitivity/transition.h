@@ -2,9 +2,11 @@
  *
  * With the names of saltation.h, what a small change dy of y at a fixed time, and dp of p, before an event leave
  * behind it is
- *   R_y dy + R_p dp + (R_y f- + R_t - f+) dtau,   dtau = -(g_y dy + g_p dp) / (g_y f- + g_t);
- * transposed, with sigma = -lambda . (R_y f- + R_t - f+) / (g_y f- + g_t),
- *   lambda <- R_y^T lambda + sigma g_y^T,   mu <- mu + R_p^T lambda + sigma g_p^T.
+ *   R_y dy + R_p dp + (R_y f- + R_t - f+) dtau,   dtau = -(g_y dy + g_p dp) / (g_y f- + g_t):
+ * with D_y dy + D_p dp the derivative of R where the event moves along, (t + dtau, y + dy + f- dtau, p + dp), this is
+ *   D_y dy + D_p dp - f+ dtau;
+ * transposed, with E_y = D_y - 1 - f- dtau/dy, E_p = D_p - f- dtau/dp, sigma = -lambda . (f- - f+) / (g_y f- + g_t),
+ *   lambda <- lambda + E_y^T lambda + sigma g_y^T,   mu <- mu + E_p^T lambda + sigma g_p^T.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STF_TRANSITION_H
@@ -15,7 +17,7 @@
 /* Nothing but what the problem remembers; the run begins anew behind an event, ends there, or passes a break. */
 enum stf_passage { STF_PASSED, STF_RESTARTED, STF_ENDED, STF_BROKEN };
 
-/* Of R_y - 1, and from column n on of R_p. */
+/* Of E_y, and from column n on of E_p. */
 typedef struct stf_entry {
   sunindextype row, column;
   sunrealtype value;
@@ -26,7 +28,7 @@ typedef struct stf_transition {
   sunrealtype t, behind;  /* of it, and the first time after it */
   sunrealtype rate;       /* g_y f- + g_t */
   sunrealtype *gy, *gp;   /* n and P; of a break gp is its time by p */
-  sunrealtype *across;    /* R_y f- + R_t - f+; at an end f- */
+  sunrealtype *across;    /* f- - f+; at an end f- */
   sunrealtype *y, *slope; /* y and y' behind it */
   sunrealtype *gap;       /* of the integrands: before less after; at an end before */
   sunrealtype *numbers;   /* where all of these are */
