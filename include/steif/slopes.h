@@ -12,8 +12,10 @@
  * They exist only where the structure stays: the expansion of R (s E_p + F_p) R must end where that of R does,
  * which it does if and only if the system of twice the size has the index of the first. Otherwise p changes the index
  * or the number of finite eigenvalues: x(0+) is not differentiable (a singular perturbation). That test sees
- * first order only; so the pencil at a p nearby is analysed, too: it must have the same index and as many finite
- * eigenvalues.
+ * first order only; so pencils at values of p nearby are analysed, too, on both sides. The degrees of det(s E + F) and of
+ * the adjugate are largest for almost all p: one pencil with more finite eigenvalues, or with as many and a larger
+ * index, says that the structure does not stay; one with less of them lies at a singular value of p itself and
+ * says nothing, so that another is taken.
  *
  *   steif_impulse_direction d = {.E = dE};                       // dF = 0, x(0-) and f stay
  *   if (!steif_impulse_slope_find(ctx, &system, x0, 0, NULL, NULL, &d, &slope) && slope.exists)
@@ -31,19 +33,22 @@
 extern "C" {
 #endif
 
+/* E and F at another p, as new matrices that the caller destroys; `by` is the step of p in units of its size, at most 1/16
+ * either way. Codes of steif. */
+typedef int (*steif_pencil_nearby)(sunrealtype by, SUNMatrix *E, SUNMatrix *F, void *user);
+
 /* How the data depend on p, at its value; zero is: not at all. */
 typedef struct steif_impulse_direction {
   SUNMatrix E, F;        /* dE/dp and dF/dp of the order of E and F, dense or CSC; NULL: 0 */
   const sunrealtype *x0; /* n: dx(0-)/dp; NULL: 0 */
   steif_forcing f;       /* df/dp with derivatives in t as those of f; NULL: 0 */
-  void *user;            /* of f */
-  SUNMatrix E_near,
-    F_near;     /* the pencil at a p nearby, both or none. NULL: E + d dE/dp and F + d dF/dp
-                               with a small d, which leaves the structure in second order where p moves it
-                               along a curve: that is undecided then, unless */
-  int straight; /* 1: E and F are linear in p, so that this is the pencil nearby */
+  void *user;            /* of f and nearby */
+  steif_pencil_nearby
+    nearby; /* NULL: E + d dE/dp and F + d dF/dp with small d, which leaves the structure in second
+                   order where p moves it along a curve: that is undecided then, unless */
+  int straight; /* 1: E and F are linear in p, so that these are the pencils nearby */
   int reserved_int;
-  void *reserved[6]; /* 0 */
+  void *reserved[7]; /* 0 */
 } steif_impulse_direction;
 
 /* What was found. Arrays belong to it. */
@@ -60,7 +65,7 @@ typedef struct steif_impulse_slope {
     estimate; /* of the error of x_plus relative to the larger of its norm and what x(0+) has, in
                            steps of p that change x(0+) as much as it has */
   sunrealtype unit;                 /* such a step of p, a power of 2 */
-  int index_near;                   /* of the pencil at a p nearby; -1: undecided */
+  int index_near;                   /* of the pencil nearby that decides; -1: none does */
   sunindextype finite, finite_near; /* finite eigenvalues here and there; -1: undecided */
   char message[512];
   void *reserved[4]; /* 0 */

@@ -53,6 +53,15 @@ static void of_a_model(void)
 
 /* ---- bad input ----------------------------------------------------------------------------------------- */
 
+static int of_another_order(sunrealtype by, SUNMatrix *E, SUNMatrix *F, void *user)
+{
+  const bench *b = user;
+  (void)by;
+  *E = SUNDenseMatrix(2, 2, steif_sundials(b->ctx));
+  *F = SUNDenseMatrix(5, 5, steif_sundials(b->ctx));
+  return STEIF_OK;
+}
+
 static void wrong_directions(void)
 {
   static const sunrealtype nan[] = {0, NAN, 0, 0, 0};
@@ -64,8 +73,9 @@ static void wrong_directions(void)
   SM_ELEMENT_D(b.dE, 1, 2) = 0;
   b.along.x0 = nan;
   CHECK(find(&b) == STEIF_NOT_FINITE && strstr(steif_message(b.ctx), "dx(0-)/dp"));
-  b.along.x0 = NULL, b.along.E_near = b.system.E;
-  CHECK(find(&b) == STEIF_BAD_INPUT && strstr(steif_message(b.ctx), "belong together"));
+  b.along.x0 = NULL, b.along.nearby = of_another_order, b.along.user = &b;
+  SM_ELEMENT_D(b.dE, 0, 0) = 1;
+  CHECK(find(&b) == STEIF_BAD_INPUT && strstr(steif_message(b.ctx), "of the order 5"));
   SUNMatrix small = SUNDenseMatrix(3, 3, steif_sundials(b.ctx));
   const steif_impulse_direction d = {.F = small};
   CHECK(steif_impulse_slope_find(b.ctx, &b.system, b.problem.y0, 0, NULL, NULL, &d, &b.slope) ==
@@ -106,7 +116,8 @@ static void short_memory(void)
   }
 }
 
-CU_TestInfo tests_of_slope_directions[] = {{"parameters of a model", of_a_model},
-                                           {"wrong directions", wrong_directions},
-                                           {"short of memory", short_memory},
-                                           CU_TEST_INFO_NULL};
+CU_TestInfo tests_of_slope_directions[] = {
+  {"parameters of a model", of_a_model},
+  {"wrong directions", wrong_directions},
+  {"short of memory", short_memory},
+  CU_TEST_INFO_NULL};

@@ -185,46 +185,81 @@ static void in_series_with_the_switch(void)
   tear_down(&b);
 }
 
+typedef struct curve {
+  steif_context *ctx;
+  int which; /* 2: a curve that keeps index and count; 3: told straight */
+} curve;
+
+/* E = e12 + p (e11 - e22), F = I; 2: with - p^2 e21. */
+static int a_curve(sunrealtype p, SUNMatrix *E, SUNMatrix *F, void *user)
+{
+  const curve *of = user;
+  SUNMatrix M = *E = SUNDenseMatrix(2, 2, steif_sundials(of->ctx)),
+            N = *F = SUNDenseMatrix(2, 2, steif_sundials(of->ctx));
+  SUNMatZero(M), SUNMatZero(N);
+  SM_ELEMENT_D(M, 0, 1) = SM_ELEMENT_D(N, 0, 0) = SM_ELEMENT_D(N, 1, 1) = 1;
+  SM_ELEMENT_D(M, 0, 0) = p, SM_ELEMENT_D(M, 1, 1) = -p;
+  SM_ELEMENT_D(M, 1, 0) = of->which == 2 ? -p * p : 0;
+  return STEIF_OK;
+}
+
 /* N = e12, F = I, E_p = diag(1, -1): det(s (E + p E_p) + F) = 1 - p^2 s^2. First order sees nothing; along the
  * curve the pencil is another one, and without the curve it is not known. */
 static void second_order(void)
 {
   static const sunrealtype x0[] = {1, 2};
-  steif_context *ctx = steif_context_new(NULL);
-  SUNMatrix M[5];
-  for (int i = 0; i < 5; i++) {
-    M[i] = SUNDenseMatrix(2, 2, steif_sundials(ctx));
-    SUNMatZero(M[i]);
-  }
-  const steif_linear l = {M[0], M[1], NULL, NULL};
-  SM_ELEMENT_D(M[0], 0, 1) = 1;
-  SM_ELEMENT_D(M[1], 0, 0) = SM_ELEMENT_D(M[1], 1, 1) = 1;
-  SM_ELEMENT_D(M[2], 0, 0) = 1, SM_ELEMENT_D(M[2], 1, 1) = -1;
-  for (int which = 0; which < 4;
-       which++) { /* 2: a curve that keeps index and count; 3: told straight */
-    const double p = 0.01;
-    SM_ELEMENT_D(M[3], 0, 1) = 1;
-    SM_ELEMENT_D(M[3], 0, 0) = p, SM_ELEMENT_D(M[3], 1, 1) = -p;
-    SM_ELEMENT_D(M[3], 1, 0) = which == 2 ? -p * p : 0;
-    SUNMatCopy(M[1], M[4]);
-    const steif_impulse_direction d = {.E = M[2],
-                                       .straight = which == 3,
-                                       .E_near = which % 3 ? M[3] : NULL,
-                                       .F_near = which % 3 ? M[4] : NULL};
-    steif_impulse_slope s;
-    CHECK(steif_impulse_slope_find(ctx, &l, x0, 0, NULL, NULL, &d, &s) == STEIF_OK);
+  curve of = {.ctx = steif_context_new(NULL)};
+  SUNMatrix E, F, dE = SUNDenseMatrix(2, 2, steif_sundials(of.ctx));
+  CHECK(a_curve(0, &E, &F, &of) == STEIF_OK);
+  const steif_linear l = {E, F, NULL, NULL};
+  SUNMatZero(dE);
+  SM_ELEMENT_D(dE, 0, 0) = 1, SM_ELEMENT_D(dE, 1, 1) = -1;
+  for (; of.which < 4; of.which++) {
     static const int exists[] = {-1, 0, 1, 0};
-    CHECK(s.certified && s.exists == exists[which]);
-    CHECK(which % 2 == 0 || (isnan(s.x_plus[0]) && strstr(s.message, "2 nearby")));
+    const steif_impulse_direction d = {
+      .E = dE, .straight = of.which == 3, .nearby = of.which % 3 ? a_curve : NULL, .user = &of};
+    steif_impulse_slope s;
+    CHECK(steif_impulse_slope_find(of.ctx, &l, x0, 0, NULL, NULL, &d, &s) == STEIF_OK);
+    CHECK(s.certified && s.exists == exists[of.which]);
+    CHECK(of.which % 2 == 0 || (isnan(s.x_plus[0]) && strstr(s.message, "2 nearby")));
     /* With E = e12 + p (e11 - e22) - p^2 e21, E^2 = 0: x(0+) = 0, c_0 = E x(0-), dc_0 = (1, -2). */
-    if (which % 2 == 0) {
+    if (of.which % 2 == 0) {
       CLOSE(s.c[0], 1, 1e-13);
       CLOSE(s.c[1], -2, 1e-13);
       CLOSE_FLOOR(s.x_plus[0], 0, 1e-13, 1);
     }
+    steif_impulse_slope_clear(of.ctx, &s);
+  }
+  SUNMatDestroy(E), SUNMatDestroy(F), SUNMatDestroy(dE);
+  steif_context_free(&of.ctx);
+}
+
+/* x(0+) = x(0-) at and beside p. E = (e, d; 1, c): det(s E + F) has degree 2 but where d = e c, at e = 1/64, c = 1
+ * for one, which lies 2^-6 of the largest entry away; F = 0 makes the pencil there a singular one. */
+static void beside_a_singular_value(void)
+{
+  static const double known[][4] = {/* e, the entry below, c, that of F */
+                                    {1. / 64, 1, 1, 1},
+                                    {0.25, 16, 2048, 0}};
+  static const sunrealtype x0[] = {1, 1};
+  steif_context *ctx = steif_context_new(NULL);
+  SUNMatrix M[3];
+  for (int k = 0; k < 3; k++) M[k] = SUNDenseMatrix(2, 2, steif_sundials(ctx));
+  for (int k = 0; k < 2; k++) {
+    const steif_linear l = {M[0], M[1], NULL, NULL};
+    const steif_impulse_direction d = {.E = M[2], .straight = 1};
+    steif_impulse_slope s;
+    for (int i = 0; i < 3; i++) SUNMatZero(M[i]);
+    SM_ELEMENT_D(M[0], 0, 0) = known[k][0], SM_ELEMENT_D(M[0], 1, 0) = known[k][1];
+    SM_ELEMENT_D(M[0], 1, 1) = known[k][2];
+    SM_ELEMENT_D(M[1], 0, 0) = SM_ELEMENT_D(M[1], 1, 1) = known[k][3];
+    SM_ELEMENT_D(M[2], 0, 1) = 1;
+    CHECK(steif_impulse_slope_find(ctx, &l, x0, 0, NULL, NULL, &d, &s) == STEIF_OK);
+    CHECK(s.exists == 1 && s.certified && s.finite == 2 && s.finite_near == 2);
+    for (int i = 0; i < 2; i++) CLOSE_FLOOR(s.x_plus[i], 0, 1e-12, 1 / s.unit);
     steif_impulse_slope_clear(ctx, &s);
   }
-  for (int i = 0; i < 5; i++) SUNMatDestroy(M[i]);
+  for (int k = 0; k < 3; k++) SUNMatDestroy(M[k]);
   steif_context_free(&ctx);
 }
 
@@ -276,5 +311,6 @@ CU_TestInfo tests_of_slopes[] = {
   {"entries that keep the structure", entries_that_keep_the_structure},
   {"no derivative in series with a switch", in_series_with_the_switch},
   {"structure lost in second order", second_order},
+  {"beside a singular value", beside_a_singular_value},
   {"differences of the jump, sparse", by_differences},
   CU_TEST_INFO_NULL};

@@ -15,7 +15,6 @@
 #include <sunmatrix/sunmatrix_sparse.h>
 
 #define WIDEST 0x1p-7
-#define NEARBY 0x1p-6
 enum { LEVELS = 3, BITS = 38, BY_VECTORS = 2000 };
 
 /* What a direction owns: the user of its forcing. */
@@ -184,18 +183,23 @@ static bool zero(SUNMatrix M)
   return true;
 }
 
+static int nearby(sunrealtype by, SUNMatrix *E, SUNMatrix *F, void *user)
+{
+  const dependence *d = user;
+  steif_linear l;
+  const int code = matrices(d, by * d->size, &l);
+  *E = l.E, *F = l.F;
+  return code;
+}
+
 static int fill(dependence *d, steif_impulse_direction *out)
 {
   const steif_problem *p = d->problem;
   const steif_parameters *q = p->parameters;
-  steif_linear near;
   STEIF_TRY(q->dFdp && p->n <= BY_VECTORS ? by_vectors(d, out) : by_differences(d, out));
   if (zero(out->E)) destroy(&out->E);
   if (zero(out->F)) destroy(&out->F);
-  if (out->E || out->F) {
-    STEIF_TRY(matrices(d, NEARBY * d->size, &near));
-    out->E_near = near.E, out->F_near = near.F;
-  }
+  if (out->E || out->F) out->nearby = nearby;
   STEIF_TRY(steif_parameter_start(d->ctx, p, d->k, d->other));
   memcpy(d->x0, N_VGetArrayPointer(d->other), (size_t)p->n * sizeof *d->x0);
   out->x0 = d->x0;
@@ -252,8 +256,7 @@ void steif_impulse_direction_clear(steif_context *ctx, steif_impulse_direction *
 {
   if (!out) return;
   dependence *d = out->user;
-  SUNMatrix *M[] = {&out->E, &out->F, &out->E_near, &out->F_near};
-  for (int i = 0; i < 4; i++) destroy(M[i]);
+  destroy(&out->E), destroy(&out->F);
   if (d) {
     N_Vector v[] = {d->other, d->zero, d->unit};
     for (int i = 0; i < 3; i++)

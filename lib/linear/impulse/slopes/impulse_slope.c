@@ -1,13 +1,11 @@
 /* impulse_slope.c: derivatives of x(0+) and of impulses, and whether they exist.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "doubled.h"
+#include "slope_nearby.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Of the size of entries, steps of p to a pencil nearby; unlike sizes of x(0+) and its derivative, as powers of
- * 2, that ask for another step. */
-#define NEARBY 0x1p-6
+/* Unlike sizes of x(0+) and its derivative, as powers of 2, that ask for another step. */
 enum { UNLIKE = 4, INDEX_MOST = 8, NOISE = 64 };
 
 typedef struct search {
@@ -20,6 +18,7 @@ typedef struct search {
   const steif_impulse_direction *direction;
   steif_impulse_slope *slope;
   steif_impulse base; /* of the system */
+  stf_neighbours nearby;
 } search;
 
 /* ---- checks ----------------------------------------------------------------------------------- */
@@ -47,10 +46,6 @@ static int check(const search *w)
   const sunindextype n = w->base.n;
   STEIF_TRY(check_slope(w->ctx, "dE/dp", d->E, n));
   STEIF_TRY(check_slope(w->ctx, "dF/dp", d->F, n));
-  STEIF_CHECK(!d->E_near == !d->F_near, w->ctx, STEIF_BAD_INPUT,
-              "E and F at a p nearby belong together: one of them is NULL");
-  STEIF_TRY(check_slope(w->ctx, "E nearby", d->E_near, n));
-  STEIF_TRY(check_slope(w->ctx, "F nearby", d->F_near, n));
   for (sunindextype i = 0; d->x0 && i < n; i++)
     STEIF_CHECK(isfinite(d->x0[i]), w->ctx, STEIF_NOT_FINITE, "dx(0-)/dp has %g in row %lld",
                 d->x0[i], (long long)i + 1);
@@ -69,28 +64,48 @@ static sunrealtype at(SUNMatrix M, sunindextype row, sunindextype column)
   return sum;
 }
 
-static sunrealtype largest(SUNMatrix M)
+/* The largest entry of each row, and behind them of each column. */
+static void largest(SUNMatrix M, sunindextype n, sunrealtype *most)
 {
   sunindextype i, j;
-  sunrealtype value, most = 0;
-  for (stf_entries look = {M, 0, 0, 0}; stf_entries_next(&look, &i, &j, &value);)
-    most = fmax(most, fabs(value));
-  return most;
+  sunrealtype value;
+  for (i = 0; i < 2 * n; i++) most[i] = 0;
+  for (stf_entries look = {M, 0, 0, 0}; stf_entries_next(&look, &i, &j, &value);) {
+    most[i] = fmax(most[i], fabs(value));
+    most[n + j] = fmax(most[n + j], fabs(value));
+  }
 }
 
-/* The step that moves the entry that is moved most by its own size, or entries that are 0 by that of the
- * largest. */
-static sunrealtype step_of(SUNMatrix M, SUNMatrix slope)
+/* What an entry that is 0 may be as its row and column are scaled. */
+static sunrealtype room_of(const sunrealtype *most, sunindextype n, sunindextype i,
+                           sunindextype j)
+{
+  const sunrealtype row = most[i], column = most[n + j];
+  return row > 0 && column > 0 ? fmin(row, column) : fmax(row, column);
+}
+
+/* *least: the step that moves the entry that is moved most by its own size, or entries that are 0 by that of the
+ * row or the column, or of the matrix. */
+static int step_of(const search *w, SUNMatrix M, SUNMatrix slope, sunrealtype *least)
 {
   sunindextype i, j;
-  sunrealtype value, least = INFINITY;
-  const sunrealtype most = slope ? largest(M) : 0;
+  sunrealtype value, all = 0;
+  const sunindextype n = w->base.n;
+  *least = INFINITY;
+  if (!slope) return STEIF_OK;
+  sunrealtype *most = stf_allocate(w->ctx, 2 * (size_t)n, sizeof *most);
+  if (!most) return STEIF_NO_MEMORY;
+  largest(M, n, most);
+  for (i = 0; i < n; i++) all = fmax(all, most[i]);
   for (stf_entries look = {slope, 0, 0, 0}; stf_entries_next(&look, &i, &j, &value);) {
-    const sunrealtype own = value != 0 ? fabs(at(M, i, j)) : 0;
-    if (value != 0 && (own > 0 || most > 0))
-      least = fmin(least, (own > 0 ? own : most) / fabs(value));
+    if (value == 0) continue;
+    sunrealtype own = fabs(at(M, i, j));
+    if (own == 0) own = room_of(most, n, i, j);
+    if (own == 0) own = all;
+    if (own > 0) *least = fmin(*least, own / fabs(value));
   }
-  return least;
+  stf_release(w->ctx, most);
+  return STEIF_OK;
 }
 
 static sunrealtype power_of_2(sunrealtype x)
@@ -101,10 +116,14 @@ static sunrealtype power_of_2(sunrealtype x)
   return ldexp(1, e - 1);
 }
 
-static sunrealtype natural_step(const search *w)
+static int natural_step(const search *w, sunrealtype *step)
 {
   const steif_impulse_direction *d = w->direction;
-  return power_of_2(fmin(step_of(w->system->E, d->E), step_of(w->system->F, d->F)));
+  sunrealtype of_E, of_F;
+  STEIF_TRY(step_of(w, w->system->E, d->E, &of_E));
+  STEIF_TRY(step_of(w, w->system->F, d->F, &of_F));
+  *step = power_of_2(fmin(of_E, of_F));
+  return STEIF_OK;
 }
 
 /* ---- numbers ----------------------------------------------------------------------------------- */
@@ -135,45 +154,23 @@ static void keep_nothing(steif_impulse_slope *s)
   for (sunindextype i = 0; i < s->count * s->n; i++) s->c[i] = NAN;
 }
 
-/* E and F stay: X_p = R b_p. */
-static int of_data(search *w)
-{
-  const steif_impulse_direction *d = w->direction;
-  steif_impulse own;
-  sunrealtype *zero = d->x0 ? NULL : stf_allocate(w->ctx, (size_t)w->base.n, sizeof *zero);
-  if (!d->x0 && !zero) return STEIF_NO_MEMORY;
-  const int code = steif_impulse_find(w->ctx, w->system->E, w->system->F, d->x0 ? d->x0 : zero,
-                                      w->t, d->f, d->user, NULL, w->structure, &own);
-  stf_release(w->ctx, zero);
-  if (code) return code;
-  keep(w->slope, &own, 0, 1);
-  w->slope->exists = 1;
-  w->slope->certified = own.certified && w->base.certified;
-  snprintf(w->slope->message, sizeof w->slope->message,
-           "x(0+) and the impulses are linear in x(0-) and f");
-  steif_impulse_clear(w->ctx, &own);
-  return STEIF_OK;
-}
-
 /* ---- the structure ----------------------------------------------------------------------------- */
 
-/* The pencil nearby. */
-static int look_nearby(search *w, sunrealtype step)
+static int look_nearby(search *w, sunrealtype unit)
 {
-  const steif_impulse_direction *d = w->direction;
   steif_impulse_slope *s = w->slope;
-  const bool curve = d->E_near != NULL;
-  SUNMatrix E = curve ? d->E_near : stf_moved_matrix(w->ctx, w->system->E, d->E, step),
-            F = curve ? d->F_near : stf_moved_matrix(w->ctx, w->system->F, d->F, step);
-  steif_structure near = {0};
-  int code = E && F ? steif_structure_find(w->ctx, E, F, &w->analysis, &near) : STEIF_NO_MEMORY;
-  s->index_near = -1, s->finite_near = -1;
-  if (!code && near.certified && near.regular)
-    s->index_near = near.index, s->finite_near = near.finite;
-  if (!code) steif_structure_clear(w->ctx, &near);
-  if (!curve && E) SUNMatDestroy(E);
-  if (!curve && F) SUNMatDestroy(F);
-  return code;
+  const stf_approach a = {.ctx = w->ctx,
+                          .system = w->system,
+                          .direction = w->direction,
+                          .analysis = &w->analysis,
+                          .index = s->index,
+                          .finite = s->finite,
+                          .unit = unit};
+  stf_neighbour found;
+  STEIF_TRY(stf_approach_look(&a, &found));
+  w->nearby = found.verdict;
+  s->index_near = found.index, s->finite_near = found.finite;
+  return STEIF_OK;
 }
 
 static void sentence(const search *w, const steif_structure *twice)
@@ -200,17 +197,18 @@ static void sentence(const search *w, const steif_structure *twice)
       "x(0+) and the impulses are not differentiable in p (singular perturbation)",
       s->index, here, s->index_near, there);
   else if (s->exists < 0 && s->index_near < 0)
-    snprintf(text, room,
-             "undecided: first order keeps index %d and %lld finite eigenvalues, but the "
-             "pencil at a p "
-             "nearby has no certificate",
-             s->index, here);
+    snprintf(
+      text, room,
+      "undecided: first order keeps index %d and %lld finite eigenvalues, but on one side "
+      "no pencil at a p nearby tells whether they stay: it has no certificate, or fewer "
+      "of them",
+      s->index, here);
   else if (s->exists < 0)
     snprintf(
       text, room,
       "undecided: the derivative is that along a curve that keeps index %d and %lld finite "
       "eigenvalues, as first order does; the straight line in this direction leads to %d and "
-      "%lld: give E and F at a p nearby",
+      "%lld: say how E and F are at values of p nearby",
       s->index, here, s->index_near, there);
   else
     snprintf(text, room, "the derivative exists: index %d and %lld finite eigenvalues stay",
@@ -222,19 +220,38 @@ static void decide(search *w, const steif_structure *twice)
   steif_impulse_slope *s = w->slope;
   const bool certified = s->certified && twice->certified && twice->index >= 0;
   const bool as_far = twice->index == s->index && twice->finite == 2 * s->finite;
-  const bool known = w->direction->E_near || w->direction->straight;
-  const bool stays = s->index_near == s->index && s->finite_near == s->finite;
+  const bool known = w->direction->nearby || w->direction->straight;
   s->certified = certified;
   if (!certified || s->index < 0)
     s->exists = -1;
   else if (!as_far)
     s->exists = twice->index > s->index ? 0 : -1;
-  else if (stays)
+  else if (w->nearby == STF_STAYS)
     s->exists = 1;
   else
-    s->exists = s->index_near >= 0 && known ? 0 : -1;
+    s->exists = w->nearby == STF_GROWS && known ? 0 : -1;
   if (s->exists == 0) keep_nothing(s);
   sentence(w, twice);
+}
+
+/* E and F stay in first order: X_p = R b_p. */
+static int of_data(search *w)
+{
+  const steif_impulse_direction *d = w->direction;
+  steif_impulse own;
+  sunrealtype *zero = d->x0 ? NULL : stf_allocate(w->ctx, (size_t)w->base.n, sizeof *zero);
+  if (!d->x0 && !zero) return STEIF_NO_MEMORY;
+  const int code = steif_impulse_find(w->ctx, w->system->E, w->system->F, d->x0 ? d->x0 : zero,
+                                      w->t, d->f, d->user, NULL, w->structure, &own);
+  stf_release(w->ctx, zero);
+  if (code) return code;
+  keep(w->slope, &own, 0, 1);
+  w->slope->exists = 1;
+  w->slope->certified = own.certified && w->base.certified;
+  snprintf(w->slope->message, sizeof w->slope->message,
+           "x(0+) and the impulses are linear in x(0-) and f");
+  steif_impulse_clear(w->ctx, &own);
+  return STEIF_OK;
 }
 
 /* ---- the system of twice the size ---------------------------------------------------------------- */
@@ -271,9 +288,9 @@ static int solve_twice(search *w, sunrealtype unit, sunrealtype *next)
 
 static int of_pencil(search *w)
 {
-  sunrealtype next;
-  const sunrealtype unit = natural_step(w);
-  STEIF_TRY(look_nearby(w, NEARBY * unit));
+  sunrealtype next, unit;
+  STEIF_TRY(natural_step(w, &unit));
+  STEIF_TRY(look_nearby(w, unit));
   STEIF_TRY(solve_twice(w, unit, &next));
   const sunrealtype ratio = next / unit;
   return w->slope->exists && (ratio > ldexp(1, UNLIKE) || ratio < ldexp(1, -UNLIKE))
