@@ -51,6 +51,36 @@ static void of_a_model(void)
   steif_context_free(&b.ctx);
 }
 
+/* (p - 1)^m x' + x = 1, y' + y + x = 0: x(0+) is x(0-) beside p = 1 and 1 there, whatever the first derivative of E is. By
+ * q, which E does not hold, and by r, which moves E without its structure, the derivatives are 0. */
+static void of_higher_order(void)
+{
+  static const char *const first[] = {"(p-1)^2", "(p-1)^3", "(p-1)^4", "abs(p-1)^3"};
+  for (int m = 0; m < 4; m++) {
+    char text[200];
+    bench b = {.ctx = steif_context_new(NULL)};
+    snprintf(text, sizeof text,
+             "param p = 1, q = 1, r = 1\nstate x = 2, y = 3\n%s*x' + x = 1\n"
+             "(1+(r-1)^2)*y' + y + q*x = 0\ntime 0 to 1\n",
+             first[m]);
+    CHECK(steif_model_parse(b.ctx, text, "jump", NULL, &b.problem) == STEIF_OK);
+    CHECK(steif_linear_of(b.ctx, &b.problem, &b.system) == STEIF_OK);
+    for (int k = 0; k < 3; k++) {
+      CHECK(steif_impulse_direction_of(b.ctx, &b.problem, k, &b.along) == STEIF_OK);
+      CHECK(!steif_impulse_slope_find(b.ctx, &b.system, b.problem.y0, 0, NULL, NULL, &b.along,
+                                      &b.slope));
+      CHECK(b.slope.certified && b.slope.exists == (k > 0));
+      CHECK(k || (isnan(b.slope.x_plus[0]) && b.slope.finite_near == 2));
+      for (int i = 0; k && i < 2; i++) CLOSE_FLOOR(b.slope.x_plus[i], 0, 1e-12, 3);
+      steif_impulse_slope_clear(b.ctx, &b.slope);
+      steif_impulse_direction_clear(b.ctx, &b.along);
+    }
+    SUNMatDestroy(b.system.E), SUNMatDestroy(b.system.F);
+    steif_problem_clear(b.ctx, &b.problem);
+    steif_context_free(&b.ctx);
+  }
+}
+
 /* ---- bad input ----------------------------------------------------------------------------------------- */
 
 static int of_another_order(sunrealtype by, SUNMatrix *E, SUNMatrix *F, void *user)
@@ -118,6 +148,7 @@ static void short_memory(void)
 
 CU_TestInfo tests_of_slope_directions[] = {
   {"parameters of a model", of_a_model},
+  {"matrices that move in higher order", of_higher_order},
   {"wrong directions", wrong_directions},
   {"short of memory", short_memory},
   CU_TEST_INFO_NULL};

@@ -15,6 +15,7 @@
 #include <sunmatrix/sunmatrix_sparse.h>
 
 #define WIDEST 0x1p-7
+#define ASIDE 0.0172360679
 enum { LEVELS = 3, BITS = 38, BY_VECTORS = 2000 };
 
 /* What a direction owns: the user of its forcing. */
@@ -183,6 +184,31 @@ static bool zero(SUNMatrix M)
   return true;
 }
 
+static int differ(steif_context *ctx, SUNMatrix A, SUNMatrix B, bool *different)
+{
+  SUNMatrix M = stf_moved_matrix(ctx, A, B, -1);
+  if (!M) return STEIF_NO_MEMORY;
+  *different = *different || !zero(M);
+  SUNMatDestroy(M);
+  return STEIF_OK;
+}
+
+/* Do E or F move with p? Their derivatives may vanish at p alone, as that of (p - 1)^2 does. */
+static int moves(const dependence *d, bool *any)
+{
+  steif_linear l, here;
+  STEIF_TRY(matrices(d, 0, &here));
+  int code = STEIF_OK;
+  for (int side = -1; side <= 1 && !code && !*any; side += 2) {
+    code = matrices(d, side * ASIDE * d->size, &l);
+    if (!code) code = differ(d->ctx, here.E, l.E, any);
+    if (!code) code = differ(d->ctx, here.F, l.F, any);
+    destroy(&l.E), destroy(&l.F);
+  }
+  destroy(&here.E), destroy(&here.F);
+  return code;
+}
+
 static int nearby(sunrealtype by, SUNMatrix *E, SUNMatrix *F, void *user)
 {
   const dependence *d = user;
@@ -199,7 +225,9 @@ static int fill(dependence *d, steif_impulse_direction *out)
   STEIF_TRY(q->dFdp && p->n <= BY_VECTORS ? by_vectors(d, out) : by_differences(d, out));
   if (zero(out->E)) destroy(&out->E);
   if (zero(out->F)) destroy(&out->F);
-  if (out->E || out->F) out->nearby = nearby;
+  bool any = out->E || out->F;
+  if (!any) STEIF_TRY(moves(d, &any));
+  if (any) out->nearby = nearby;
   STEIF_TRY(steif_parameter_start(d->ctx, p, d->k, d->other));
   memcpy(d->x0, N_VGetArrayPointer(d->other), (size_t)p->n * sizeof *d->x0);
   out->x0 = d->x0;

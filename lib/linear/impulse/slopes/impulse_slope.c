@@ -234,6 +234,17 @@ static void decide(search *w, const steif_structure *twice)
   sentence(w, twice);
 }
 
+/* E and F move, and not in first order. */
+static int of_other_order(search *w)
+{
+  steif_impulse_slope *s = w->slope;
+  const steif_structure same = {
+    .index = s->index, .finite = 2 * s->finite, .certified = s->certified};
+  STEIF_TRY(look_nearby(w, 1));
+  decide(w, &same);
+  return STEIF_OK;
+}
+
 /* E and F stay in first order: X_p = R b_p. */
 static int of_data(search *w)
 {
@@ -251,7 +262,7 @@ static int of_data(search *w)
   snprintf(w->slope->message, sizeof w->slope->message,
            "x(0+) and the impulses are linear in x(0-) and f");
   steif_impulse_clear(w->ctx, &own);
-  return STEIF_OK;
+  return d->nearby ? of_other_order(w) : STEIF_OK;
 }
 
 /* ---- the system of twice the size ---------------------------------------------------------------- */
