@@ -1,7 +1,11 @@
 /* impulse_nonlinear.c: y(t+) and impulses of a nonlinear DAE of the collection.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "attributes.h"
 #include "impulse.h"
 #include <stdlib.h>
+#include <string.h>
+
+enum { NAME_ROOM = 128 };
 
 struct answer {
   const steif_jump *jump;
@@ -58,6 +62,25 @@ bool impulse_is_nonlinear(struct call *call, steif_problem *p)
   return form && form != STEIF_DESCRIPTOR;
 }
 
+/* --slopes has no system to go by; a name that is none is told first. */
+static int no_slopes(struct call *call, const steif_problem *p)
+{
+  char name[NAME_ROOM];
+  for (const char *at = word_of(call, "--slopes"); *at;) {
+    const size_t length = strcspn(at, ",");
+    int wrong;
+    snprintf(name, sizeof name, "%.*s", (int)length, at);
+    if (!strchr(name, ':') && parameter_of(call, p, name, &wrong) < 0) return wrong;
+    at += length + (at[length] == ',');
+  }
+  return bad_usage(
+    call,
+    "--slopes is for systems E x' + F x = f, and %s is of the form %s: say 'form "
+    "descriptor' in a model that is linear, or take 'steif sensitivity', or leave "
+    "--slopes out",
+    p->name, steif_form_name(steif_problem_form(call->ctx, p)));
+}
+
 int impulse_nonlinear(struct call *call, steif_problem *p)
 {
   static const char *const linear[] = {
@@ -69,6 +92,7 @@ int impulse_nonlinear(struct call *call, steif_problem *p)
       code =
         bad_usage(call, "%s is for systems E x' + F x = f; leave it out with the problem %s",
                   linear[k], p->name);
+  if (!code && given(call, "--slopes")) code = no_slopes(call, p);
   if (!code && call->words > 1)
     code = bad_usage(call, "\"%s\" is one word too many after the problem %s", call->word[1],
                      p->name);
