@@ -59,7 +59,9 @@ STEIF_EXPORT int steif_parameter_find(steif_context *ctx, const steif_problem *p
 STEIF_EXPORT int steif_parameter_set(steif_context *ctx, const steif_problem *problem, int k,
                                      sunrealtype value);
 /* out = dF/dp_k at (t, y, yp): by the callback, else by central differences, to about 1e-10 of the size
- * of F/p_k; value[k] is moved and restored exactly meanwhile. Where F cannot be evaluated on one side of
+ * of F/p_k; value[k] is moved and restored exactly meanwhile. Where F bends within 1e-5 of p_k shorter differences are
+ * taken, to 1e-6; STEIF_UNSUPPORTED with two of them where none can be trusted to 1e-3. STEIF_NOT_FINITE: F has no
+ * derivative there. Where F cannot be evaluated on one side of
  * p_k the difference is one-sided. STEIF_RETRY: on neither. */
 STEIF_EXPORT int steif_parameter_slope(steif_context *ctx, const steif_problem *problem, int k,
                                        sunrealtype t, N_Vector y, N_Vector yp, N_Vector out);

@@ -140,7 +140,7 @@ static void of_the_descriptor_form_and_of_the_ode(void)
   close_point(&s);
 }
 
-/* Below b = 0 f has no value: the difference is that to the right. */
+/* Below b = 0 f has no value: differences are to the right, and shorter than b in the end. */
 static void at_a_border(void)
 {
   const steif_problem o = {
@@ -153,8 +153,7 @@ static void at_a_border(void)
   steif_problem q = o;
   q.parameters = &scaled;
   CHECK(!steif_parameter_slope(s.ctx, &q, 1, 0.6, s.y, s.yp, s.out));
-  const double up = p[1] + cbrt(2.220446049250313e-16) * 1e-3;
-  CLOSE(NV_Ith_S(s.out, 1), -NV_Ith_S(s.y, 0) * (sqrt(up) - sqrt(p[1])) / (up - p[1]), 1e-9);
+  CLOSE(NV_Ith_S(s.out, 1), -NV_Ith_S(s.y, 0) / (2 * sqrt(p[1])), 1e-5);
   p[1] = -1;
   CHECK(steif_parameter_slope(s.ctx, &q, 1, 0.6, s.y, s.yp, s.out) > 0);
   CHECK(p[1] == -1);
@@ -207,7 +206,66 @@ static void wrong_calls_are_told(void)
   close_point(&s);
 }
 
+/* y1' = s(q) - y1, y2' = q - y2 with a function s that changes within far less than q or 1. */
+static double q = 0;
+static int sharp = 0;
+static long calls = 0;
+
+static int of_sharp(sunrealtype t, N_Vector y, N_Vector out, void *user)
+{
+  (void)t, (void)user;
+  const double s = sharp == 0   ? sin(1e6 * q)
+                   : sharp == 1 ? exp((q - 300) * 1e3)
+                   : sharp == 2 ? 0.1 * q
+                                : cos(1e12 * q);
+  calls++;
+  NV_Ith_S(out, 0) = s - NV_Ith_S(y, 0);
+  NV_Ith_S(out, 1) = q - NV_Ith_S(y, 1);
+  return 0;
+}
+
+static const steif_parameters of_q = {.count = 1, .value = &q};
+
+static void of_sharp_functions(void)
+{
+  static const double at[] = {0, 300, 300, 300}, slope[] = {-1e6, -1e3, -0.1, 0};
+  const steif_problem o = {
+    .name = "sharp", .n = 2, .t1 = 1, .y0 = y0, .f = of_sharp, .parameters = &of_q};
+  point s = open_point();
+  for (sharp = 0; sharp < 4; sharp++) {
+    q = at[sharp];
+    const int code = steif_parameter_slope(s.ctx, &o, 0, 0.6, s.y, s.yp, s.out);
+    CHECK(code == (sharp < 3 ? STEIF_OK : STEIF_UNSUPPORTED) && q == at[sharp]);
+    if (sharp < 3) CLOSE(NV_Ith_S(s.out, 0), slope[sharp], 1e-6);
+    if (sharp < 3) CLOSE(NV_Ith_S(s.out, 1), -1, 1e-6);
+    CHECK(sharp < 3 || strstr(steif_message(s.ctx), "parameter 1 = 300 cannot be had"));
+  }
+  close_point(&s);
+}
+
+/* Two evaluations each, and two more of the 1st, 4th, 16th, 65th, 129th and 193rd. A function that turns sharp is seen by
+ * then. */
+static void lengths_are_kept(void)
+{
+  const steif_problem o = {
+    .name = "sharp", .n = 2, .t1 = 1, .y0 = y0, .f = of_sharp, .parameters = &of_q};
+  point s = open_point();
+  stf_pool *pool = stf_pool_new(s.ctx);
+  stf_slopes *slopes;
+  CU_ASSERT_FATAL(!stf_slopes_open(pool, s.ctx, &o, STEIF_ODE, s.y, &slopes));
+  sharp = 2, q = 300, calls = 0;
+  for (int i = 0; i < 200; i++) CHECK(!stf_slopes_at(slopes, 0, 0, s.y, s.yp, s.out));
+  CHECK(calls == 2 * (200 + 6));
+  sharp = 1;
+  for (int i = 0; i < 64; i++) CHECK(!stf_slopes_at(slopes, 0, 0, s.y, s.yp, s.out));
+  CLOSE(NV_Ith_S(s.out, 0), -1e3, 1e-6);
+  stf_pool_free(&pool);
+  close_point(&s);
+}
+
 CU_TestInfo tests_of_parameters[] = {
+  {"functions that are sharp in p", of_sharp_functions},
+  {"lengths are kept", lengths_are_kept},
   {"mass, implicit and callbacks", of_all_forms},
   {"descriptor and ode", of_the_descriptor_form_and_of_the_ode},
   {"a border of p", at_a_border},

@@ -20,6 +20,9 @@ int stf_slope_open(stf_slope_columns *c, stf_baseline *base, bool *exact)
               "none: take dense or sparse storage",
               base->package, run->problem->name);
   *exact = (ode ? stf_baseline_has_jac(base) : stf_lower_has_jac(base));
+  if (*exact)
+    STEIF_TRY(
+      stf_slopes_open(run->pool, run->ctx, run->problem, run->form, run->like, &c->slopes));
   for (int i = 0; i < 3; i++)
     if (!(c->work[i] = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
   for (int i = 0; i < 2 && *exact; i++) {
@@ -45,8 +48,10 @@ static int add_slope(stf_slope_columns *c, int k, sunrealtype t, N_Vector y, N_V
                      sunrealtype sign, N_Vector out)
 {
   stf_run *run = c->base->run;
-  const int code = steif_parameter_slope(run->ctx, run->problem, run->columns.parameter[k], t,
-                                         y, yp, c->work[0]);
+  const int parameter = run->columns.parameter[k];
+  int code = stf_slopes_at(c->slopes, parameter, t, y, yp, c->work[0]);
+  if (!code && stf_not_finite(c->work[0]) >= 0)
+    code = stf_slopes_not_finite(c->slopes, parameter, t, c->work[0]);
   if (code) return code < 0 ? -1 : 1;
   N_VLinearSum(1, out, sign, c->work[0], out);
   return 0;

@@ -4,8 +4,10 @@
 #define STF_SLOPE_COLUMNS_H
 
 #include "baseline.h"
+#include "problem.h"
 
 typedef struct stf_slope_columns {
+  stf_slopes *slopes;
   stf_baseline *base;
   SUNMatrix J[2]; /* with c = 0 and 1; of ODEs the first alone, df/dy */
   N_Vector work[3];

@@ -1,10 +1,12 @@
 /* parameters.c: derivatives of the residual and of the start by parameters.
  *
  * A difference moves p_k by eps^(1/3) of its scale: truncation and rounding of the quotient are then both
- * of the order eps^(2/3).
+ * of the order eps^(2/3), where F is smooth over such a length. That is looked at in the first evaluation, the 4th and the
+ * 16th, and then in one of 64 (slope_length.h).
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "problem.h"
+#include "slope_length.h"
 #include <math.h>
 #include <steif/parameters.h>
 #include <stdio.h>
@@ -21,7 +23,12 @@ typedef struct stf_slopes {
   sunrealtype t;
   N_Vector y, yp, work, other;
   SUNMatrix M;
+  N_Vector now, half, bar, moved; /* where differences are looked at */
+  long *count;                    /* of differences by each parameter; NULL: one alone */
+  sunrealtype *length;            /* of each; 0: the increment */
 } point;
+
+enum { OFTEN = 64 };
 
 /* ---- the residual ----------------------------------------------------------------------------- */
 
@@ -92,19 +99,106 @@ static int with(const steif_parameters *q, int k, sunrealtype value,
   return q->moved && q->moved(at->problem->user) ? -1 : code;
 }
 
-/* Values on both sides, or on one and here: their quotient. what(data, out) is the function of p. */
+/* What is differentiated: a function of p_k. */
+typedef struct difference {
+  const point *at;
+  int k;
+  int (*what)(const point *at, N_Vector out);
+} difference;
+
+/* Values on both sides, or on one and here: their quotient. */
+static int quotient(sunrealtype d, N_Vector out, void *user)
+{
+  const difference *f = user;
+  const point *at = f->at;
+  const steif_parameters *q = at->problem->parameters;
+  N_Vector other = at->other;
+  const sunrealtype p = q->value[f->k];
+  volatile sunrealtype up = p + d, down = p - d;
+  int code = with(q, f->k, up, f->what, at, out);
+  if (code > 0) code = with(q, f->k, up = p, f->what, at, out);
+  if (!code) code = with(q, f->k, down, f->what, at, other);
+  if (code > 0 && up > p) code = with(q, f->k, down = p, f->what, at, other);
+  if (!code) N_VLinearSum(1 / (up - down), out, -1 / (up - down), other, out);
+  return code;
+}
+
+/* What some units of rounding of y and y' make of the function, and those of its values. */
+static int noise(N_Vector bar, void *user)
+{
+  const difference *f = user;
+  point moved = *f->at;
+  const sunrealtype units = 8 * STF_EPS;
+  int code = f->what(f->at, bar);
+  if (code) return code;
+  if (moved.y) {
+    N_VScale(1 + units, moved.y, moved.now), N_VScale(1 - units, moved.yp, moved.moved);
+    moved.y = moved.now, moved.yp = moved.moved;
+  }
+  code = f->what(&moved, moved.other);
+  sunrealtype *b = stf_array(bar);
+  const sunrealtype *c = stf_array(moved.other);
+  for (sunindextype i = 0; i < N_VGetLength(bar); i++)
+    b[i] = fabs(b[i] - c[i]) + units * fabs(b[i]);
+  return code;
+}
+
+/* No length can be trusted. */
+static int sharp(const difference *f, const stf_trusted *found, sunrealtype d)
+{
+  const steif_problem *p = f->at->problem;
+  const steif_parameters *q = p->parameters;
+  const char *name = q->name ? q->name[f->k] : NULL;
+  char row[STEIF_SPEC_WORD];
+  return STEIF_FAIL(f->at->ctx, STEIF_UNSUPPORTED,
+                    "the derivative of problem '%s' by parameter %d%s%.40s%s = %.12g cannot be "
+                    "had by differences: over "
+                    "p -+ %.3g and half of that they are %.6g and %.6g in equation %s at t = "
+                    "%.12g, and shorter ones agree "
+                    "no better before they drown in rounding: give parameters.dFdp, or write "
+                    "the problem as a model",
+                    p->name, f->k + 1, name ? " ('" : "", name ? name : "", name ? "')" : "",
+                    q->value[f->k], d, found->quotient[0], found->quotient[1],
+                    stf_equation(p, found->component, row), f->at->t);
+}
+
+/* out is the quotient over d. */
+static int look(const difference *f, sunrealtype d, N_Vector out)
+{
+  const point *at = f->at;
+  stf_trusted found;
+  const sunrealtype p = at->problem->parameters->value[f->k];
+  const stf_quotients q = {.length = d,
+                           .least = 64 * STF_EPS * fabs(p),
+                           .quotient = quotient,
+                           .noise = noise,
+                           .user = (void *)f,
+                           .now = at->now,
+                           .half = at->half,
+                           .bar = at->bar};
+  const int code = stf_trust(&q, out, &found);
+  if (code) return code < 0 ? code : 0; /* shorter ones cannot be evaluated */
+  if (found.length == 0) return sharp(f, &found, d);
+  if (at->length) at->length[f->k] = found.length;
+  return found.length < d ? quotient(found.length, out, (void *)f) : 0;
+}
+
+static bool due(const point *at, int k)
+{
+  const long count = at->count ? at->count[k]++ : 0;
+  return at->bar && (count % OFTEN == 0 || count == 3 || count == 15);
+}
+
+/* what(p) is differentiated by p_k. */
 static int differ(const steif_parameters *q, int k, int (*what)(const point *at, N_Vector out),
                   const point *at, N_Vector out)
 {
-  N_Vector other = at->other;
-  const sunrealtype p = q->value[k], d = stf_slopes_increment(q, k);
-  volatile sunrealtype up = p + d, down = p - d;
-  int code = with(q, k, up, what, at, out);
-  if (code > 0) code = with(q, k, up = p, what, at, out);
-  if (!code) code = with(q, k, down, what, at, other);
-  if (code > 0 && up > p) code = with(q, k, down = p, what, at, other);
-  if (!code) N_VLinearSum(1 / (up - down), out, -1 / (up - down), other, out);
-  return code;
+  const sunrealtype d = stf_slopes_increment(q, k);
+  const bool looks = due(at, k);
+  const bool known = !looks && at->length && at->length[k] > 0;
+  difference f = {at, k, what};
+  const int code = quotient(known ? at->length[k] : d, out, &f);
+  return code || !looks ? code : look(&f, d, out);
 }
 
 static int start_values(const point *at, N_Vector out)
@@ -112,55 +206,7 @@ static int start_values(const point *at, N_Vector out)
   return at->problem->start(at->problem->t0, out, at->work, at->problem->user);
 }
 
-/* ---- names and calls -------------------------------------------------------------------------- */
-
-static int check(steif_context *ctx, const steif_problem *p, int k)
-{
-  STEIF_CHECK(p && p->parameters && p->parameters->count > 0 && p->parameters->value, ctx,
-              STEIF_BAD_INPUT, "problem '%s' has no parameters: set .parameters",
-              p && p->name ? p->name : "NULL");
-  STEIF_CHECK(k >= 0 && k < p->parameters->count, ctx, STEIF_BAD_INPUT,
-              "parameter %d of problem '%s' must lie in 0 .. %d", k, p->name,
-              p->parameters->count - 1);
-  STEIF_CHECK(isfinite(p->parameters->value[k]), ctx, STEIF_NOT_FINITE,
-              "parameter %d of problem '%s' is %g", k, p->name, p->parameters->value[k]);
-  return STEIF_OK;
-}
-
-int steif_parameter_find(steif_context *ctx, const steif_problem *p, const char *name)
-{
-  STF_NAMED(p);
-  if (check(ctx, p, 0) || !name) return -1;
-  const steif_parameters *q = p->parameters;
-  for (int k = 0; q->name && k < q->count; k++)
-    if (!strcmp(q->name[k], name)) return k;
-  char own[STEIF_SPEC_WORD];
-  for (int k = 0; !q->name && k < q->count; k++) {
-    snprintf(own, sizeof own, "p%d", k + 1);
-    if (!strcmp(own, name)) return k;
-  }
-  char guess[STF_GUESS] = "; they are p1, p2, ...";
-  if (q->name) stf_guess(name, q->name, (size_t)q->count, sizeof *q->name, guess);
-  if (q->name && !*guess) snprintf(guess, sizeof guess, "; the first one is '%.40s'", *q->name);
-  STEIF_FAIL(ctx, STEIF_UNKNOWN_NAME, "problem '%s' has no parameter '%s'%s", p->name, name,
-             guess);
-  return -1;
-}
-
-int steif_parameter_set(steif_context *ctx, const steif_problem *p, int k, sunrealtype value)
-{
-  STF_NAMED(p);
-  STEIF_TRY(check(ctx, p, k));
-  STEIF_CHECK(isfinite(value), ctx, STEIF_NOT_FINITE, "parameter %d of problem '%s' is %g",
-              k + 1, p->name, value);
-  const steif_parameters *q = p->parameters;
-  q->value[k] = value;
-  const int returned = q->moved ? q->moved(p->user) : 0;
-  STEIF_CHECK(returned == 0, ctx, STEIF_CALLBACK,
-              "parameters.moved of problem '%s' returned %d for parameter %d = %g", p->name,
-              returned, k + 1, value);
-  return STEIF_OK;
-}
+/* ---- calls -------------------------------------------------------------------------- */
 
 /* A failure of the library in the callback, of which there have been more than `before`, is told by it. */
 static int told(steif_context *ctx, const steif_problem *p, int returned, int k, long before)
@@ -183,7 +229,12 @@ static int claim(point *at, stf_pool *pool, N_Vector like)
 {
   at->other = stf_pool_vector(pool, like);
   at->work = stf_pool_vector(pool, like);
-  return at->other && at->work ? open_matrix(at, pool) : STEIF_NO_MEMORY;
+  if (!at->other || !at->work) return STEIF_NO_MEMORY;
+  N_Vector *const more[] = {&at->now, &at->half, &at->moved, &at->bar};
+  const steif_parameters *q = at->problem->parameters;
+  for (int i = 0; i < 4 && stf_array(like) && q && !q->dFdp; i++)
+    if (!(*more[i] = stf_pool_vector(pool, like))) return STEIF_NO_MEMORY;
+  return open_matrix(at, pool);
 }
 
 /* A derivative by differences of `what`, with memory of its own. */
@@ -204,14 +255,18 @@ int steif_parameter_slope(steif_context *ctx, const steif_problem *p, int k, sun
                           N_Vector y, N_Vector yp, N_Vector out)
 {
   STF_NAMED(p);
-  STEIF_TRY(check(ctx, p, k));
+  STEIF_TRY(stf_parameter_check(ctx, p, k));
   STEIF_CHECK(y && yp && out, ctx, STEIF_BAD_INPUT, "y, yp and out are needed, got NULL");
   const long before = stf_failures(ctx);
   point at = {.ctx = ctx, .problem = p, .t = t, .y = y, .yp = yp};
-  if (p->parameters->dFdp)
-    return told(ctx, p, p->parameters->dFdp(t, y, yp, k, out, p->user), k, before);
-  at.form = steif_problem_form(ctx, p);
-  return at.form ? by_differences(&at, k, residual, out) : steif_status(ctx);
+  if (p->parameters->dFdp) {
+    STEIF_TRY(told(ctx, p, p->parameters->dFdp(t, y, yp, k, out, p->user), k, before));
+  } else {
+    at.form = steif_problem_form(ctx, p);
+    if (!at.form) return steif_status(ctx);
+    STEIF_TRY(by_differences(&at, k, residual, out));
+  }
+  return stf_not_finite(out) < 0 ? STEIF_OK : stf_slopes_not_finite(&at, k, t, out);
 }
 
 int stf_slopes_open(stf_pool *pool, steif_context *ctx, const steif_problem *p, int form,
@@ -219,7 +274,13 @@ int stf_slopes_open(stf_pool *pool, steif_context *ctx, const steif_problem *p, 
 {
   point *at = *slopes = stf_pool_array(pool, 1, sizeof *at);
   if (!at) return STEIF_NO_MEMORY;
+  const steif_parameters *q = p->parameters;
   *at = (point){.ctx = ctx, .problem = p, .form = form};
+  if (q && !q->dFdp && q->count > 0) {
+    at->count = stf_pool_array(pool, (size_t)q->count, sizeof *at->count);
+    at->length = stf_pool_array(pool, (size_t)q->count, sizeof *at->length);
+    if (!at->count || !at->length) return STEIF_NO_MEMORY;
+  }
   return claim(at, pool, like);
 }
 
@@ -232,6 +293,20 @@ int stf_slopes_at(stf_slopes *at, int k, sunrealtype t, N_Vector y, N_Vector yp,
   const int returned =
     q->dFdp ? q->dFdp(t, y, yp, k, out, p->user) : differ(q, k, residual, at, out);
   return told(at->ctx, p, returned, k, before);
+}
+
+int stf_slopes_not_finite(const stf_slopes *at, int k, sunrealtype t, N_Vector slope)
+{
+  const steif_problem *p = at->problem;
+  const steif_parameters *q = p->parameters;
+  const sunindextype i = stf_not_finite(slope);
+  char row[STEIF_SPEC_WORD];
+  return STEIF_FAIL(at->ctx, STEIF_NOT_FINITE,
+                    "dF/dp of parameter %d%s%.40s%s of problem '%s' is %g in equation %s at "
+                    "t = %.12g: this parameter has no derivative there",
+                    k + 1, q->name ? " ('" : "", q->name ? q->name[k] : "", q->name ? "')" : "",
+                    p->name, i < 0 ? NAN : stf_array(slope)[i],
+                    i < 0 ? "?" : stf_equation(p, i, row), t);
 }
 
 int stf_slopes_between(stf_slopes *at, int k, sunrealtype t, N_Vector y, N_Vector yp, int low,
@@ -251,13 +326,14 @@ int stf_slopes_between(stf_slopes *at, int k, sunrealtype t, N_Vector y, N_Vecto
 sunrealtype stf_slopes_noise(const stf_slopes *at, int k)
 {
   const steif_parameters *q = at->problem->parameters;
-  return q->dFdp ? 0 : STF_EPS / stf_slopes_increment(q, k);
+  const sunrealtype own = at->length ? at->length[k] : 0;
+  return q->dFdp ? 0 : STF_EPS / (own > 0 ? own : stf_slopes_increment(q, k));
 }
 
 int steif_parameter_start(steif_context *ctx, const steif_problem *p, int k, N_Vector out)
 {
   STF_NAMED(p);
-  STEIF_TRY(check(ctx, p, k));
+  STEIF_TRY(stf_parameter_check(ctx, p, k));
   STEIF_CHECK(out, ctx, STEIF_BAD_INPUT, "a vector for dy0/dp is needed, got NULL");
   N_VConst(0, out);
   const long before = stf_failures(ctx);
@@ -271,7 +347,7 @@ int steif_parameter_pull(steif_context *ctx, const steif_problem *p, sunrealtype
                          N_Vector yp, N_Vector w, sunrealtype *out)
 {
   STF_NAMED(p);
-  STEIF_TRY(check(ctx, p, 0));
+  STEIF_TRY(stf_parameter_check(ctx, p, 0));
   STEIF_CHECK(y && yp && w && out, ctx, STEIF_BAD_INPUT,
               "y, yp, w and out are needed, got NULL");
   const long before = stf_failures(ctx);

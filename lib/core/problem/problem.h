@@ -160,12 +160,17 @@ bool stf_groups_differ(const stf_system *system);
 int stf_probe(stf_system *system, char which, sunrealtype t, N_Vector y, N_Vector yp,
               SUNMatrix M, bool *grown);
 
+/* parameter_names.c: there are parameters, and k is one of them. */
+int stf_parameter_check(steif_context *ctx, const steif_problem *problem, int k);
+
 /* parameters.c: dF/dp_k without memory of its own, for those who step. */
 typedef struct stf_slopes stf_slopes;
 int stf_slopes_open(stf_pool *pool, steif_context *ctx, const steif_problem *problem, int form,
                     N_Vector like, stf_slopes **slopes);
 int stf_slopes_at(stf_slopes *slopes, int k, sunrealtype t, N_Vector y, N_Vector yp,
                   N_Vector out);
+/* STEIF_NOT_FINITE with the parameter, the equation and t. */
+int stf_slopes_not_finite(const stf_slopes *slopes, int k, sunrealtype t, N_Vector slope);
 
 /* Whatever callbacks there are, by one difference, p_k from `low` to `high` increments off. */
 int stf_slopes_between(stf_slopes *slopes, int k, sunrealtype t, N_Vector y, N_Vector yp,
