@@ -105,6 +105,25 @@ static void against_differences(const fixture *s, vectors *x, double t, double t
   N_VDestroy(out);
 }
 
+/* w . E v and w . A v both ways, and E v by the entries of E. */
+static void operators(const fixture *s, vectors *x, double t, double size)
+{
+  const steif_problem *p = &s->p;
+  N_Vector to = x->r[0], back = x->r[1];
+  CHECK(!p->Av(t, x->y, x->yp, x->v, to, p->user));
+  CHECK(!p->Atv(t, x->y, x->yp, x->w, back, p->user));
+  CLOSE_FLOOR(N_VDotProd(x->w, to), N_VDotProd(x->v, back), 1e-12, size);
+  CHECK(!p->E == !p->Ev && !p->E == !p->Etv);
+  if (!p->E) return;
+  times(p, x, p->E, t, x->v, back);
+  CHECK(!p->Ev(t, x->y, x->yp, x->v, to, p->user));
+  for (int i = 0; i < p->n; i++)
+    CLOSE_FLOOR(NV_Ith_S(to, i), NV_Ith_S(back, i), 1e-12, N_VMaxNorm(back));
+  CHECK(!p->Etv(t, x->y, x->yp, x->w, back, p->user));
+  CLOSE_FLOOR(N_VDotProd(x->w, to), N_VDotProd(x->v, back), 1e-12,
+              size + N_VMaxNorm(to) * N_VMaxNorm(x->w));
+}
+
 /* w . (F_y v + F_y' v' + F_p q) both ways, and F_y v by the entries of A. */
 static void against_each_other(const fixture *s, vectors *x, double t)
 {
@@ -125,11 +144,14 @@ static void against_each_other(const fixture *s, vectors *x, double t)
   else
     s->p.A(t, x->y, x->yp, x->M, s->p.user);
   SUNMatMatvec(x->M, x->v, x->r[0]);
+  CHECK(!s->p.Av(t, x->y, x->yp, x->v, x->r[1], s->p.user));
   for (int i = 0; i < s->p.n; i++) {
     double row = 0;
     for (int j = 0; j < s->p.n; j++) row += fabs(SM_ELEMENT_D(x->M, i, j) * NV_Ith_S(x->v, j));
     CLOSE_FLOOR(-NV_Ith_S(x->r[0], i), NV_Ith_S(out, i), 1e-12, row);
+    CLOSE_FLOOR(NV_Ith_S(x->r[1], i), NV_Ith_S(x->r[0], i), 1e-12, row);
   }
+  operators(s, x, t, size);
   N_VDestroy(out);
 }
 

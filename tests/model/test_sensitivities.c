@@ -156,6 +156,30 @@ static void gradients_without_factors(void)
   }
 }
 
+/* x' = -k x and y = 2 x^2, or y = 2 x where the model is linear, in the three forms with E: dy/dk(1) is -4 e^(-2 k) or
+ * -2 e^(-k). In the second x'^2 x^2/4 stands on both sides. */
+static void of_daes_without_matrices(void)
+{
+  static const char *const texts[] = {
+    "param k = 1.5\nstate x = 1, y = 2\nx' = -k*x\n0 = y - 2*x^2\ntime 0 to 1\n",
+    "param k = 1.5\nstate x = 1, y = 2\nx' + y*x'^3/8 = -k*x*(1 + x^2*x'^2/4)\n0 = y - "
+    "2*x^2\ntime 0 to 1\n",
+    "form descriptor\nparam k = 1.5\nstate x = 1, y = 2\nx' = -k*x\n0 = y - 2*x\ntime 0 to "
+    "1\n"};
+  for (int i = 0; i < 3; i++) {
+    fixture s;
+    CU_ASSERT_FATAL(!fixture_text(&s, texts[i], ""));
+    for (int krylov = 0; krylov < 2; krylov++) {
+      const sunrealtype exact = i < 2 ? -4 * exp(-3) : -2 * exp(-1.5);
+      sunrealtype S = 0;
+      CHECK(derivatives(&s, "radau:s=3", krylov ? STEIF_KRYLOV : STEIF_DENSE, 1e-8, 1, &S));
+      closely("radau:s=3", &S, &exact, 1, 1e-6);
+    }
+    back(s.ctx, &s.p, "radau:s=3", 1);
+    fixture_close(&s);
+  }
+}
+
 /* A pendulum of index 3 from a place that a parameter says: x^2 + y^2 = 1 stays true of its derivatives, and the start that
  * is computed is accurate to its tolerance alone. */
 static void starts_on_constraints_have_derivatives(void)
@@ -383,5 +407,6 @@ CU_TestInfo tests_of_sensitivities[] = {
   {"derivatives of starts follow the equations", derivatives_of_starts_follow_the_equations},
   {"a jump of the start in closed form", a_jump_of_the_start_in_closed_form},
   {"without factors", without_factors},
+  {"of DAEs without matrices", of_daes_without_matrices},
   {"gradients without factors", gradients_without_factors},
   CU_TEST_INFO_NULL};

@@ -280,6 +280,7 @@ int stf_model_fill(stf_model *m, steif_problem *p)
   STEIF_TRY(sizes(m, p));
   STEIF_TRY(stf_finish(m, p));
   STEIF_TRY(stf_products_open(m));
+  stf_operators(m, p);
   STEIF_TRY(stf_parameter_members(m, p));
   STEIF_TRY(stf_reactions_begin(m->t0, m));
   STEIF_TRY(stf_consistent_start(m, p));

@@ -40,6 +40,9 @@ int stf_adjoint_tape(stf_model *m, stf_block *block, int64_t *rows, stf_quantity
 /* The residual of an equation: y_row' - value, or what stands in the text. */
 int32_t stf_residual_node(const stf_model *m, stf_block *block, const stf_equation *e);
 
+/* operators.c: the members .Ev, .Av, .Etv and .Atv. */
+void stf_operators(const stf_model *m, steif_problem *p);
+
 /* moved_parameters.c: members of steif_parameters. */
 int stf_model_follow(void *user);
 int stf_model_break_slope(int i, int k, sunrealtype *slope, void *user);
