@@ -1,6 +1,8 @@
 /* fixture.c: models from texts.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixture.h"
+#include <math.h>
+#include <steif/sensitivity.h>
 
 static int open_path(fixture *s)
 {
@@ -68,4 +70,32 @@ void fixture_reaches(const char *text, double expected, double allowed)
       CLOSE_FLOOR(y[0], expected, allowed, 1);
     }
   fixture_close(&s);
+}
+
+bool fixture_derivatives(fixture *s, const char *method, enum steif_storage storage,
+                         double rtol, int count, sunrealtype *S)
+{
+  steif_options o = steif_defaults();
+  o.rtol = rtol, o.sensitivities = 1, o.force_storage = 1, o.storage = storage;
+  steif_solver *solver = steif_solver_new(s->ctx, &s->p, method, &o);
+  bool well = solver && steif_solve_to(solver, s->p.t1) == STEIF_OK;
+  N_Vector dy = N_VNew_Serial(s->p.n, steif_sundials(s->ctx));
+  for (int k = 0; well && k < count; k++) {
+    well = steif_sensitivity_output(solver, s->p.t1, k, dy) == STEIF_OK;
+    S[k] = NV_Ith_S(dy, s->p.n - 1);
+  }
+  if (!well) printf("\n  %s: %s", method, steif_message(s->ctx));
+  N_VDestroy(dy);
+  steif_solver_free(&solver);
+  return well;
+}
+
+void fixture_closely(const char *method, const sunrealtype *S, const sunrealtype *exact,
+                     int count, double error)
+{
+  for (int k = 0; k < count; k++) {
+    const bool close = fabs(S[k] - exact[k]) <= error * fabs(exact[k]);
+    if (!close) printf("\n  %s, parameter %d: %.12g, not %.12g", method, k + 1, S[k], exact[k]);
+    CHECK(close);
+  }
 }

@@ -26,5 +26,11 @@ void fixture_close(fixture *s);
 int fixture_run(fixture *s, const char *method, double rtol, double *y);
 /* The first unknown at the end of a model of at most eight, by four methods, twice each, at rtol 1e-9. */
 void fixture_reaches(const char *text, double expected, double allowed);
+/* S of the last unknown by the first `count` parameters at the end, as it is shown; false: not solved. Close to `exact`, in
+ * parts of it? */
+bool fixture_derivatives(fixture *s, const char *method, enum steif_storage storage,
+                         double rtol, int count, sunrealtype *S);
+void fixture_closely(const char *method, const sunrealtype *S, const sunrealtype *exact,
+                     int count, double error);
 
 #endif

@@ -16,6 +16,7 @@ extern CU_TestInfo tests_of_products[];
 extern CU_TestInfo tests_of_grids[];
 extern CU_TestInfo tests_of_sensitivities[];
 extern CU_TestInfo tests_of_low_orders[];
+extern CU_TestInfo tests_of_passages[];
 extern CU_TestInfo tests_of_wrong_models[];
 
 SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_examples},
@@ -31,5 +32,6 @@ SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_e
            {.pName = "grids, and compiled models", .pTests = tests_of_grids},
            {.pName = "products with derivatives", .pTests = tests_of_products},
            {.pName = "derivatives by parameters", .pTests = tests_of_sensitivities},
+           {.pName = "derivatives through events", .pTests = tests_of_passages},
            {.pName = "unknowns of low order", .pTests = tests_of_low_orders},
            {.pName = "wrong models and their sentences", .pTests = tests_of_wrong_models})

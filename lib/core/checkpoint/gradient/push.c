@@ -53,6 +53,15 @@ int stf_push_open(stf_backwards *B, steif_direction *line)
                          steif_problem_form(B->ctx, B->problem), B->space.like, &D->slopes);
 }
 
+/* work = dF/dtheta. */
+static int slope_at(stf_backwards *B, sunrealtype t, N_Vector y, N_Vector yp)
+{
+  const stf_pushed *D = B->tangent;
+  STEIF_TRY(stf_slopes_at(D->slopes, 0, t, y, yp, B->work));
+  return stf_finite(&B->space, B->work) ? STEIF_OK
+                                        : stf_slopes_not_finite(D->slopes, 0, t, B->work);
+}
+
 int stf_push_start(stf_backwards *B, sunrealtype t0, N_Vector y0, N_Vector yp0)
 {
   stf_pushed *D = B->tangent;
@@ -64,7 +73,7 @@ int stf_push_start(stf_backwards *B, sunrealtype t0, N_Vector y0, N_Vector yp0)
   if (B->kind != STF_TRACE_CHAIN || B->table->A[0] != 0) return STEIF_OK;
   STEIF_TRY(stf_matrices_at_fill(&B->adjoint.at, 0, t0, y0, yp0));
   STEIF_TRY(stf_matrices_at_product(&B->adjoint.at, 0, 'A', D->y, D->kappa));
-  STEIF_TRY(stf_slopes_at(D->slopes, 0, t0, y0, yp0, B->work));
+  STEIF_TRY(slope_at(B, t0, y0, yp0));
   stf_axpy(&B->space, -1, B->work, D->kappa);
   return STEIF_OK;
 }
@@ -73,8 +82,7 @@ int stf_push_start(stf_backwards *B, sunrealtype t0, N_Vector y0, N_Vector yp0)
 static int right_side(stf_backwards *B, int j, int point, sunrealtype t, N_Vector base,
                       N_Vector out)
 {
-  const stf_pushed *D = B->tangent;
-  STEIF_TRY(stf_slopes_at(D->slopes, 0, t, B->Y[point], B->Yp[point], B->work));
+  STEIF_TRY(slope_at(B, t, B->Y[point], B->Yp[point]));
   STEIF_TRY(stf_matrices_at_product(&B->adjoint.at, j, 'A', base, out));
   stf_axpy(&B->space, -1, B->work, out);
   return STEIF_OK;
@@ -141,7 +149,7 @@ static int push_bdf_step(stf_backwards *B, int at, sunrealtype t, sunrealtype h,
   stf_zero(space, slope);
   for (int j = 1; j <= order; j++) stf_axpy(space, alpha[j] / h, past[j - 1], slope);
   STEIF_TRY(stf_matrices_at_product(&B->adjoint.at, 0, 'E', slope, D->r[0]));
-  STEIF_TRY(stf_slopes_at(D->slopes, 0, t + h, B->Y[at], B->Yp[at], B->work));
+  STEIF_TRY(slope_at(B, t + h, B->Y[at], B->Yp[at]));
   stf_sum(space, -1, D->r[0], -1, B->work, D->r[0]);
   STEIF_TRY(stf_adjoint_solve_forward(&B->adjoint, D->r, &D->Y[at]));
   stf_axpy(space, shift, D->Y[at], slope);

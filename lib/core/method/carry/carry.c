@@ -55,28 +55,14 @@ int stf_carry_open(stf_step *s, int count, const int *parameter, const sunrealty
   return stf_slopes_open(s->pool, s->ctx, s->problem, s->system.form, s->y, &T->slopes);
 }
 
-static int not_finite(const stf_carry *T, int k, sunrealtype t, N_Vector slope)
-{
-  const steif_problem *p = T->step->problem;
-  const steif_parameters *q = p->parameters;
-  const sunindextype i = stf_not_finite(slope);
-  char row[STEIF_SPEC_WORD];
-  return STEIF_FAIL(
-    T->step->ctx, STEIF_NOT_FINITE,
-    "dF/dp of parameter %d%s%.40s%s of problem '%s' is %g in equation %s at t = %.12g: this "
-    "parameter has no derivative there",
-    T->parameter[k] + 1, q->name ? " ('" : "", q->name ? q->name[T->parameter[k]] : "",
-    q->name ? "')" : "", p->name, i < 0 ? NAN : stf_array(slope)[i],
-    i < 0 ? "?" : stf_equation(p, i, row), t);
-}
-
 int stf_carry_point(stf_carry *T, int point, sunrealtype t, N_Vector y, N_Vector yp)
 {
   STEIF_TRY(stf_matrices_at_fill(&T->at, point, t, y, yp));
   for (int k = 0; k < T->count; k++) {
     N_Vector out = T->slope[point][k];
     STEIF_TRY(stf_slopes_at(T->slopes, T->parameter[k], t, y, yp, out));
-    if (!stf_finite(&T->step->system.space, out)) return not_finite(T, k, t, out);
+    if (!stf_finite(&T->step->system.space, out))
+      return stf_slopes_not_finite(T->slopes, T->parameter[k], t, out);
   }
   return STEIF_OK;
 }

@@ -82,6 +82,22 @@ static int32_t of_one(stf_formulas *g, const stf_node *n, int32_t self, int32_t 
   }
 }
 
+/* d a^b/da times w = w b a^(b-1), 0 for b = 0 where a is 0, too. */
+static int32_t of_base(stf_formulas *g, int32_t a, int32_t b, int32_t w)
+{
+  const int32_t slope = MUL(b, stf_apply2(g, STF_OP_POWER, a, SUB(b, N(1))));
+  return MUL(w, stf_apply(g, STF_OP_SELECT, b, slope, N(0)));
+}
+
+/* d a^b/db times w = w a^b log a; where a is 0 that is 0 for b > 0, the limit, and else there is none. */
+static int32_t of_exponent(stf_formulas *g, int32_t a, int32_t b, int32_t self, int32_t w)
+{
+  const int32_t log_a = FUN(LOG, a),
+                at_0 =
+                  stf_apply(g, STF_OP_SELECT, stf_apply2(g, STF_OP_LESS, N(0), b), N(0), log_a);
+  return MUL(w, stf_apply(g, STF_OP_SELECT, a, MUL(self, log_a), at_0));
+}
+
 /* The same of node `self` = f(a, b) by a (first) or b. */
 static int32_t of_two(stf_formulas *g, const stf_node *n, int32_t self, int32_t w, bool first)
 {
@@ -91,9 +107,7 @@ static int32_t of_two(stf_formulas *g, const stf_node *n, int32_t self, int32_t 
   case STF_OP_SUBTRACT: return first ? w : NEG(w);
   case STF_OP_MULTIPLY: return MUL(w, first ? b : a);
   case STF_OP_DIVIDE: return first ? DIV(w, b) : NEG(DIV(MUL(w, self), b));
-  case STF_OP_POWER:
-    if (first) return MUL(w, MUL(b, stf_apply2(g, STF_OP_POWER, a, SUB(b, N(1)))));
-    return MUL(w, MUL(self, FUN(LOG, a)));
+  case STF_OP_POWER: return first ? of_base(g, a, b, w) : of_exponent(g, a, b, self, w);
   case STF_OP_ATAN2: {
     const int32_t over = ADD(MUL(a, a), MUL(b, b));
     return first ? DIV(MUL(w, b), over) : NEG(DIV(MUL(w, a), over));

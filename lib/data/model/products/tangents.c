@@ -25,6 +25,25 @@ static int32_t of_leaf(stf_formulas *g, stf_node n)
   }
 }
 
+/* Are there operands for which it has a value and no finite derivative? */
+static bool singular(int kind)
+{
+  return kind == STF_OP_POWER || kind == STF_OP_SQRT || kind == STF_OP_CBRT ||
+         kind == STF_OP_ASIN || kind == STF_OP_ACOS || kind == STF_OP_ACOSH ||
+         kind == STF_OP_ATAN2 || kind == STF_OP_HYPOT;
+}
+
+/* What operand k, which moves along w, makes of node i. A leaf that stays contributes nothing, whatever its
+ * derivative; w of another node may be 0 at this point alone. */
+static int32_t part_of(tangents *s, int32_t i, int k, int32_t child, int32_t w)
+{
+  int32_t none[3];
+  const bool guard =
+    singular(stf_node_at(s->g, i)->kind) && stf_children(stf_node_at(s->g, child), none) == 0;
+  const int32_t part = stf_partial_times(s->g, i, w, k);
+  return guard ? stf_apply(s->g, STF_OP_SELECT, w, part, stf_number(s->g, 0)) : part;
+}
+
 static int of_node(tangents *s, int32_t i)
 {
   int32_t child[3], sum = -2;
@@ -33,7 +52,7 @@ static int of_node(tangents *s, int32_t i)
   if (!count) sum = of_leaf(s->g, *stf_node_at(s->g, i));
   for (int k = 0; k < count; k++) {
     if (!*along(s, child[k])) continue;
-    const int32_t part = stf_partial_times(s->g, i, *along(s, child[k]) - 1, k);
+    const int32_t part = part_of(s, i, k, child[k], *along(s, child[k]) - 1);
     sum = sum == -2 ? part : stf_apply2(s->g, STF_OP_ADD, sum, part);
     if (sum < 0) return STEIF_NO_MEMORY;
   }
