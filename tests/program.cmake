@@ -395,6 +395,22 @@ expect(2 sensitivity rober radau:s=3 --end y1+q ERR "unknown name 'q'")
 expect(2 sensitivity rober radau:s=3 --parameters k1,kk2 ERR "did you mean 'k2'")
 expect(2 sensitivity rober radau:s=3 --parameters k1,k1 ERR "twice")
 expect(2 sensitivity harmonic radau:s=3 ERR "no parameters")
+file(WRITE ${FOLDER}/assigned.steif "param p = 2, n = 3
+state x = 1
+x' = -p*x
+at 0.5: p = 3
+time 0 to 1
+")
+expect(2 sensitivity ${FOLDER}/assigned.steif --parameters p ERR "parameter 'p' .* is assigned in line 4")
+file(WRITE ${FOLDER}/assigned.steif "param p = 2
+state x = 1
+x' = -p*x
+at 0.5: p = 3
+time 0 to 1
+")
+expect(2 sensitivity ${FOLDER}/assigned.steif ERR "parameter 'p' .* is assigned in line 4")
+file(REMOVE ${FOLDER}/assigned.steif)
+expect(1 sensitivity rober cvodes --functional "int y1" ERR "'cvodes' carries no integrals")
 expect(0 sensitivity rober auto --parameters k1,k3 --t1 40 --rtol 1e-8 --check --json)
 begins("radau:s=7" used)
 string(JSON disagreement GET "${out}" disagreement)

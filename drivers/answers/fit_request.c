@@ -105,10 +105,7 @@ static int choose(struct call *call, struct fitted *a)
 {
   const char *list = word_of(call, "--parameters");
   const steif_parameters *q = a->problem->parameters;
-  if (!q || q->count < 1)
-    return bad_usage(
-      call, "problem '%s' has no parameters: rober and chemakzo have, and models as text",
-      call->word[0]);
+  if (!q || q->count < 1) return no_parameters(call, a->problem);
   if (!given(call, "--parameters") && steif_model_fitted(a->problem, 0))
     return by_model(call, a);
   if (strcmp(list, "all")) return named(call, a, list);

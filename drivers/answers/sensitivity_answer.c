@@ -38,10 +38,7 @@ int sensitivity_choose(struct call *call, struct sensitivity_answer *a)
 {
   const char *list = word_of(call, "--parameters");
   const steif_parameters *q = a->problem->parameters;
-  if (!q || q->count < 1)
-    return bad_usage(
-      call, "problem '%s' has no parameters: rober and chemakzo have, and models as text",
-      call->word[0]);
+  if (!q || q->count < 1) return no_parameters(call, a->problem);
   if (strcmp(list, "all")) return choose_named(call, a, list);
   if (q->count > SENSITIVITIES)
     return bad_usage(call, "problem '%s' has %d parameters, more than %d: name some",

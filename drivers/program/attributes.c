@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NOT_NAMED = -1 };
+enum { NOT_NAMED = -1, OBSTACLE = 400 };
 
 static const struct {
   const char *option;
@@ -28,17 +28,24 @@ sunindextype unknown_of(const steif_problem *p, const char *name)
 
 int parameter_of(struct call *call, const steif_problem *p, const char *name, int *code)
 {
-  const char *known;
-  double value;
+  char why[OBSTACLE] = "";
   const int k = steif_parameter_find(call->ctx, p, name);
-  for (size_t i = 0; k < 0 && (known = steif_model_parameter(p, i, &value)); i++) {
-    if (strcmp(known, name)) continue;
-    *code = bad_usage(call, "parameter '%s' of '%s' is a whole number: it has no derivatives",
-                      name, p->name);
-    return -1;
-  }
-  if (k < 0) *code = fail(call);
+  if (k < 0) steif_model_obstacle(p, name, sizeof why, why);
+  if (*why) *code = bad_usage(call, "parameter '%s' of '%s' %s", name, p->name, why);
+  if (k < 0 && !*why) *code = fail(call);
   return k;
+}
+
+int no_parameters(struct call *call, const steif_problem *p)
+{
+  const char *known = steif_model_parameter(p, 0, NULL);
+  char why[OBSTACLE] = "";
+  if (known) steif_model_obstacle(p, known, sizeof why, why);
+  return *why ? bad_usage(call, "parameter '%s' of '%s' %s", known, p->name, why)
+              : bad_usage(
+                  call,
+                  "problem '%s' has no parameters: rober and chemakzo have, and models as text",
+                  call->word[0]);
 }
 
 static int set(struct call *call, const steif_problem *p, int list, const char *name,

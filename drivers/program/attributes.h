@@ -20,5 +20,7 @@ int attributes_of(struct call *call, const steif_problem *p, int **attributes);
 sunindextype unknown_of(const steif_problem *p, const char *name);
 /* The parameter of a name that has derivatives; -1 after a sentence: *code is the exit code. */
 int parameter_of(struct call *call, const steif_problem *p, const char *name, int *code);
+/* Says that p has no parameters to differentiate by, and why. */
+int no_parameters(struct call *call, const steif_problem *p);
 
 #endif

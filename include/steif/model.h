@@ -88,6 +88,10 @@ STEIF_EXPORT int steif_model_describe(steif_context *ctx, const steif_problem *p
 /* Name and value of parameter i, in the order of the text; NULL past the end. */
 STEIF_EXPORT const char *steif_model_parameter(const steif_problem *problem, size_t i,
                                                sunrealtype *value);
+/* Why a parameter of the text is not among problem.parameters: events assign it, it follows others, or is a whole
+ * number. A part of a sentence in `room` of `size` characters; "": it is among them, or there is none of this name. */
+STEIF_EXPORT void steif_model_obstacle(const steif_problem *problem, const char *name,
+                                       size_t size, char *room);
 /* What the text says of the start of unknown i: enum steif_attribute, STEIF_FIXED of '=', STEIF_GUESS of '~', STEIF_FREE
  * without a value; -1: no model, no such unknown. */
 STEIF_EXPORT int steif_model_attribute(const steif_problem *problem, sunindextype i);

@@ -3,6 +3,7 @@
 #include "model_file.h"
 #include "reactions.h"
 #include <nvector/nvector_serial.h>
+#include <stdio.h>
 #include <steif/model.h>
 #include <string.h>
 
@@ -51,6 +52,38 @@ const char *steif_model_parameter(const steif_problem *p, size_t which, sunrealt
     return stf_named(m, s->word);
   }
   return NULL;
+}
+
+/* The first line that assigns it. */
+static long assigned_in(const stf_model *m, const stf_symbol *s)
+{
+  for (size_t i = 0; i < m->syntax.statements.count; i++) {
+    const stf_statement *said = stf_statement_at(m, (int32_t)i);
+    if (said->kind == STF_SAY_ASSIGN && said->name == s->word) return (long)said->line;
+  }
+  return 0;
+}
+
+void steif_model_obstacle(const steif_problem *p, const char *name, size_t size, char *room)
+{
+  const stf_model *m = model_of(p);
+  if (!room || !size) return;
+  *room = 0;
+  for (size_t i = 0; m && name && i < m->symbols.count; i++) {
+    const stf_symbol *s = stf_symbol_at(m, (int32_t)i);
+    if (s->kind != STF_IS_PARAMETER || strcmp(stf_named(m, s->word), name)) continue;
+    const stf_statement *said = stf_statement_at(m, s->statement);
+    if (s->assigned)
+      snprintf(room, size,
+               "is assigned in line %ld and so is no number that solutions have derivatives "
+               "by: make it an unknown that events assign, state %s = %s0 with %s' = 0 and "
+               "param %s0",
+               assigned_in(m, s), name, name, name, name);
+    else if (s->which < 0)
+      snprintf(room, size, "follows others in line %ld: take those", (long)said->line);
+    else if (said->whole)
+      snprintf(room, size, "is a whole number: it has no derivatives");
+  }
 }
 
 int steif_model_data_find(steif_context *ctx, const steif_problem *p, steif_model_data *data)

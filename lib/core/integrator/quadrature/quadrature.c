@@ -311,6 +311,10 @@ int steif_quadrature_sensitivity(steif_solver *s, sunrealtype t, int k, sunrealt
 {
   int i = 0;
   STEIF_TRY(has(s));
+  STEIF_CHECK(!s->engine || !s->run.columns.count, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' carries no integrals beside derivatives by parameters: take radau:s=3 for "
+              "the quadrature of problem '%s' (--functional)",
+              s->spec, s->problem->name);
   STEIF_TRY(stf_column(s, k, &i));
   return show(s, t, i, dq);
 }
