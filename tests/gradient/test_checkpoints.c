@@ -1,6 +1,7 @@
 /* test_checkpoints.c: what a gradient comes to does not depend on what is kept.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "subjects.h"
+#include "base/failing.h"
 #include "folder.h"
 #include <stdbool.h>
 #include <stdlib.h>
@@ -121,9 +122,33 @@ static void in_files(void)
   steif_context_free(&ctx);
 }
 
+/* Steps made again from images leave nothing. */
+static void images_are_released(void)
+{
+  static const size_t memory[] = {60000, 100000};
+  struct subject s;
+  subject_robertson(&s);
+  const steif_functional last = {
+    .count = 1, .integrand = weighted_sum, .end = weighted_sum, .slopes = weighted_slopes};
+  for (int i = 0; i < 2; i++) {
+    failing counted = {0};
+    steif_setup setup = failing_setup(&counted);
+    steif_context *ctx = steif_context_new(&setup);
+    const long before = counted.alive;
+    steif_gradient a = {.memory = memory[i], .checkpoints = 3 + i};
+    steif_options o = steif_defaults();
+    o.rtol = 1e-9, o.t1 = 40;
+    CHECK(steif_gradient_find(ctx, &s.problem, "radau:s=3", &o, &last, &a) == STEIF_OK);
+    steif_gradient_free(ctx, &a);
+    CHECK(counted.alive == before);
+    steif_context_free(&ctx);
+  }
+}
+
 CU_TestInfo tests_of_checkpoints[] = {
   {"three images, or all stages: bit for bit", bit_for_bit},
   {"recomputations are as few as can be", as_few_as_possible},
   {"memory stays within the limit", within_the_limit},
   {"images in files", in_files},
+  {"images are released", images_are_released},
   CU_TEST_INFO_NULL};

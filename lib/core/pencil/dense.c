@@ -221,10 +221,11 @@ static void keep(steif_pencil *p, int slot, stf_image *m)
   stf_keep(m, f->pivot, n * sizeof *f->pivot);
 }
 
+/* A run that has gone back to an image may use fewer slots than have memory. */
 static void finish(steif_pencil *p)
 {
   dense *d = p->state;
-  for (int k = 0; k < p->slots; k++) {
+  for (int k = 0; k < STEIF_PENCIL_SLOTS; k++) {
     stf_release(p->ctx, d->slot[k].a);
     stf_release(p->ctx, d->slot[k].pivot);
     stf_release(p->ctx, d->slot[k].bitset);
