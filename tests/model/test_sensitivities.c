@@ -4,6 +4,7 @@
 #include <math.h>
 #include <steif/collection.h>
 #include <steif/gradient.h>
+#include <steif/hessian.h>
 #include <steif/parameters.h>
 #include <steif/sensitivity.h>
 
@@ -255,6 +256,46 @@ static void no_derivative_at_0(void)
   fixture_close(&s);
 }
 
+static int first(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  (void)t, (void)user;
+  g[0] = NV_Ith_S(y, 0);
+  return 0;
+}
+
+/* The second derivatives of x(1) in closed form: of exp(-k^2), of A sin(w)/w, of k^2/e, whose curvature lies in the
+ * equation, in its derivative by a parameter that stands beside another, in the start. */
+static void second_derivatives_in_closed_form(void)
+{
+  static const struct {
+    const char *text;
+    sunrealtype Hv[2];
+  } of[] = {
+    {"param k=1.5\nstate x=1\nx'=-k^2*x\ntime 0 to 1\n", {0.73779457314}},
+    {"param A=1.2, w=2\nstate x=0\nx'=A*cos(w*t)\ntime 0 to 1\n", {0, -0.43539777497999}},
+    {"param k=1.5\nstate x=k^2\nx'=-x\ntime 0 to 1\n", {0.73575888234288}}};
+  static const char *const methods[] = {"radau:s=3", "dirk:hw43", "bdf:p=3"};
+  static const sunrealtype rtol[] = {1e-10, 1e-9, 1e-9};
+  const steif_functional J = {.count = 1, .end = first};
+  for (size_t i = 0; i < sizeof of / sizeof *of; i++)
+    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+      const sunrealtype v[] = {1, 0};
+      sunrealtype Hv[2] = {0};
+      fixture s;
+      CU_ASSERT_FATAL(!fixture_text(&s, of[i].text, ""));
+      steif_options o = steif_defaults();
+      steif_gradient g = {0};
+      o.rtol = rtol[m];
+      steif_direction *d = steif_direction_new(s.ctx, &s.p, v, NULL);
+      const int code = steif_hessian_product(s.ctx, d, methods[m], &o, &J, &g, Hv, NULL);
+      if (code) printf("\n  %s: %s", methods[m], steif_message(s.ctx));
+      CU_ASSERT_FATAL(code == STEIF_OK);
+      for (int k = 0; k < g.parameters; k++) CLOSE_FLOOR(Hv[k], of[i].Hv[k], 1e-6, 1);
+      steif_gradient_free(s.ctx, &g), steif_direction_free(&d);
+      fixture_close(&s);
+    }
+}
+
 CU_TestInfo tests_of_sensitivities[] = {
   {"powers of 0", powers_of_0},
   {"no derivative at 0", no_derivative_at_0},
@@ -265,4 +306,5 @@ CU_TestInfo tests_of_sensitivities[] = {
   {"without factors", without_factors},
   {"of DAEs without matrices", of_daes_without_matrices},
   {"gradients without factors", gradients_without_factors},
+  {"second derivatives in closed form", second_derivatives_in_closed_form},
   CU_TEST_INFO_NULL};

@@ -8,8 +8,9 @@
 int stf_model_follow(void *user)
 {
   stf_model *m = user;
-  const stf_quantity *all[] = {&m->f,       &m->A.quantity,    &m->E.quantity, &m->invariants,
-                               &m->outputs, &m->output_slopes, &m->events};
+  const stf_quantity *all[] = {&m->f,          &m->A.quantity,        &m->E.quantity,
+                               &m->invariants, &m->outputs,           &m->output_slopes,
+                               &m->events,     &m->products->tangent, &m->products->adjoint};
   for (size_t i = 0; i < m->symbols.count; i++) {
     stf_symbol *s = stf_symbol_at(m, (int32_t)i);
     if (s->kind == STF_IS_PARAMETER && s->which >= 0) s->value = m->p[s->which];
