@@ -11,7 +11,7 @@ static int find(struct call *call, const steif_problem *p)
   if (a.options.t1 == 0) a.options.t1 = p->t1;
   int code = sensitivity_choose(call, &a);
   if (!code && given(call, "--functional")) code = functional_open(call, p, &f);
-  a.problem = &f.problem;
+  a.problem = &f.problem, a.options.test_quadratures = f.kinks;
   if (!code) code = sensitivity_measure(call, &a);
   sensitivity_close(&a);
   functional_close(call, &f);

@@ -72,11 +72,19 @@ struct functional {
   steif_problem problem, model;
   steif_quadrature quadrature;
   N_Vector out;
+  bool kinks; /* which its steps do not meet: the error of the quadrature is to be tested */
 };
 int functional_open(struct call *call, const steif_problem *p, struct functional *f);
 void functional_close(struct call *call, struct functional *f);
+/* Is it made from a text? Then the same with integrands (model.h), to its end. */
+bool is_model(const steif_problem *p);
+int integrands_open(struct call *call, const steif_problem *p, int count,
+                    const char *const *expression, steif_problem *model);
+/* Of other problems: has it kinks? One that may jump is refused. */
+int expression_kinks(struct call *call, const steif_problem *p, const char *expression,
+                     bool *kinks);
 /* A model with the names of the problem's unknowns and parameters, the slope of whose first unknown is the
- * expression; its parameters as others are now; and its value with these, `out` for the slopes. */
+ * expression, its branches no events; its parameters as others are now; and its value with these, `out` for the slopes. */
 int expression_open(struct call *call, const steif_problem *p, const char *expression,
                     steif_problem *model);
 int expression_follow(const steif_parameters *from, const steif_problem *model);
@@ -121,11 +129,11 @@ void sensitivity_event_rows(steif_report *r, const struct call *call,
                             const struct sensitivity_answer *a);
 /* Fits steif_options.on_event. */
 int sensitivity_before(steif_solver *s, double t, N_Vector y, const int *fired, void *answer);
-/* For --check: one more time; nonzero: no memory. The problem found once more, p_k moved by d: a model makes start and form
+/* For --check: one more time; nonzero: no memory. The problem found once more, p moved by d v, or p_k by d where v is NULL: a model makes start and form
  * follow. */
 int mesh_add(double **mesh, size_t *times, size_t *room, double t);
-int moved_problem(struct call *call, const steif_problem *problem, int k, double d,
-                  steif_problem *p);
+int moved_problem(struct call *call, const steif_problem *problem, int k, const double *v,
+                  double d, steif_problem *p);
 /* The mesh of a run that ends by an event, *mesh[0 .. *times - 1], which is to come to lie inside a step that others
  * follow up to t1; returns how far the event may move within that step, or -1: no memory. */
 double event_mesh(double **mesh, size_t *times, double t0, double event, double t1);

@@ -19,19 +19,24 @@ int mesh_add(double **mesh, size_t *times, size_t *room, double t)
   return 0;
 }
 
-int moved_problem(struct call *call, const steif_problem *problem, int k, double d,
-                  steif_problem *p)
+int moved_problem(struct call *call, const steif_problem *problem, int k, const double *v,
+                  double d, steif_problem *p)
 {
-  const double value = problem->parameters->value[k] + d;
   double old;
+  const steif_parameters *q = problem->parameters;
   const int code = find_problem(call, call->word[0], p);
   if (code) return code;
   const bool model = steif_model_parameter(p, 0, &old) != NULL;
-  if (!(model ? steif_model_set(call->ctx, p, p->parameters->name[k], value)
-              : steif_parameter_set(call->ctx, p, k, value)))
-    return EXIT_OK;
-  steif_problem_clear(call->ctx, p);
-  return fail(call);
+  for (int j = 0; j < q->count; j++) {
+    const double by = v ? v[j] * d : j == k ? d : 0;
+    if (by == 0) continue;
+    if (!(model ? steif_model_set(call->ctx, p, p->parameters->name[j], q->value[j] + by)
+                : steif_parameter_set(call->ctx, p, j, q->value[j] + by)))
+      continue;
+    steif_problem_clear(call->ctx, p);
+    return fail(call);
+  }
+  return EXIT_OK;
 }
 
 double event_mesh(double **mesh, size_t *times, double t0, double event, double t1)

@@ -1,5 +1,7 @@
-/* functional.c: an integrand written in t, unknowns and parameters of a problem, as its quadrature: the output of a
- * small model with the same names.
+/* functional.c: an integrand written in t, unknowns and parameters of a problem, as its quadrature. Of a model it is one
+ * more expression of its text, whose kinks and jumps are events; of other problems the output of a small model with the
+ * same names, with branches as they are at each point: right where they meet without a jump and the error of the
+ * quadrature is tested.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "answers.h"
 #include "integration.h"
@@ -34,8 +36,8 @@ static void name_parameter(const steif_parameters *q, int k, char *room)
     snprintf(room, LINE, "p%d", k + 1);
 }
 
-/* The model as text; to be freed. The expression is the slope of the first unknown. */
-static char *write_model(const steif_problem *p, const char *expression)
+/* The model as text; to be freed. The expression is the slope of the first unknown, its branches events or not. */
+static char *write_model(const steif_problem *p, const char *expression, bool events)
 {
   const steif_parameters *q = p->parameters;
   const int P = q ? q->count : 0;
@@ -48,10 +50,25 @@ static char *write_model(const steif_problem *p, const char *expression)
   }
   for (sunindextype i = 0; i < p->n; i++) {
     name_unknown(p, i, name);
-    at += sprintf(at, "state %s = 0\n%s' = %s\n", name, name, i ? "0" : expression);
+    at += sprintf(at, "state %s = 0\n%s' = %s(%s)\n", name, name, i || events ? "" : "noevent",
+                  i ? "0" : expression);
   }
   sprintf(at, "time %.17g to %.17g\n", p->t0, p->t1);
   return text;
+}
+
+static int parse(struct call *call, const steif_problem *p, const char *expression, bool events,
+                 steif_problem *model)
+{
+  char *text = write_model(p, expression, events);
+  if (!text) return no_memory(call, "the functional", "leave it out");
+  const int code = steif_model_parse(call->ctx, text, "functional", NULL, model);
+  free(text);
+  if (code) return fail(call);
+  if (model->f) return EXIT_OK;
+  steif_problem_clear(call->ctx, model);
+  return bad_usage(call, "'%s' has slopes of unknowns in it: integrands are of unknowns alone",
+                   expression);
 }
 
 int expression_open(struct call *call, const steif_problem *p, const char *expression,
@@ -60,11 +77,39 @@ int expression_open(struct call *call, const steif_problem *p, const char *expre
   if (p->n > UNKNOWNS)
     return bad_usage(call, "'%s': expressions are of at most %d unknowns, sums of them of any",
                      expression, UNKNOWNS);
-  char *text = write_model(p, expression);
-  if (!text) return no_memory(call, "the functional", "leave it out");
-  const int code = steif_model_parse(call->ctx, text, "functional", NULL, model);
-  free(text);
-  return code ? fail(call) : EXIT_OK;
+  return parse(call, p, expression, false, model);
+}
+
+/* Is each event of the model where a function bends that does not jump? */
+static bool bends(const steif_problem *model)
+{
+  static const char *const function[] = {"abs(", "min(", "max(", "ramp("};
+  bool all = model->break_count == 0;
+  for (int i = 0; i < model->events; i++) {
+    bool one = false;
+    for (size_t k = 0; k < sizeof function / sizeof *function; k++)
+      one = one || !strncmp(model->event_list[i].name, function[k], strlen(function[k]));
+    all = all && one;
+  }
+  return all;
+}
+
+int expression_kinks(struct call *call, const steif_problem *p, const char *expression,
+                     bool *kinks)
+{
+  steif_problem model;
+  const int code = parse(call, p, expression, true, &model);
+  if (code) return code;
+  *kinks = model.events > 0 || model.break_count > 0;
+  const bool smooth = bends(&model);
+  steif_problem_clear(call->ctx, &model);
+  if (smooth) return EXIT_OK;
+  return bad_usage(
+    call,
+    "'%s' jumps, or has a kink in t: where, is found of models alone, and '%s' is "
+    "none; write it as a model (steif problem %s --model shows how one looks), or "
+    "noevent(...) around what jumps, and trust the steps",
+    expression, p->name, p->name);
 }
 
 int expression_follow(const steif_parameters *from, const steif_problem *model)
@@ -95,18 +140,43 @@ static int integrand(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
   return expression_value(f->problem.parameters, &f->model, t, y, f->out, value);
 }
 
+bool is_model(const steif_problem *p) { return steif_model_attribute(p, 0) >= 0; }
+
+int integrands_open(struct call *call, const steif_problem *p, int count,
+                    const char *const *expression, steif_problem *model)
+{
+  if (p->n > UNKNOWNS)
+    return bad_usage(call, "'%s': expressions are of at most %d unknowns, sums of them of any",
+                     *expression, UNKNOWNS);
+  if (steif_model_integrands(call->ctx, p, count, expression, model)) return fail(call);
+  model->t1 = p->t1;
+  return EXIT_OK;
+}
+
+/* Of a problem that is no model. */
+static int open_other(struct call *call, const steif_problem *p, const char *expression,
+                      struct functional *f)
+{
+  int code = expression_kinks(call, p, expression, &f->kinks);
+  if (!code) code = expression_open(call, p, expression, &f->model);
+  if (code) return code;
+  f->problem = *p;
+  f->quadrature = (steif_quadrature){.count = 1, .value = integrand, .user = f};
+  f->problem.quadrature = &f->quadrature;
+  return EXIT_OK;
+}
+
 int functional_open(struct call *call, const steif_problem *p, struct functional *f)
 {
   const char *expression = word_of(call, "--functional");
   if (strncmp(expression, "int ", 4))
     return bad_usage(call, "--functional is 'int ' and an expression, such as 'int y3^2'");
   if (!p->parameters) return bad_usage(call, "--functional needs a problem with parameters");
-  const int code = expression_open(call, p, expression + 4, &f->model);
-  if (code) return code;
-  f->problem = *p;
-  f->quadrature = (steif_quadrature){.count = 1, .value = integrand, .user = f};
-  f->problem.quadrature = &f->quadrature;
-  return EXIT_OK;
+  expression += 4;
+  if (!is_model(p)) return open_other(call, p, expression, f);
+  const int code = integrands_open(call, p, 1, &expression, &f->model);
+  if (!code) f->problem = f->model;
+  return code;
 }
 
 void functional_close(struct call *call, struct functional *f)

@@ -68,52 +68,90 @@ static int find_mesh(struct call *call, struct gradient *a)
                    : find_shifts(call, a, reach);
 }
 
-/* The values of a run on the mesh of the problem found once more, p_k moved by d, c times onto `sum`. */
-static int moved(struct call *call, struct gradient *a, const steif_options *o, int k, double d,
-                 double c, double *sum)
-{
-  steif_problem p;
-  int code = moved_problem(call, a->problem, k, d, &p);
-  if (code) return code;
-  steif_gradient g = {.memory = a->found.memory};
-  a->functional.now = &p;
-  if (steif_gradient_find(call->ctx, &p, call->word[1], o, &a->functional.of, &g))
-    code = fail(call);
-  a->functional.now = a->problem;
-  for (int i = 0; !code && i < g.count; i++) sum[i] += c * g.value[i];
-  steif_gradient_free(call->ctx, &g);
-  steif_problem_clear(call->ctx, &p);
-  return code;
-}
-
 static double scale_of(const steif_parameters *q, int k)
 {
   const double p = q->scale ? q->scale[k] : fabs(q->value[k]);
   return p > 0 ? p : 1;
 }
 
-/* Central differences with d and d / 2, extrapolated; d within what 4 runs of 15 digits can tell. */
+/* The gradient by a run on the mesh of the problem found once more, p moved by d v, NULL: p_k by d. */
+static int moved(struct call *call, struct gradient *a, const steif_options *o, int k,
+                 const double *v, double d, steif_gradient *g)
+{
+  steif_problem p;
+  int code = moved_problem(call, a->problem, k, v, d, &p);
+  if (code || (code = gradient_functional_extend(call, &a->functional, &p))) return code;
+  *g = (steif_gradient){.memory = a->found.memory};
+  a->functional.now = &p;
+  if (steif_gradient_find(call->ctx, &p, call->word[1], o, &a->functional.of, g))
+    code = fail(call);
+  a->functional.now = a->problem;
+  steif_problem_clear(call->ctx, &p);
+  return code;
+}
+
+/* Central differences with d and d / 2, extrapolated, of the values, or with v of the gradients; d within what 4 runs of
+ * 15 digits can tell. */
+static int differ(struct call *call, struct gradient *a, const steif_options *o, int k,
+                  const double *v, double d, double *quotient)
+{
+  const double by[] = {d / 2, -d / 2, d, -d}, c[] = {8, -8, -1, 1};
+  int code = EXIT_OK;
+  for (int j = 0; !code && j < 4; j++) {
+    steif_gradient g = {0};
+    code = moved(call, a, o, k, v, by[j], &g);
+    const int count = code ? 0 : v ? g.count * g.parameters : g.count;
+    for (int i = 0; i < count; i++) quotient[i] += c[j] / (6 * d) * (v ? g.dp : g.value)[i];
+    steif_gradient_free(call->ctx, &g);
+  }
+  return code;
+}
+
+/* The largest difference of entries times scales, in the largest one of a functional; rows of `parameters` numbers, of
+ * quotients by columns of `count` ones where `turned`. */
+static void disagree(struct gradient *a, const double *found, const double *quotient,
+                     bool turned)
+{
+  const int count = a->found.count, P = a->found.parameters;
+  const steif_parameters *q = a->problem->parameters;
+  for (int i = 0; i < count; i++) {
+    double size = 0, most = 0;
+    for (int k = 0; k < P; k++) {
+      const double one = found[i * P + k], other = quotient[turned ? k * count + i : i * P + k];
+      size = fmax(size, fmax(fabs(one), fabs(other)) * scale_of(q, k));
+      most = fmax(most, fabs(one - other) * scale_of(q, k));
+    }
+    if (size > 0) a->disagreement = fmax(a->disagreement, most / size);
+  }
+}
+
+/* Of the product, along v: what moves most moves by as much as in `compare`. */
+static int compare_product(struct call *call, struct gradient *a, const steif_options *o,
+                           double *quotient)
+{
+  const steif_parameters *q = a->problem->parameters;
+  double reach = 0;
+  for (int k = 0; k < q->count; k++) reach = fmax(reach, fabs(a->v[k]) / scale_of(q, k));
+  if (reach == 0) return EXIT_OK;
+  const int code = differ(call, a, o, 0, a->v, 2e-3 / reach, quotient);
+  if (!code) disagree(a, a->product, quotient, false);
+  return code;
+}
+
 static int compare(struct call *call, struct gradient *a, const steif_options *o,
                    const steif_gradient *g)
 {
   const steif_parameters *q = a->problem->parameters;
-  double size[FUNCTIONALS] = {0};
-  int code = EXIT_OK;
-  for (int i = 0; i < g->count; i++)
-    for (int k = 0; k < g->parameters; k++)
-      size[i] = fmax(size[i], fabs(g->dp[i * g->parameters + k]) * scale_of(q, k));
+  const size_t count = (size_t)(g->count * g->parameters);
+  double *quotient = calloc(2 * count + 1, sizeof *quotient);
+  int code = quotient ? EXIT_OK : no_memory(call, "differences", "leave --check out");
   for (int k = 0; !code && k < g->parameters; k++) {
-    const double scale = scale_of(q, k),
-                 d = fmin(2e-3 * scale, a->most ? a->most[k] : INFINITY);
-    const double by[] = {d / 2, -d / 2, d, -d}, c[] = {8, -8, -1, 1};
-    double quotient[FUNCTIONALS] = {0};
-    for (int j = 0; !code && j < 4; j++)
-      code = moved(call, a, o, k, by[j], c[j] / (6 * d), quotient);
-    for (int i = 0; !code && i < g->count; i++)
-      if (size[i] > 0)
-        a->disagreement = fmax(
-          a->disagreement, fabs(g->dp[i * g->parameters + k] - quotient[i]) * scale / size[i]);
+    const double d = fmin(2e-3 * scale_of(q, k), a->most ? a->most[k] : INFINITY);
+    code = differ(call, a, o, k, NULL, d, quotient + k * g->count);
   }
+  if (!code) disagree(a, g->dp, quotient, true);
+  if (!code && a->product) code = compare_product(call, a, o, quotient + count);
+  free(quotient);
   return code;
 }
 
@@ -240,6 +278,7 @@ int gradient_answer(struct call *call, const steif_problem *p)
   if (a.options.t1 == 0) a.options.t1 = p->t1;
   a.found.memory = (size_t)whole_or(call, "--memory", 0);
   int code = gradient_functional_open(call, p, &a.functional);
+  a.problem = a.functional.now;
   progress(call, "%s on %s", call->word[1], p->name);
   if (!code) code = find(call, &a);
   if (!code && given(call, "--check"))

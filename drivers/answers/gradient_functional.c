@@ -23,13 +23,17 @@ static int value(struct gradient_functional *f, int at_end, int i, double t, N_V
     *g = sum_at(&a->sum, N_VGetArrayPointer(y));
     return 0;
   }
+  if (f->expressions) {
+    *g = f->all[a->number];
+    return 0;
+  }
   if (scratch(f, y)) return -1;
   return expression_value(f->now->parameters, &a->model, t, y, f->out, g);
 }
 
 static int values(struct gradient_functional *f, int at_end, double t, N_Vector y, double *g)
 {
-  int code = 0;
+  int code = f->expressions ? f->integrands(t, y, f->all, f->now->user) : 0;
   for (int i = 0; !code && i < f->of.count; i++) code = value(f, at_end, i, t, y, &g[i]);
   return code;
 }
@@ -50,6 +54,7 @@ static int slopes(double t, N_Vector y, int i, int at_end, N_Vector dy, double *
     sum_slope(&a->sum, N_VGetArrayPointer(y), N_VGetArrayPointer(dy));
     return 0;
   }
+  if (f->expressions) return steif_model_integrand_slopes(f->now, t, y, a->number, dy, dp);
   if (scratch(f, y) || expression_follow(f->now->parameters, &a->model)) return -1;
   const int code =
     steif_model_adjoint(f->ctx, &a->model, t, y, f->none, f->first, dy, NULL, dp);
@@ -58,12 +63,34 @@ static int slopes(double t, N_Vector y, int i, int at_end, N_Vector dy, double *
   return code;
 }
 
-/* What the sum parser takes it takes, the language all else. */
-static int read_asked(struct call *call, const steif_problem *p, const char *text,
-                      struct asked *a)
+/* Values at the end are those of the branches there. */
+static int add_expression(struct call *call, struct gradient_functional *f, int at_end,
+                          const char *text, struct asked *a)
 {
+  const size_t room = strlen(text) + sizeof "noevent()";
+  char *to = malloc(room);
+  if (!to) return no_memory(call, "the functionals", "ask for fewer");
+  snprintf(to, room, at_end ? "noevent(%s)" : "%s", text);
+  a->number = f->expressions;
+  f->expression[f->expressions++] = to;
+  return EXIT_OK;
+}
+
+/* What the sum parser takes it takes, the language all else. */
+static int read_asked(struct call *call, const steif_problem *p, struct gradient_functional *f,
+                      int at_end, const char *text, struct asked *a)
+{
+  bool kinks = false;
   a->is_sum = sum_read(p, text, &a->sum);
-  return a->is_sum ? EXIT_OK : expression_open(call, p, text, &a->model);
+  if (a->is_sum) return EXIT_OK;
+  if (is_model(p)) return add_expression(call, f, at_end, text, a);
+  const int code = at_end ? EXIT_OK : expression_kinks(call, p, text, &kinks);
+  if (kinks && !code)
+    return bad_usage(call,
+                     "'%s' has kinks, which gradients of '%s', no model, do not meet: leave "
+                     "--adjoint out, or write noevent(...) around it and trust the steps",
+                     text, p->name);
+  return code ? code : expression_open(call, p, text, &a->model);
 }
 
 /* "int y1; int y3" or "y1; y2", the second after what was asked before. */
@@ -81,7 +108,9 @@ static int read_all(struct call *call, const steif_problem *p, struct gradient_f
       code = bad_usage(call, "--functional '%s': an integral is written 'int y1'", part);
     if (!code && !f->label[count] && !(f->label[count] = strdup(part)))
       code = no_memory(call, "the functionals", "ask for fewer");
-    if (!code) code = read_asked(call, p, at_end ? part : part + 4, &f->asked[at_end][count++]);
+    if (!code)
+      code =
+        read_asked(call, p, f, at_end, at_end ? part : part + 4, &f->asked[at_end][count++]);
   }
   free(copy);
   if (!code && f->of.count && count != f->of.count)
@@ -101,7 +130,26 @@ int gradient_functional_open(struct call *call, const steif_problem *p,
   if (!code && last) code = read_all(call, p, f, 1, last);
   if (integral) f->of.integrand = integrand;
   if (last) f->of.end = end;
-  return code;
+  if (code || !f->expressions) return code;
+  code =
+    integrands_open(call, p, f->expressions, (const char *const *)f->expression, &f->extended);
+  if (code) return code;
+  f->integrands = f->extended.quadrature->value, f->extended.quadrature = NULL;
+  f->now = &f->extended;
+  return EXIT_OK;
+}
+
+int gradient_functional_extend(struct call *call, const struct gradient_functional *f,
+                               steif_problem *p)
+{
+  steif_problem own;
+  if (!f->expressions) return EXIT_OK;
+  const int code =
+    integrands_open(call, p, f->expressions, (const char *const *)f->expression, &own);
+  steif_problem_clear(call->ctx, p);
+  if (code) return code;
+  *p = own, p->quadrature = NULL;
+  return EXIT_OK;
 }
 
 void gradient_functional_close(struct call *call, struct gradient_functional *f)
@@ -113,6 +161,8 @@ void gradient_functional_close(struct call *call, struct gradient_functional *f)
     free(f->asked[at_end]);
   }
   for (int i = 0; i < FUNCTIONALS; i++) free(f->label[i]);
+  for (int i = 0; i < f->expressions; i++) free(f->expression[i]);
+  if (f->extended.user) steif_problem_clear(call->ctx, &f->extended);
   if (f->first) N_VDestroy(f->first);
   if (f->none) N_VDestroy(f->none);
   if (f->out) N_VDestroy(f->out);

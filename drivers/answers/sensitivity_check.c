@@ -79,7 +79,7 @@ static int moved(struct call *call, struct sensitivity_answer *a, int k, double 
                  double weight, double *y, double *out)
 {
   steif_problem p;
-  int code = moved_problem(call, a->problem, k, d, &p);
+  int code = moved_problem(call, a->problem, k, NULL, d, &p);
   if (code) return code;
   code = on_mesh(call, a, &p, false, y);
   steif_problem_clear(call->ctx, &p);

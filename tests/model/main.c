@@ -17,6 +17,7 @@ extern CU_TestInfo tests_of_grids[];
 extern CU_TestInfo tests_of_sensitivities[];
 extern CU_TestInfo tests_of_low_orders[];
 extern CU_TestInfo tests_of_passages[];
+extern CU_TestInfo tests_of_integrands[];
 extern CU_TestInfo tests_of_wrong_models[];
 
 SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_examples},
@@ -34,4 +35,5 @@ SUITE_MAIN({.pName = "the examples reach their end values", .pTests = tests_of_e
            {.pName = "derivatives by parameters", .pTests = tests_of_sensitivities},
            {.pName = "derivatives through events", .pTests = tests_of_passages},
            {.pName = "unknowns of low order", .pTests = tests_of_low_orders},
+           {.pName = "integrands", .pTests = tests_of_integrands},
            {.pName = "wrong models and their sentences", .pTests = tests_of_wrong_models})

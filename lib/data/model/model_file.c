@@ -1,6 +1,7 @@
 /* model_file.c: from a text to a model that can be solved, and back.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "model_file.h"
+#include "integrands.h"
 #include "products.h"
 #include "reactions.h"
 #include "text.h"
@@ -129,6 +130,7 @@ void stf_model_free(stf_model *m)
   stf_quantity_free(m, &m->A.quantity);
   stf_quantity_free(m, &m->E.quantity);
   stf_products_free(m);
+  stf_integrands_free(m);
   stf_native_free(m);
   stf_sweep_free(ctx, &m->sweep);
   stf_pool_free(&pool);
@@ -156,6 +158,7 @@ static int build(stf_model *m, const char *path, const char *text, const steif_s
   STEIF_TRY(text ? take_text(m, path, text)
                  : stf_source_read(&m->syntax.sources, m->pool, path, path));
   STEIF_TRY(stf_parse(&m->syntax, 0));
+  STEIF_TRY(stf_integrands_mark(m, m->integrand_count));
   STEIF_TRY(stf_complaints(&m->syntax.sources));
   stf_vector_free(m->ctx, &m->syntax.tokens);
   STEIF_TRY(stf_vector_trim(m->ctx, &m->syntax.codes, sizeof(stf_code)));
@@ -164,12 +167,13 @@ static int build(stf_model *m, const char *path, const char *text, const steif_s
   return stf_model_fill(m, p);
 }
 
-/* Values of another model of the text, and `count` more. */
+/* Values of another model of the text, and `count` more; how many integrands stand at its end. */
 typedef struct change {
   const stf_vector *settings;
   int count;
   const char *const *name;
   const double *value;
+  int integrands;
 } change;
 
 static int take_settings(stf_model *m, const change *with)
@@ -180,6 +184,7 @@ static int take_settings(stf_model *m, const change *with)
   }
   for (int k = 0; k < with->count; k++)
     STEIF_TRY(stf_setting_add(m->ctx, &m->settings, with->name[k], with->value[k]));
+  m->integrand_count = with->integrands;
   return STEIF_OK;
 }
 
@@ -249,7 +254,7 @@ static int moved(steif_context *ctx, const stf_model *m, const char *path, int c
     STEIF_CHECK(strlen(name[k]) <= STF_NAME_BYTES, ctx, STEIF_UNKNOWN_NAME,
                 "%s has no parameter '%.40s...'; names have at most %d characters", path,
                 name[k], STF_NAME_BYTES);
-  const change with = {&m->settings, count, name, value};
+  const change with = {&m->settings, count, name, value, m->integrand_count};
   const int code = open_model(ctx, path, text->text, NULL, &with, p);
   if (code) stf_model_close(ctx, p);
   return code;
@@ -263,13 +268,9 @@ int stf_model_moved(const stf_model *m, const char *name, double value, steif_pr
 
 bool stf_model_is(const steif_problem *p) { return p->destroy == stf_model_close; }
 
-int stf_model_vary(steif_context *ctx, const steif_problem *p, int count,
-                   const char *const *name, const sunrealtype *value, steif_problem *out)
+/* A problem made from a text is named by a string of its own; code: that of making it. */
+static int named(steif_context *ctx, char *own, int code, steif_problem *out)
 {
-  char *own = stf_allocate(ctx, strlen(p->name) + 1, 1);
-  if (!own) return STEIF_NO_MEMORY;
-  strcpy(own, p->name);
-  const int code = moved(ctx, p->user, own, count, name, value, out);
   if (code) {
     stf_release(ctx, own);
     *out = (steif_problem){0};
@@ -278,6 +279,34 @@ int stf_model_vary(steif_context *ctx, const steif_problem *p, int count,
   out->name = own;
   out->build = no_build;
   return STEIF_OK;
+}
+
+int stf_model_vary(steif_context *ctx, const steif_problem *p, int count,
+                   const char *const *name, const sunrealtype *value, steif_problem *out)
+{
+  char *own = stf_allocate(ctx, strlen(p->name) + 1, 1);
+  if (!own) return STEIF_NO_MEMORY;
+  strcpy(own, p->name);
+  return named(ctx, own, moved(ctx, p->user, own, count, name, value, out), out);
+}
+
+const char *stf_model_text(const steif_problem *p)
+{
+  const stf_model *m = p->user;
+  return STF_AT(m->syntax.sources.texts, stf_text, 0)->text;
+}
+
+int stf_model_rewrite(steif_context *ctx, const steif_problem *p, const char *text,
+                      int integrands, steif_problem *out)
+{
+  const stf_model *m = p->user;
+  const change with = {.settings = &m->settings, .integrands = integrands};
+  char *own = stf_allocate(ctx, strlen(p->name) + 1, 1);
+  if (!own) return STEIF_NO_MEMORY;
+  *out = (steif_problem){.name = strcpy(own, p->name), .destroy = stf_model_close};
+  const int code = open_model(ctx, own, text, NULL, &with, out);
+  if (code) stf_model_close(ctx, out);
+  return named(ctx, own, code, out);
 }
 
 int steif_model_set(steif_context *ctx, steif_problem *p, const char *name, sunrealtype value)

@@ -17,5 +17,9 @@ bool stf_model_is(const steif_problem *problem);
 /* The text of a problem with other values of parameters, as a problem of its own for steif_problem_clear. */
 int stf_model_vary(steif_context *ctx, const steif_problem *problem, int count,
                    const char *const *name, const sunrealtype *value, steif_problem *out);
+/* Its text; another one with the same values, whose last outputs are integrands, as a problem of its own. */
+const char *stf_model_text(const steif_problem *problem);
+int stf_model_rewrite(steif_context *ctx, const steif_problem *problem, const char *text,
+                      int integrands, steif_problem *out);
 
 #endif

@@ -32,8 +32,10 @@ static int add(void *of, bool broken, stf_transition **out)
   return STEIF_OK;
 }
 
+/* Before, integrands may have other values than at the time itself. */
 static int gap(void *of, stf_transition *w, sunrealtype sign, sunrealtype t, N_Vector y)
 {
+  if (sign > 0) t = nextafter(t, -INFINITY);
   return stf_functional_add(&((stf_journey *)of)->back, sign, t, y, w->gap);
 }
 

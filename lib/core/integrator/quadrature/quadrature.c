@@ -171,6 +171,15 @@ static int along(steif_solver *s, sunrealtype t, int column, sunrealtype *sum)
   return STEIF_OK;
 }
 
+/* A step that ends at a break ends just before it, and so do its stages: g may jump there. */
+static sunrealtype last_time(const steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const sunrealtype t = s->step.t;
+  const bool breaks = s->next_break < p->break_count && t == p->breaks[s->next_break];
+  return breaks && s->step.adaptive ? nextafter(t, -INFINITY) : t;
+}
+
 /* The same over the whole step by its stages; *served: there are some. */
 static int by_stages(steif_solver *s, int column, sunrealtype *sum, bool *served)
 {
@@ -183,7 +192,8 @@ static int by_stages(steif_solver *s, int column, sunrealtype *sum, bool *served
   *served = count > 0 && b;
   for (int i = 0; *served && i < count; i++)
     if (b[i] != 0)
-      STEIF_TRY(add(s, step->t - step->h + c[i] * step->h, X[i], column, step->h * b[i], sum));
+      STEIF_TRY(add(s, fmin(step->t - step->h + c[i] * step->h, last_time(s)), X[i], column,
+                    step->h * b[i], sum));
   return STEIF_OK;
 }
 
@@ -265,7 +275,8 @@ int stf_quadrature_test(steif_solver *s, sunrealtype h, sunrealtype *e)
 
 int stf_quadrature_before(steif_solver *s, sunrealtype t, N_Vector y)
 {
-  return s->quadratures ? value(s, t, y, s->quadratures->before) : STEIF_OK;
+  return s->quadratures ? value(s, nextafter(t, -INFINITY), y, s->quadratures->before)
+                        : STEIF_OK;
 }
 
 /* The integral up to the event is added by stf_quadrature_step. */

@@ -1,5 +1,6 @@
 /* event_statements.c: when, at, every and require into reactions.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "integrands.h"
 #include "reactions.h"
 #include <math.h>
 #include <stdio.h>
@@ -315,6 +316,7 @@ int stf_build_events(stf_model *m)
 {
   stf_builder b;
   stf_vector conditions = {0};
+  STEIF_TRY(stf_integrands_build(m));
   m->reactions->equation_switches = m->switches;
   int code = stf_builder_open(&b, m, &m->event_block->graph, false);
   b.block = m->event_block;
@@ -332,6 +334,7 @@ int stf_build_events(stf_model *m)
   if (!code) code = timers(m);
   if (!code) code = quantity(m, m->event_block, &conditions, &m->reactions->conditions);
   if (!code) code = starts(m);
+  if (!code) code = stf_integrands_compile(m);
   stf_vector_free(m->ctx, &conditions);
   return code;
 }

@@ -139,7 +139,7 @@ typedef struct stf_model {
   double t0, t1;          /* t1: infinite without `time` */
   uint8_t *constraint_of; /* statements: it is a constraint of the problem */
   bool constrained;
-  int32_t memories, switches, timers, invariant_count, output_count;
+  int32_t memories, switches, timers, invariant_count, output_count, integrand_count;
   uint8_t *switch_used, *switch_open; /* switches; used: enum stf_use of reactions.h */
   stf_vector breaks;                  /* double */
   int break_count;                    /* of them inside the interval, sorted */
@@ -172,7 +172,8 @@ typedef struct stf_model {
   const char *varying; /* a discrete value that depends on y, t or p; NULL: none does */
   double *break_slope; /* of each break by each parameter in `given`; NULL: not asked for yet */
   struct stf_products *products;
-  void *library; /* of compiled code; NULL: none */
+  struct stf_integrands *integrands; /* NULL: none */
+  void *library;                     /* of compiled code; NULL: none */
 } stf_model;
 
 static inline stf_symbol *stf_symbol_at(const stf_model *m, int32_t i)

@@ -1,5 +1,6 @@
 /* moved_parameters.c: what a model keeps of its parameters, in the midst of a run, and times that depend on them.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "integrands.h"
 #include "products.h"
 #include "model_file.h"
 #include "reactions.h"
@@ -16,6 +17,7 @@ int stf_model_follow(void *user)
     if (s->kind == STF_IS_PARAMETER && s->which >= 0) s->value = m->p[s->which];
   }
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) stf_quantity_prepare(m, all[i]);
+  stf_integrands_follow(m);
   return stf_reactions_follow(m) ? -1 : 0;
 }
 

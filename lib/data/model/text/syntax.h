@@ -53,6 +53,7 @@ enum stf_statement_kind {
   STF_SAY_ASSIGN,
   STF_SAY_STOP,
   STF_SAY_OUTPUT,
+  STF_SAY_INTEGRAND, /* an output that a functional has added */
   STF_SAY_INVARIANT,
   STF_SAY_REQUIRE,
   STF_SAY_BREAK,
