@@ -47,6 +47,9 @@
  * dense output, and integrals are those along it. A terminal event (or STEIF_FINISH) ends J at its own time, which
  * moves: J(tau(p), p) is differentiated, G by t too. Problems that remember something (begin) need save and restore.
  *
+ * Wrong derivatives. dFdp and the matrices of F are compared with differences at the start and at the end, as by sensitivity.h, slopes of
+ * functionals and dFdp_transposed too: STEIF_BAD_INPUT with what is wrong, values and the error of the difference.
+ *
  * Derivatives along a direction, J v: direction.h; those of the gradient, H v: hessian.h.
  *
  * "auto" takes what it would choose where that is served, else radau:s=5. Served: collocation (gauss, radau, radau1a,
@@ -111,7 +114,7 @@ typedef struct steif_gradient {
 /* A run of the problem from t0 to options.t1 and back. options NULL: defaults; options.active: of which parameters starts
  * are differentiated, dp of others being NaN, as where starts are consistent for some only. Codes of the run;
  * STEIF_BAD_INPUT: no functional, a limit of memory below what one step and 3 images need (the sentence says how much);
- * STEIF_NOT_FINITE: names functional and time; STEIF_NO_CONVERGENCE: the
+ * STEIF_NOT_FINITE: names functional or parameter, and time; STEIF_NO_CONVERGENCE: the
  * equations of a step backwards, GMRES with the transposed preconditioner among them. After failures nothing is there to be freed. */
 STEIF_EXPORT int steif_gradient_find(steif_context *ctx, const steif_problem *problem,
                                      const char *method, const steif_options *options,

@@ -41,9 +41,10 @@
  * Differences. Where dF/dy or dF/dp are made by differences, S has their relative error too, about 1e-10: tolerances of one step near
  * that are not kept, and BDF at rtol below 1e-6 may then make far too many steps: give dFdp and jac.
  *
- * Wrong derivatives. Entries of dFdp are compared with differences of F by p at the start and at a point near it. One that is
+ * Wrong derivatives. Entries of dFdp are compared with differences of F by p, products of jac (idajac, E and A, Av and Ev)
+ * with a vector with differences of F along it: at the start, in the second half of the run, and at points near these. One that is
  * off by ten times their errors, of truncation and of rounding, and by 1e-3 of itself is STEIF_BAD_INPUT with
- * parameter, equation and both values. What cannot be evaluated there, or is not smooth in p, is not judged.
+ * parameter or unknown, equation and both values. What cannot be evaluated there, or is not smooth, is not judged.
  *
  * Events and breaks. At an event g(tau, y, p) = 0 with y+ = R(tau, y-, p) after it,
  *   dtau/dp = -(g_y S- + g_p) / (g_y f- + g_t),   S+ = R_y S- + R_p + (R_y f- + R_t - f+) dtau/dp,

@@ -202,6 +202,8 @@ sunrealtype stf_allowed(const steif_solver *s, const sunrealtype *y, size_t j);
 
 /* Derivatives by parameters, where options.sensitivities asks for them. */
 int stf_sensitivity_open(steif_solver *s);
+/* Derivatives of F that carry S, once more in the second half of a run (probe.h). */
+int stf_probe_later(steif_solver *s);
 /* engine_columns.c: the same of an engine that carries them. */
 int stf_engine_carry(steif_solver *s);
 int stf_engine_carried(steif_solver *s, sunrealtype t, int k, N_Vector dy);

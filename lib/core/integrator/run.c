@@ -76,7 +76,8 @@ static int watched(steif_solver *s)
 static int integrated(steif_solver *s)
 {
   STEIF_TRY(s->events ? watched(s) : advance(s));
-  const int code = s->quadratures ? stf_quadrature_step(s) : STEIF_OK;
+  int code = s->quadratures ? stf_quadrature_step(s) : STEIF_OK;
+  if (!code) code = stf_probe_later(s);
   return code ? failed(s, code) : STEIF_OK;
 }
 

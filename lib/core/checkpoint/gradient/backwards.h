@@ -145,6 +145,7 @@ typedef struct stf_backwards {
   stf_stage_polynomial u;
   stf_adjoint adjoint;
   stf_slopes *slopes;
+  struct stf_slope_probe *probe;
   N_Vector *Y, *Yp, *r, before, work, error;
   N_Vector *w, *right;      /* m of each channel; right: of r, in the order of w */
   N_Vector *lambda, *kappa; /* of y and, in chains, of the last slope; by channels */
@@ -176,6 +177,11 @@ int stf_parameters_times(stf_backwards *B, sunrealtype t, N_Vector Y, N_Vector Y
                          sunrealtype *out);
 int stf_pull_parameters(stf_backwards *B, int i, sunrealtype t, N_Vector Y, N_Vector Yp,
                         N_Vector w);
+
+/* probe_functional.c: STEIF_BAD_INPUT where slopes of the integrand, or of what is said of the end, are not those of the
+ * values at (t, y), or dFdp_transposed those of dFdp. */
+int stf_probe_functional(stf_backwards *B, int at_end, sunrealtype t, N_Vector y);
+int stf_probe_pull(stf_backwards *B, sunrealtype t, N_Vector y, N_Vector yp);
 
 /* pull.c: lambda and mu through the step of a record, as far as B->cut says; through what has come to the slope that a
  * chain began with at (t, y, yp). */

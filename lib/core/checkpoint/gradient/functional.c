@@ -66,6 +66,11 @@ int stf_functional_at(stf_backwards *B, int at_end, sunrealtype t, N_Vector y)
     STEIF_CHECK(!code, B->ctx, STEIF_CALLBACK,
                 "slopes of functional %d of problem '%s' returned %d at t = %.12g", i + 1,
                 B->problem->name, code, t);
+    for (int k = 0; k < B->P; k++)
+      STEIF_CHECK(isfinite(B->gp[i * B->P + k]), B->ctx, STEIF_NOT_FINITE,
+                  "the slope of functional %d of problem '%s' by parameter %d is %g at t = "
+                  "%.12g",
+                  i + 1, B->problem->name, k + 1, B->gp[i * B->P + k], t);
     STEIF_CHECK(stf_finite(&B->space, B->gy[i]), B->ctx, STEIF_NOT_FINITE,
                 "the slope of functional %d of problem '%s' is not finite at t = %.12g", i + 1,
                 B->problem->name, t);

@@ -1,6 +1,7 @@
 /* gradient.c: gradients by a run forward and back: what is refused, opened and told.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "journey.h"
+#include "probe.h"
 #include <math.h>
 #include <string.h>
 
@@ -40,9 +41,16 @@ static int check_parameters(steif_context *ctx, const steif_problem *p)
               q->value ? "some" : "no");
   STEIF_CHECK(!q->obstacle, ctx, STEIF_UNSUPPORTED,
               "gradients of problem '%s' cannot be had: %s", p->name, q->obstacle);
-  for (int k = 0; k < q->count; k++)
+  for (int k = 0; k < q->count; k++) {
+    STEIF_CHECK(!q->name || q->name[k], ctx, STEIF_BAD_INPUT,
+                "parameter %d of %d of problem '%s' has no name: give all, or .name = NULL",
+                k + 1, q->count, p->name);
     STEIF_CHECK(isfinite(q->value[k]), ctx, STEIF_NOT_FINITE,
                 "parameter %d of problem '%s' is %g", k + 1, p->name, q->value[k]);
+    STEIF_CHECK(!q->scale || (q->scale[k] > 0 && isfinite(q->scale[k])), ctx, STEIF_BAD_INPUT,
+                "scale %g of parameter %d of problem '%s' must be positive", q->scale[k], k + 1,
+                p->name);
+  }
   return STEIF_OK;
 }
 
@@ -160,9 +168,13 @@ static int open_back(stf_journey *J)
   if (B->kind == STF_TRACE_COLLOCATION)
     STEIF_TRY(stf_stage_polynomial_open(B->pool, B->table, B->adjoint.transform.B, &B->u));
   if (J->line) STEIF_TRY(stf_push_open(B, J->line));
-  if (!B->P) return STEIF_OK;
   const int form = steif_problem_form(B->ctx, B->problem); /* the system's may be lowered */
-  return stf_slopes_open(B->pool, B->ctx, B->problem, form, B->space.like, &B->slopes);
+  if (B->P)
+    STEIF_TRY(stf_slopes_open(B->pool, B->ctx, B->problem, form, B->space.like, &B->slopes));
+  const steif_options *o = &J->options;
+  STEIF_TRY(stf_probe_open(B->pool, matrices, B->slopes, o->active,
+                           o->active ? o->active_count : B->P, &B->probe));
+  return stf_probe_look(B->probe, B->home);
 }
 
 static int bend_end(stf_backwards *B, const stf_step *last)
@@ -181,6 +193,9 @@ int stf_journey_end(stf_journey *J)
   J->ended = true;
   for (int i = 0; i < B->count; i++) B->nu[i] = 1;
   STEIF_TRY(stf_check_inside_unknowns(B, J->runner));
+  STEIF_TRY(stf_probe_look(B->probe, J->runner));
+  for (int at_end = 0; at_end < 2; at_end++)
+    STEIF_TRY(stf_probe_functional(B, at_end, J->runner->end, stf_last(J->runner)));
   if (!B->functional->end) return STEIF_OK;
   if (B->tangent) STEIF_TRY(bend_end(B, &J->runner->step));
   STEIF_TRY(stf_functional_at(B, 1, J->runner->end, stf_last(J->runner)));
@@ -233,6 +248,8 @@ static int by_parameter(stf_journey *J, int k)
 {
   stf_backwards *B = &J->back;
   STEIF_TRY(as_status(B->ctx, steif_parameter_start(B->ctx, B->problem, k, B->work)));
+  STEIF_CHECK(stf_finite(&B->space, B->work), B->ctx, STEIF_NOT_FINITE,
+              "dy0/dp of parameter %d of problem '%s' is not finite", k + 1, B->problem->name);
   STEIF_TRY(stf_probe_start(B->ctx, B->problem, k, B->work));
   for (int i = 0; i < B->count; i++)
     J->out->dp[i * B->P + k] = B->mu[i * B->P + k] + N_VDotProd(B->work, B->lambda[i]);
@@ -296,6 +313,8 @@ static int travel(stf_journey *J)
   const stf_step *first = &B->home->step;
   const sunrealtype t0 = first->t;
   stf_copy(&B->space, first->y, start[0]), stf_copy(&B->space, first->yp, start[1]);
+  STEIF_TRY(stf_probe_functional(B, 0, t0, start[0]));
+  STEIF_TRY(stf_probe_pull(B, t0, start[0], start[1]));
   if (J->line) STEIF_TRY(stf_push_start(B, t0, start[0], start[1]));
   STEIF_TRY(stf_journey_forward(J));
   J->out->cost.solves = steif_statistics(J->runner)->nsolve;

@@ -22,11 +22,17 @@ int stf_parameters_times(stf_backwards *B, sunrealtype t, N_Vector Y, N_Vector Y
     const int code = q->dFdp_transposed(t, Y, Yp, w, out, B->problem->user);
     STEIF_CHECK(!code, B->ctx, STEIF_CALLBACK, "dFdp_transposed of problem '%s' returned %d",
                 B->problem->name, code);
-    return STEIF_OK;
   }
   for (int k = 0; k < B->P; k++) {
-    STEIF_TRY(stf_slopes_at(B->slopes, k, t, Y, Yp, B->work));
-    out[k] = dot(B, B->work, w);
+    if (!q->dFdp_transposed) {
+      STEIF_TRY(stf_slopes_at(B->slopes, k, t, Y, Yp, B->work));
+      out[k] = dot(B, B->work, w);
+    }
+    STEIF_CHECK(isfinite(out[k]), B->ctx, STEIF_NOT_FINITE,
+                "the derivative of problem '%s' by parameter %d%s%.40s%s is not finite at t = "
+                "%.12g",
+                B->problem->name, k + 1, q->name ? " (" : "", q->name ? q->name[k] : "",
+                q->name ? ")" : "", t);
   }
   return STEIF_OK;
 }

@@ -7,24 +7,16 @@
  * evaluated, or is not smooth, nothing is said; nor where F does not move, but does with half of p.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "saltation.h"
+#include "probe.h"
 #include <math.h>
 
-typedef struct probe {
-  steif_solver *s;
-  stf_carry *T;
-  sunrealtype t;
-  N_Vector y, yp;           /* the point */
-  N_Vector given, rounding; /* dF/dp_k, of F */
-  N_Vector wide, half, F;   /* differences; F at the point */
-} probe;
+typedef stf_slope_probe probe;
 
 static const sunrealtype sure = 10, relative = 1e-3, units = 8;
 
-/* rounding_i = how far F_i moves with y and y' by some units of rounding. */
-static int find_rounding(probe *q)
+int stf_probe_rounding(stf_slope_probe *q)
 {
-  stf_system *system = &q->s->step.system;
+  stf_system *system = q->at.system;
   const sunindextype n = q->s->problem->n;
   sunrealtype *y = stf_array(q->wide), *yp = stf_array(q->half);
   STEIF_TRY(stf_system_residual(system, q->t, q->y, q->yp, q->F));
@@ -77,99 +69,76 @@ static bool lost(const probe *q, const sunrealtype *c, sunindextype i)
 }
 
 /* F := the difference over half of p_k; false: it is not needed, or cannot be had. */
-static bool far_off(probe *q, int k, N_Vector found, bool *needed)
+static bool far_off(probe *q, int k, bool *needed)
 {
   const int half = (int)(0.5 / cbrt(STF_EPS));
   *needed = false;
   for (sunindextype i = 0; i < q->s->problem->n; i++)
-    *needed = *needed || lost(q, stf_array(found), i);
+    *needed = *needed || lost(q, stf_array(q->found), i);
   if (!*needed) return false;
   const bool before = stf_silence(q->s->ctx, true);
-  const int code = stf_slopes_between(q->T->slopes, k, q->t, q->y, q->yp, -half, half, q->F);
+  const int code = stf_slopes_between(q->slopes, k, q->t, q->y, q->yp, -half, half, q->F);
   stf_silence(q->s->ctx, before);
   return !code;
 }
 
-/* The entry that is off the most, in what it may be off by; -1: none. */
-static sunindextype find_worst(probe *q, int k, N_Vector found, sunrealtype *bar)
+sunindextype stf_probe_worst(const stf_slope_probe *q, sunrealtype d,
+                             bool (*unknown)(const stf_slope_probe *q, sunindextype i),
+                             sunrealtype *bar)
 {
-  const sunrealtype *c = stf_array(found), *w = stf_array(q->wide), *h = stf_array(q->half),
-                    *g = stf_array(q->given), *r = stf_array(q->rounding),
-                    *far = stf_array(q->F);
-  const sunrealtype d = stf_slopes_increment(q->s->problem->parameters, k);
-  bool needed;
-  const bool known = far_off(q, k, found, &needed);
+  const sunrealtype *c = stf_array(q->found), *w = stf_array(q->wide), *h = stf_array(q->half),
+                    *g = stf_array(q->given), *r = stf_array(q->rounding);
   sunindextype worst = -1;
   sunrealtype most = 1;
   for (sunindextype i = 0; i < q->s->problem->n; i++) {
     const sunrealtype spread = fmax(fabs(c[i] - w[i]), fabs(c[i] - h[i])),
                       error = sure * (spread + r[i] / d), off = fabs(g[i] - c[i]),
                       least = fmax(error, relative * fmax(fabs(g[i]), fabs(c[i])));
-    if (!(off > most * least) || !isfinite(off)) continue;
-    if (needed && lost(q, c, i) && (!known || far[i] != 0)) continue;
+    if (!(off > most * least) || !isfinite(off) || (unknown && unknown(q, i))) continue;
     worst = i, most = off / least, *bar = error;
   }
   return worst;
 }
 
-static int compare(probe *q, int k, N_Vector found)
+/* What is lost moves with half of p_k, or that is not known. */
+static bool lost_and_unknown(const probe *q, sunindextype i)
+{
+  return lost(q, stf_array(q->found), i) && (!q->far || stf_array(q->F)[i] != 0);
+}
+
+static int compare(probe *q, int k)
 {
   sunrealtype bar = 0;
-  const sunindextype worst = find_worst(q, k, found, &bar);
+  bool needed;
+  q->far = far_off(q, k, &needed);
+  const sunindextype worst =
+    stf_probe_worst(q, stf_slopes_increment(q->s->problem->parameters, k),
+                    needed ? lost_and_unknown : NULL, &bar);
   if (worst < 0) return STEIF_OK;
-  STEIF_CHECK(!of_other_sign(q, found), q->s->ctx, STEIF_BAD_INPUT,
-              "dF/dp of parameter %d of problem '%s' has the wrong sign at the start: F is "
+  STEIF_CHECK(!of_other_sign(q, q->found), q->s->ctx, STEIF_BAD_INPUT,
+              "dF/dp of parameter %d of problem '%s' has the wrong sign at t = %.6g: F is "
               "y' - f or M y' - f, and its derivative -df/dp",
-              k + 1, q->s->problem->name);
-  return say(q, k, worst, stf_array(found)[worst], bar);
+              k + 1, q->s->problem->name, q->t);
+  return say(q, k, worst, stf_array(q->found)[worst], bar);
 }
 
 /* Of column k; what cannot be evaluated is left to the first step. */
-static int look(probe *q, int k, N_Vector found)
+static int look(probe *q, int k)
 {
-  stf_slopes *slopes = q->T->slopes;
+  stf_slopes *slopes = q->slopes;
   const bool before = stf_silence(q->s->ctx, true);
   int code = stf_slopes_at(slopes, k, q->t, q->y, q->yp, q->given);
   if (!code) code = stf_slopes_between(slopes, k, q->t, q->y, q->yp, -2, 2, q->wide);
   if (!code) code = stf_slopes_between(slopes, k, q->t, q->y, q->yp, 0, 1, q->half);
-  if (!code) code = stf_slopes_between(slopes, k, q->t, q->y, q->yp, -1, 1, found);
+  if (!code) code = stf_slopes_between(slopes, k, q->t, q->y, q->yp, -1, 1, q->found);
   stf_silence(q->s->ctx, before);
-  return code ? STEIF_OK : compare(q, k, found);
+  return code ? STEIF_OK : compare(q, k);
 }
 
-static int look_at_all(probe *q, N_Vector found)
+int stf_probe_slopes(stf_slope_probe *q)
 {
-  const bool before = stf_silence(q->s->ctx, true);
-  const int code = find_rounding(q);
-  stf_silence(q->s->ctx, before);
-  if (code) return STEIF_OK;
-  for (int k = 0; k < q->T->count; k++) STEIF_TRY(look(q, q->T->parameter[k], found));
+  const steif_parameters *p = q->s->problem->parameters;
+  if (!p || !p->dFdp) return STEIF_OK;
+  for (int k = 0; k < q->count; k++) STEIF_TRY(look(q, q->parameter ? q->parameter[k] : k));
   return STEIF_OK;
-}
-
-/* Components above where they were, by amounts without a pattern. */
-static void move(probe *q)
-{
-  const steif_solver *s = q->s;
-  const sunrealtype part = 1e-3, golden = 0.6180339887498949;
-  const sunrealtype *from = stf_array(s->step.y);
-  sunrealtype *y = stf_array(q->y);
-  for (sunindextype i = 0; i < s->problem->n; i++) {
-    const sunrealtype share = fmod(golden * (sunrealtype)(i + 1), 1);
-    y[i] = from[i] + part * (0.5 + share) * fmax(fabs(from[i]), stf_floor(&s->step.system, i));
-  }
-  q->t = s->step.t + part * (s->t1 - s->step.t);
-}
-
-int stf_probe_slopes(steif_solver *s, stf_carry *T)
-{
-  const stf_step *step = &s->step;
-  if (!s->problem->parameters->dFdp) return STEIF_OK;
-  probe q = {.s = s, .T = T, .t = step->t, .y = step->y, .yp = step->yp};
-  q.given = T->error[0], q.rounding = T->weights[0], q.wide = T->last, q.half = T->last_slope;
-  q.F = T->work;
-  STEIF_TRY(look_at_all(&q, T->product));
-  q.y = T->Y;
-  move(&q);
-  return look_at_all(&q, T->product);
 }

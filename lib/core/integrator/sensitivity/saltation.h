@@ -67,8 +67,6 @@ int stf_start_jumps(steif_solver *s, stf_carry *T);
 /* The same of S+ behind an event or break, at (t, y), and room for it. */
 int stf_saltation_jumps(steif_solver *s, sunrealtype t, N_Vector y);
 int stf_saltation_jumps_claim(steif_solver *s);
-/* probe_slopes.c: STEIF_BAD_INPUT where dF/dp is not that of F. */
-int stf_probe_slopes(steif_solver *s, stf_carry *T);
 /* probe_starts.c: STEIF_BAD_INPUT where T->S is not the derivative of problem.start. */
 int stf_probe_starts(steif_solver *s, stf_carry *T);
 /* sensitivity.c: the place of parameter k in the list of columns. */

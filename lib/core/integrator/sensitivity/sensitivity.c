@@ -1,5 +1,6 @@
 /* sensitivity.c: derivatives by parameters beside a run: what is served, their start, and what is shown.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "probe.h"
 #include "saltation.h"
 #include <math.h>
 #include <stdio.h>
@@ -153,7 +154,8 @@ int stf_sensitivity_open(steif_solver *s)
                 "dy0/dp of parameter %d of problem '%s' is not finite", parameter[k] + 1,
                 s->problem->name);
   }
-  STEIF_TRY(stf_probe_slopes(s, T));
+  STEIF_TRY(stf_probe_open(s->pool, &s->step.system, T->slopes, parameter, count, &T->probe));
+  STEIF_TRY(stf_probe_look(T->probe, s));
   STEIF_TRY(stf_probe_starts(s, T));
   STEIF_TRY(stf_start_derivatives(s, T));
   STEIF_TRY(stf_start_jumps(s, T));

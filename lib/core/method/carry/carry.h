@@ -50,6 +50,7 @@ typedef struct stf_carry {
   int degree;        /* how many of them predictions take */
   sunrealtype noise; /* the largest of differences by p, in tolerances of a column */
   long sweeps;
+  struct stf_slope_probe *probe; /* of derivatives of F, in the midst of the run; NULL: none */
 } stf_carry;
 
 /* Equations of m stages, at points first .. first + m - 1. */
