@@ -80,7 +80,7 @@ void functional_close(struct call *call, struct functional *f);
 bool is_model(const steif_problem *p);
 int integrands_open(struct call *call, const steif_problem *p, int count,
                     const char *const *expression, steif_problem *model);
-/* Of other problems: has it kinks? One that may jump is refused. */
+/* Of other problems: whether it has kinks; what may jump is an error. */
 int expression_kinks(struct call *call, const steif_problem *p, const char *expression,
                      bool *kinks);
 /* A model with the names of the problem's unknowns and parameters, the slope of whose first unknown is the

@@ -175,8 +175,14 @@ int functional_open(struct call *call, const steif_problem *p, struct functional
   expression += 4;
   if (!is_model(p)) return open_other(call, p, expression, f);
   const int code = integrands_open(call, p, 1, &expression, &f->model);
-  if (!code) f->problem = f->model;
-  return code;
+  if (code) return code;
+  f->problem = f->model;
+  f->quadrature = (steif_quadrature){.count = 1,
+                                     .value = steif_model_integrand_values,
+                                     .slope = steif_model_integrand_along,
+                                     .user = f->model.user};
+  f->problem.quadrature = &f->quadrature;
+  return EXIT_OK;
 }
 
 void functional_close(struct call *call, struct functional *f)

@@ -33,7 +33,7 @@ static int value(struct gradient_functional *f, int at_end, int i, double t, N_V
 
 static int values(struct gradient_functional *f, int at_end, double t, N_Vector y, double *g)
 {
-  int code = f->expressions ? f->integrands(t, y, f->all, f->now->user) : 0;
+  int code = f->expressions ? steif_model_integrand_values(t, y, f->all, f->now->user) : 0;
   for (int i = 0; !code && i < f->of.count; i++) code = value(f, at_end, i, t, y, &g[i]);
   return code;
 }
@@ -133,10 +133,8 @@ int gradient_functional_open(struct call *call, const steif_problem *p,
   if (code || !f->expressions) return code;
   code =
     integrands_open(call, p, f->expressions, (const char *const *)f->expression, &f->extended);
-  if (code) return code;
-  f->integrands = f->extended.quadrature->value, f->extended.quadrature = NULL;
   f->now = &f->extended;
-  return EXIT_OK;
+  return code;
 }
 
 int gradient_functional_extend(struct call *call, const struct gradient_functional *f,
@@ -147,9 +145,8 @@ int gradient_functional_extend(struct call *call, const struct gradient_function
   const int code =
     integrands_open(call, p, f->expressions, (const char *const *)f->expression, &own);
   steif_problem_clear(call->ctx, p);
-  if (code) return code;
-  *p = own, p->quadrature = NULL;
-  return EXIT_OK;
+  if (!code) *p = own;
+  return code;
 }
 
 void gradient_functional_close(struct call *call, struct gradient_functional *f)

@@ -20,7 +20,6 @@ struct gradient_functional {
   steif_problem extended;   /* a model with its integrands ... */
   char *expression[2 * FUNCTIONALS];
   int expressions; /* ... so many; 0: `now` is the problem given */
-  steif_values integrands;
   double all[2 * FUNCTIONALS];
   struct asked *asked
     [2]; /* integrands, and what is asked at the end, `of.count` of each; NULL: nothing is */

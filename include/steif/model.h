@@ -133,13 +133,20 @@ STEIF_EXPORT int steif_model_output_tangent(steif_context *ctx, const steif_prob
                                             sunrealtype t, N_Vector y, N_Vector v,
                                             const sunrealtype *q, sunrealtype *value);
 
-/* The model with its present parameters and `count` integrands, expressions in its names, of t, unknowns and parameters:
- * problem.quadrature of `out` has their values and slopes, and where one of them has a kink or a
- * jump the runs have an event or a break, of its own where the model has none there. For steif_problem_clear.
- * Sentences have places of the text, lines after its last one being those of the expressions. */
+/* The model with its present parameters and `count` integrands, expressions in its names, of t, unknowns and parameters.
+ * Where one of them has a kink or a jump, the runs have an event or a break, of its own where the model has none there. For
+ * steif_problem_clear. Sentences have places of the text, lines after its last one being those of the expressions.
+ *
+ *     steif_quadrature q = {.count = 1, .value = steif_model_integrand_values, .slope = steif_model_integrand_along};
+ *     if (!steif_model_integrands(ctx, &model, 1, (const char *[]){"abs(x)"}, &problem)) problem.quadrature = &q; */
 STEIF_EXPORT int steif_model_integrands(steif_context *ctx, const steif_problem *problem,
                                         int count, const char *const *expression,
                                         steif_problem *out);
+/* All of them, and their derivatives along y' = dy, p_k' = 1; user: problem.user of such a problem. */
+STEIF_EXPORT int steif_model_integrand_values(sunrealtype t, N_Vector y, sunrealtype *value,
+                                              void *user);
+STEIF_EXPORT int steif_model_integrand_along(sunrealtype t, N_Vector y, N_Vector dy, int k,
+                                             sunrealtype *out, void *user);
 /* dy = dg_i/dy and dp[k] = dg_i/dp_k of integrand i of such a problem, exact; dp NULL: not wanted. */
 STEIF_EXPORT int steif_model_integrand_slopes(const steif_problem *problem, sunrealtype t,
                                               N_Vector y, int i, N_Vector dy, sunrealtype *dp);

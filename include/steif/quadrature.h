@@ -12,7 +12,7 @@
  * They are never part of Newton's iteration. A step of a Runge-Kutta method adds h sum b_i g(t_n + c_i h, Y_i), the
  * integral of its own order; every other step, a part of a step, up to an event or inside of it, and other methods
  * integrate g along dense output by Gauss' formula, whose order is one above that of dense output at most.
- * Events and breaks do not change q; g may jump there, and nowhere else: g of a break is asked for just before it and behind it.
+ * Events and breaks do not change q; g may jump there, and nowhere else: g of a break is asked for just before and just after it.
  *
  * With sensitivities (sensitivity.h) dq/dp_k is integrated the same way, from g_y S + dg/dp_k; at an event of time
  * tau(p) it gains (g- - g+) dtau/dp, g- and g+ being the values on both sides.

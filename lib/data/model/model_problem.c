@@ -1,6 +1,5 @@
 /* model_problem.c: a model as a steif_problem: its callbacks and its members.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "integrands.h"
 #include "pencil.h"
 #include "products.h"
 #include "reactions.h"
@@ -283,7 +282,6 @@ int stf_model_fill(stf_model *m, steif_problem *p)
   STEIF_TRY(stf_products_open(m));
   stf_operators(m, p);
   STEIF_TRY(stf_parameter_members(m, p));
-  stf_integrands_member(m, p);
   STEIF_TRY(stf_reactions_begin(m->t0, m));
   STEIF_TRY(stf_consistent_start(m, p));
   STEIF_TRY(stf_reactions_begin(m->t0, m));

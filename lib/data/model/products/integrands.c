@@ -14,7 +14,6 @@
 struct stf_integrands {
   stf_quantity values, adjoint; /* count; by y, y' and p with weights */
   double *weight, *gradient;
-  steif_quadrature quadrature;
 };
 
 /* ---- making ------------------------------------------------------------------------------------ */
@@ -119,9 +118,10 @@ static int evaluate(const stf_model *m, const stf_quantity *q, double t, N_Vecto
   return 0;
 }
 
-static int values(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
+int steif_model_integrand_values(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 {
   const stf_model *m = user;
+  if (!m->integrands) return -1;
   return evaluate(m, &m->integrands->values, t, y, (size_t)m->integrand_count, value);
 }
 
@@ -134,9 +134,11 @@ static int differentiate(const stf_model *m, double t, N_Vector y, int i)
   return evaluate(m, &g->adjoint, t, y, lengths(m), g->gradient);
 }
 
-static int slope(sunrealtype t, N_Vector y, N_Vector dy, int k, sunrealtype *out, void *user)
+int steif_model_integrand_along(sunrealtype t, N_Vector y, N_Vector dy, int k, sunrealtype *out,
+                                void *user)
 {
   const stf_model *m = user;
+  if (!m->integrands) return -1;
   const double *by = m->integrands->gradient, *v = N_VGetArrayPointer(dy);
   for (int i = 0; i < m->integrand_count; i++) {
     if (differentiate(m, t, y, i)) return -1;
@@ -156,14 +158,6 @@ int steif_model_integrand_slopes(const steif_problem *p, sunrealtype t, N_Vector
   memcpy(N_VGetArrayPointer(dy), by, (size_t)m->n * sizeof *by);
   if (dp) memcpy(dp, by + 2 * m->n, (size_t)m->given.count * sizeof *by);
   return STEIF_OK;
-}
-
-void stf_integrands_member(stf_model *m, steif_problem *p)
-{
-  if (!m->integrands) return;
-  m->integrands->quadrature =
-    (steif_quadrature){.count = m->integrand_count, .value = values, .slope = slope, .user = m};
-  p->quadrature = &m->integrands->quadrature;
 }
 
 /* ---- the model with them ------------------------------------------------------------------------- */

@@ -4,7 +4,6 @@
 #define STF_INTEGRANDS_H
 
 #include "model.h"
-#include <steif/quadrature.h>
 
 typedef struct stf_integrands stf_integrands;
 
@@ -16,7 +15,5 @@ int stf_integrands_compile(stf_model *m);
 /* Parameters have moved. */
 void stf_integrands_follow(const stf_model *m);
 void stf_integrands_free(stf_model *m);
-/* problem.quadrature. */
-void stf_integrands_member(stf_model *m, steif_problem *p);
 
 #endif
