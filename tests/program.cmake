@@ -423,7 +423,12 @@ expect(0 sensitivity damped.steif radau:s=3 --functional "int x'" --json)
 begins("0.66269" integral)
 expect(3 sensitivity damped.steif radau:s=3 --functional "int x''" ERR "without slopes")
 expect(2 sensitivity rober radau:s=3 --functional "int y1'" ERR "slopes of unknowns")
-file(REMOVE ${FOLDER}/line.steif ${FOLDER}/square.steif ${FOLDER}/damped.steif)
+# The charge that two capacitors exchange when they are put together is an impulse of the current.
+file(WRITE ${FOLDER}/charge.steif "param C1 = 1, C2 = 3\nstate v1 = 4, v2 = 0, i = 0\ndiscrete closed = 0\n"
+     "C1*v1' = -i - v1/2\nC2*v2' = i\n0 = if closed > 0.5 then v1 - v2 else i\nat 1.1: closed = 1\ntime 0 to 3\n")
+expect(1 sensitivity charge.steif radau:s=3 --functional "int i" ERR "impulses")
+expect(0 sensitivity charge.steif radau:s=3 --functional "int v1" --json)
+file(REMOVE ${FOLDER}/charge.steif ${FOLDER}/line.steif ${FOLDER}/square.steif ${FOLDER}/damped.steif)
 # Other problems have kinks where the error of the quadrature is tested, and no jumps.
 expect(0 sensitivity rober radau:s=3 --t1 40 --functional "int max(y3-0.1,0)" --rtol 1e-8 --json)
 begins("4.1703" integral)

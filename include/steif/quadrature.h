@@ -14,6 +14,9 @@
  * integrate g along dense output by Gauss' formula, whose order is one above that of dense output at most.
  * Events and breaks do not change q; g may jump there, and nowhere else: g of a break is asked for just before and just after it.
  *
+ * Where velocities or charges jump to fulfil new equations, multipliers have impulses, and an integral of one of them is
+ * STEIF_UNSUPPORTED.
+ *
  * With sensitivities (sensitivity.h) dq/dp_k is integrated the same way, from g_y S + dg/dp_k; at an event of time
  * tau(p) it gains (g- - g+) dtau/dp, g- and g+ being the values on both sides.
  *

@@ -231,6 +231,8 @@ typedef int (*stf_integrand)(steif_solver *s, sunrealtype t, N_Vector y, sunreal
 int stf_quadrature_orders(steif_solver *s, stf_integrand value, N_Vector moved, int count,
                           sunrealtype *g, sunrealtype *other);
 int stf_quadrature_before(steif_solver *s, sunrealtype t, N_Vector y);
+int stf_quadrature_impulses(steif_solver *s, sunrealtype t, N_Vector y, const bool *algebraic,
+                            const int *index);
 int stf_quadrature_after(steif_solver *s, sunrealtype t, N_Vector y, const sunrealtype *tau);
 
 /* The invariants at the start. */

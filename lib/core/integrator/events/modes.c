@@ -58,6 +58,8 @@ static int take_place(steif_solver *s, const stf_repair *found, sunrealtype t, s
   steif_repair *told = &s->repair.report;
   const bool jumps = jump_of(s, found, y) > most;
   if (jumps && s->saltation) STEIF_TRY(stf_saltation_place(s, y));
+  if (jumps)
+    STEIF_TRY(stf_quadrature_impulses(s, t, s->step.y, found->algebraic, found->problem.index));
   if (jumps && !told->jumps++)
     stf_point_say(told->jumped, "t = %.12g: %s", t, of_start(found->report.message));
   memcpy(y, found->report.y, (size_t)s->problem->n * sizeof *y);

@@ -291,6 +291,30 @@ int stf_quadrature_after(steif_solver *s, sunrealtype t, N_Vector y, const sunre
   return STEIF_OK;
 }
 
+/* Where y jumps at t, multipliers have impulses, which their values do not tell, and integrals of them are not known:
+ * unknowns without a derivative, of index 2 or 3. */
+int stf_quadrature_impulses(steif_solver *s, sunrealtype t, N_Vector y, const bool *algebraic,
+                            const int *index)
+{
+  stf_quadratures *w = s->quadratures;
+  char name[STEIF_SPEC_WORD];
+  if (!w || !index) return STEIF_OK;
+  STEIF_TRY(value(s, t, y, w->g));
+  for (sunindextype j = 0; j < s->problem->n; j++) {
+    if (!algebraic[j] || index[j] < 2) continue;
+    N_VScale(1, y, w->moved);
+    stf_array(w->moved)[j] += 1 + fabs(stf_array(y)[j]);
+    STEIF_TRY(value(s, t, w->moved, w->other));
+    for (int i = 0; i < w->count; i++)
+      STEIF_CHECK(w->other[i] == w->g[i], s->ctx, STEIF_UNSUPPORTED,
+                  "integral %d of problem '%s' is of %s, and at t = %.12g unknowns jump by "
+                  "impulses, which values of such a multiplier do not tell: take what jumps, a "
+                  "charge or a momentum, at the end instead",
+                  i + 1, s->problem->name, stf_unknown(s->problem, j, name), t);
+  }
+  return STEIF_OK;
+}
+
 /* ---- what is shown ---------------------------------------------------------------------------- */
 
 static int show(steif_solver *s, sunrealtype t, int column, sunrealtype *out)
