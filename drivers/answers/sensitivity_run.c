@@ -96,7 +96,8 @@ static void remark(struct sensitivity_answer *a)
   char *to = a->outcome.message, name[STEIF_SPEC_WORD];
   for (int k = 0; k < a->count; k++) {
     const double most = size_of(y + (size_t)(k + 1) * n, n), p = sensitivity_scale(a, k);
-    const char *said = most == 0 ? "has no influence"
+    const bool moves = a->by_event && !(a->tau[k] == 0); /* the end alone */
+    const char *said = most == 0 ? moves ? NULL : "has no influence"
                        : p * most > much * fmax(size_of(y, n), floor)
                          ? "changes y by more than 1e8 of itself: the solution forgets its past"
                        : q->value[a->active[k]] == 0 && !q->scale

@@ -196,7 +196,7 @@ static void runs_that_fail_are_a_wall(void)
   no_minimum(&q, "to where runs fail");
 }
 
-/* ---- derivatives that are wrong, where no look at the start can see it ------------------------- */
+/* ---- derivatives that are wrong, where no look at the start and at the end can see it ------------------------- */
 
 static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 {
@@ -208,7 +208,7 @@ static int f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
 static int wrong_later(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
 {
   (void)yp, (void)k, (void)user;
-  NV_Ith_S(out, 0) = (t < 0.1 ? 1 : -5) * NV_Ith_S(y, 0);
+  NV_Ith_S(out, 0) = (t > 0.3 && t < 2.2 ? -5 : 1) * NV_Ith_S(y, 0);
   return 0;
 }
 

@@ -191,7 +191,7 @@ static void slopes_of_F(void)
   by.p = NAN;
   codes(&ode, &J, STEIF_NOT_FINITE, "parameter 1", 0);
   codes(&ode, &J, STEIF_NOT_FINITE, "parameter 1", 1);
-  codes(&ode, &J, STEIF_NOT_FINITE, "along the line", 2);
+  codes(&ode, &J, STEIF_NOT_FINITE, "along", 2);
   by = right, by.S0 = NAN;
   codes(&ode, &J, STEIF_NOT_FINITE, "dy0/dp of parameter 1", 0);
   by = right;

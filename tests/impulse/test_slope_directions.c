@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "base/failing.h"
 #include "slope_case.h"
+#include <steif/parameters.h>
+#include <steif/sensitivity.h>
 
 /* ---- parameters --------------------------------------------------------------------------------------- */
 
@@ -49,6 +51,130 @@ static void of_a_model(void)
   SUNMatDestroy(b.system.E), SUNMatDestroy(b.system.F);
   steif_problem_clear(b.ctx, &b.problem);
   steif_context_free(&b.ctx);
+}
+
+/* x(0+), then the impulses by all parameters of a problem of the collection. */
+static void of_problem(const char *spec, int count, int vectors, const double *known)
+{
+  bench b;
+  set_up(&b, spec);
+  const int n = (int)b.problem.n;
+  CHECK(b.problem.parameters && b.problem.parameters->count == count);
+  for (int k = 0; k < count; k++, known += n * vectors) {
+    double most = 1;
+    CHECK(steif_impulse_direction_of(b.ctx, &b.problem, k, &b.along) == STEIF_OK);
+    CHECK(!steif_impulse_slope_find(b.ctx, &b.system, b.problem.y0, 0, NULL, NULL, &b.along,
+                                    &b.slope));
+    CHECK(b.slope.certified && b.slope.exists == 1 && b.slope.count == vectors - 1);
+    for (int i = 0; i < n * vectors; i++) most = fmax(most, fabs(known[i]));
+    for (int i = 0; i < n * vectors; i++)
+      CLOSE_FLOOR(i < n ? b.slope.x_plus[i] : b.slope.c[i - n], known[i], 1e-11, most);
+    steif_impulse_slope_clear(b.ctx, &b.slope);
+    steif_impulse_direction_clear(b.ctx, &b.along);
+  }
+  tear_down(&b);
+}
+
+/* Closed forms: see test_slopes.c; q N x' + x = f has x(0+) = sum (-q)^i N^i f^(i), f_m = cos(m + t); ut5 in rational
+ * numbers, by beta, by rows and columns mixed. */
+static void of_the_collection(void)
+{
+  static const double impact[] = {0,
+                                  0,
+                                  0.433884297520661,
+                                  0.433884297520661,
+                                  -2.40871525169046,
+                                  0,
+                                  0,
+                                  0,
+                                  0,
+                                  -0.303719008264463,
+                                  0,
+                                  0,
+                                  0,
+                                  0,
+                                  0,
+                                  0,
+                                  0,
+                                  -0.929752066115702,
+                                  -0.929752066115702,
+                                  5.16153268219384,
+                                  0,
+                                  0,
+                                  0,
+                                  0,
+                                  -1.39462809917355,
+                                  0,
+                                  0,
+                                  0,
+                                  0,
+                                  0,
+                                  0.318181818181818,
+                                  0.318181818181818,
+                                  -0.0867768595041322,
+                                  -0.0867768595041322,
+                                  4.03302028549962,
+                                  0,
+                                  0,
+                                  0.318181818181818,
+                                  -0.681818181818182,
+                                  0.0607438016528926,
+                                  0,
+                                  0,
+                                  0,
+                                  0,
+                                  0.477272727272727};
+  const double jordan[] = {sin(2) - 2 * cos(3), sin(3), 0, 2.1339068204274, 3.9899924966004, 0,
+                           -7.9799849932009,    0,      0};
+  static const double ut5[] = {-20, -20, 20,  1, 0,   2, 2,  -2, 5, 0, 10, 10, -10, 0, 0,
+                               20,  20,  -20, 0, 0,   0, 0,  0,  0, 0, 0,  0,  0,   0, 0,
+                               5,   12,  8,   0, -12, 7, -2, -9, 3, 1, -2, 3,  -8,  0, 5};
+  static const double rlc[] = {480000,  480000,  0, 0, 2520,    0, 0, 0, 0, 1.44, /* C1 */
+                               -320000, -320000, 0, 0, -1680,   0, 0, 0, 0, 0.64, /* C2 */
+                               0,       0,       0, 0, 0,       0, 0, 0, 0, 0,    /* L, R */
+                               0,       0,       0, 0, 0,       0, 0, 0, 0, 0,
+                               0,       0,       0, 0, -2.6e-5, 0, 0, 0, 0, 0, /* R2, V */
+                               0,       0,       0, 1, 0,       0, 0, 0, 0, 0};
+  of_problem("impact", 3, 3, impact);
+  of_problem("jordan:case=N-inc", 1, 3, jordan);
+  of_problem("ut5", 3, 3, ut5);
+  of_problem("switchrlc", 6, 2, rlc);
+}
+
+/* After the start: S of runs beside differences of the exact solution by p. */
+static void of_runs(void)
+{
+  static const struct {
+    const char *spec;
+    double t, size;
+  } runs[] = {
+    {"switchrlc", 2e-4, 1}, {"impact", 1, 1}, {"impact:case=cons", 1, 1}, {"jordan", 1, 1}};
+  for (size_t r = 0; r < sizeof runs / sizeof *runs; r++) {
+    bench b;
+    set_up(&b, runs[r].spec);
+    const steif_parameters *q = b.problem.parameters;
+    N_Vector S = N_VNew_Serial(b.problem.n, steif_sundials(b.ctx)), low = N_VClone(S),
+             high = N_VClone(S);
+    steif_options o = steif_defaults();
+    o.rtol = 1e-8, o.sensitivities = 1;
+    steif_solver *s = steif_solver_new(b.ctx, &b.problem, "radau:s=3", &o);
+    CU_ASSERT_FATAL(s && !steif_solve_to(s, runs[r].t));
+    for (int k = 0; k < q->count; k++) {
+      const double p = q->value[k], h = 1e-4 * (p != 0 ? p : 1);
+      CHECK(!steif_sensitivity_output(s, runs[r].t, k, S));
+      CHECK(!steif_parameter_set(b.ctx, &b.problem, k, p + h));
+      CHECK(!b.problem.exact(runs[r].t, high, NULL, b.problem.user));
+      CHECK(!steif_parameter_set(b.ctx, &b.problem, k, p - h));
+      CHECK(!b.problem.exact(runs[r].t, low, NULL, b.problem.user));
+      CHECK(!steif_parameter_set(b.ctx, &b.problem, k, p));
+      N_VLinearSum(0.5 / h, high, -0.5 / h, low, low);
+      for (sunindextype i = 0; i < b.problem.n; i++)
+        CLOSE_FLOOR(NV_Ith_S(S, i), NV_Ith_S(low, i), 1e-5, N_VMaxNorm(low));
+    }
+    steif_solver_free(&s);
+    N_VDestroy(S), N_VDestroy(low), N_VDestroy(high);
+    tear_down(&b);
+  }
 }
 
 /* (p - 1)^m x' + x = 1, y' + y + x = 0: x(0+) is x(0-) beside p = 1 and 1 there, whatever the first derivative of E is. By
@@ -113,7 +239,7 @@ static void wrong_directions(void)
   CHECK(strstr(steif_message(b.ctx), "dF/dp has 3 columns"));
   SUNMatDestroy(small);
   steif_impulse_direction of;
-  CHECK(steif_impulse_direction_of(b.ctx, &b.problem, 0, &of) == STEIF_BAD_INPUT);
+  CHECK(steif_impulse_direction_of(b.ctx, &b.problem, 6, &of) == STEIF_BAD_INPUT);
   tear_down(&b);
 }
 
@@ -148,6 +274,8 @@ static void short_memory(void)
 
 CU_TestInfo tests_of_slope_directions[] = {
   {"parameters of a model", of_a_model},
+  {"parameters of the collection", of_the_collection},
+  {"runs by these parameters", of_runs},
   {"matrices that move in higher order", of_higher_order},
   {"wrong directions", wrong_directions},
   {"short of memory", short_memory},

@@ -70,6 +70,7 @@ static int sort(steif_context *ctx, stf_linear *l)
   STEIF_TRY(stf_sparse_sort(ctx, l->pool, &E, &l->E));
   STEIF_TRY(stf_sparse_sort(ctx, l->pool, &F, &l->F));
   stf_pool_free(&l->scratch);
+  l->E.sorted = l->F.sorted = true;
   return STEIF_OK;
 }
 
@@ -85,22 +86,140 @@ static int store(steif_context *ctx, const steif_spec *spec, steif_problem *self
   return STEIF_OK;
 }
 
-/* case=cons: x(0+) becomes the start. */
+/* x(0+) becomes the start. */
+static int jump_at_start(steif_context *ctx, stf_linear *l)
+{
+  sunrealtype *c = l->after + l->n;
+  for (sunindextype i = 0; i < l->n * (l->dae_index > 1 ? l->dae_index - 1 : 0); i++) c[i] = 0;
+  STEIF_TRY(l->jump(ctx, l, l->start, &(stf_exact_start){.x_plus = l->after, .c = c}));
+  memcpy(l->start, l->after, (size_t)l->n * sizeof *l->start);
+  return STEIF_OK;
+}
+
 static int choose_start(steif_context *ctx, const steif_spec *spec, stf_linear *l)
 {
   const char *word = stf_spec_word(spec, "case");
-  const bool consistent = word && !strcmp(word, "cons");
-  STEIF_CHECK(!word || consistent || !strcmp(word, "inc"), ctx, STEIF_UNKNOWN_NAME,
+  l->consistent = word && !strcmp(word, "cons");
+  STEIF_CHECK(!word || l->consistent || !strcmp(word, "inc"), ctx, STEIF_UNKNOWN_NAME,
               "case=%s of '%s' is not known: choose inc or cons", word, spec->name);
-  if (!consistent) return STEIF_OK;
-  const int impulses = l->dae_index > 1 ? l->dae_index - 1 : 0;
-  const size_t n = (size_t)l->n;
-  sunrealtype *x = stf_allocate(ctx, n * (size_t)(1 + impulses), sizeof *x);
-  if (!x) return STEIF_NO_MEMORY;
-  const int code = l->jump(ctx, l, l->start, &(stf_exact_start){.x_plus = x, .c = x + n});
-  if (!code) memcpy(l->start, x, n * sizeof *x);
-  stf_release(ctx, x);
+  if (!l->consistent) return STEIF_OK;
+  const int vectors = l->dae_index > 1 ? l->dae_index : 1;
+  l->after = stf_pool_array(l->pool, (size_t)l->n * (size_t)vectors, sizeof *l->after);
+  return l->after ? jump_at_start(ctx, l) : STEIF_NO_MEMORY;
+}
+
+/* ---- parameters ------------------------------------------------------------------------------- */
+
+/* What depends on p, in a row: x(0-), the entries of E and F, the amplitudes of the waves. */
+static size_t width(const stf_linear *l)
+{
+  return (size_t)(l->n + l->E.count + l->F.count + l->waves);
+}
+
+static void gather(const stf_linear *l, sunrealtype *to)
+{
+  memcpy(to, l->start, (size_t)l->n * sizeof *to), to += l->n;
+  memcpy(to, l->E.value, (size_t)l->E.count * sizeof *to), to += l->E.count;
+  memcpy(to, l->F.value, (size_t)l->F.count * sizeof *to), to += l->F.count;
+  for (sunindextype k = 0; k < l->waves; k++) to[k] = l->wave[k].amplitude;
+}
+
+static int renew(stf_linear *l)
+{
+  stf_sparse *m[] = {&l->E, &l->F};
+  for (int i = 0; i < 2; i++)
+    for (sunindextype k = 0; k < m[i]->count; k++) m[i]->value[k] = 0;
+  l->waves = 0;
+  l->fill(l);
+  return l->consistent ? jump_at_start(NULL, l) : 0;
+}
+
+/* Derivatives by p_k: central differences over three lengths, extrapolated to the sixth order; exact but for rounding
+ * where p enters linearly. */
+static int slopes(stf_linear *l, int k)
+{
+  static const sunrealtype factor[] = {1.0 / 45, -20.0 / 45, 64.0 / 45};
+  const sunrealtype p = l->p[k], wide = (p != 0 ? fabs(p) : 1) / 128;
+  const size_t size = width(l);
+  sunrealtype *to = l->slope + (size_t)k * size, *end[2];
+  for (int side = 0; side < 2; side++)
+    end[side] = l->slope + (size_t)(l->parameters.count + side) * size;
+  memset(to, 0, size * sizeof *to);
+  int code = 0;
+  for (int level = 0; !code && level < 3; level++) {
+    const sunrealtype h = ldexp(wide, -level);
+    for (int side = 0; !code && side < 2; side++) {
+      l->p[k] = side ? p + h : p - h;
+      code = renew(l);
+      gather(l, end[side]);
+    }
+    const sunrealtype span = (p + h) - (p - h);
+    for (size_t i = 0; i < size; i++) to[i] += factor[level] * (end[1][i] - end[0][i]) / span;
+  }
+  l->p[k] = p;
   return code;
+}
+
+static int follow(void *user)
+{
+  stf_linear *l = user;
+  int code = renew(l);
+  for (int k = 0; !code && k < l->parameters.count; k++) code = slopes(l, k);
+  return code ? code : renew(l);
+}
+
+static int start_slope(int k, N_Vector S0, void *user)
+{
+  const stf_linear *l = user;
+  memcpy(N_VGetArrayPointer(S0), l->slope + (size_t)k * width(l),
+         (size_t)l->n * sizeof(sunrealtype));
+  return 0;
+}
+
+/* out += M x, the pattern of m with other values. */
+static const sunrealtype *add_product(const stf_sparse *m, const sunrealtype *value, N_Vector x,
+                                      N_Vector out)
+{
+  for (sunindextype j = 0; j < m->n; j++)
+    for (sunindextype k = m->at[j]; k < m->at[j + 1]; k++)
+      N_VGetArrayPointer(out)[m->row[k]] += value[k] * N_VGetArrayPointer(x)[j];
+  return value + m->count;
+}
+
+/* E_p x' + F_p x - f_p. */
+static int slope_by_p(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  const stf_linear *l = user;
+  const sunrealtype *at = l->slope + (size_t)k * width(l) + l->n;
+  N_VConst(0, out);
+  at = add_product(&l->E, at, yp, out);
+  at = add_product(&l->F, at, y, out);
+  for (sunindextype i = 0; i < l->waves; i++)
+    N_VGetArrayPointer(out)[l->wave[i].row] -=
+      at[i] * cos(l->wave[i].frequency * t + l->wave[i].phase);
+  return 0;
+}
+
+void stf_linear_depend(stf_linear *l, steif_problem *self, int count, const char *const *name,
+                       void (*fill)(stf_linear *l))
+{
+  l->fill = fill;
+  l->parameters = (steif_parameters){.count = count,
+                                     .value = l->p,
+                                     .name = name,
+                                     .dFdp = slope_by_p,
+                                     .start = start_slope,
+                                     .moved = follow};
+  self->parameters = &l->parameters;
+  fill(l);
+}
+
+static int open_slopes(stf_linear *l)
+{
+  const size_t rows = (size_t)l->parameters.count + 2;
+  if (!l->fill) return STEIF_OK;
+  l->slope = stf_pool_array(l->pool, rows * width(l), sizeof *l->slope);
+  return l->slope ? follow(l) : STEIF_NO_MEMORY;
 }
 
 int stf_linear_finish(steif_context *ctx, const steif_spec *spec, steif_problem *self)
@@ -109,6 +228,7 @@ int stf_linear_finish(steif_context *ctx, const steif_spec *spec, steif_problem 
   STEIF_TRY(store(ctx, spec, self));
   STEIF_TRY(sort(ctx, l));
   STEIF_TRY(choose_start(ctx, spec, l));
+  STEIF_TRY(open_slopes(l));
   self->y0 = l->start;
   self->index = l->index;
   self->dae_index = l->dae_index;

@@ -15,6 +15,7 @@
 #include "known_structure.h"
 #include "random.h"
 #include <stdint.h>
+#include <steif/parameters.h>
 
 /* An n x n matrix: entries in any order until stf_linear_finish adds up what is double and sorts
  * by columns. count > room: more was put than there is room for. */
@@ -22,6 +23,7 @@ typedef struct stf_sparse {
   sunindextype n, count, room;
   sunindextype *row, *at; /* at: column of each entry until sorted, then n + 1 starts */
   sunrealtype *value;
+  bool sorted; /* what is put from now on is added to an entry that is there */
 } stf_sparse;
 
 /* f_row += amplitude cos(frequency t + phase). */
@@ -29,6 +31,8 @@ typedef struct stf_wave {
   sunindextype row;
   sunrealtype amplitude, frequency, phase;
 } stf_wave;
+
+enum { STF_LINEAR_PARAMETERS = 8 };
 
 typedef struct stf_linear stf_linear;
 struct stf_linear {
@@ -39,9 +43,17 @@ struct stf_linear {
   sunindextype waves, room;
   sunrealtype *start; /* x(0-) */
   int *index;         /* of each component, 1 */
+  bool consistent;    /* it is x(0+) instead ... */
+  sunrealtype *after; /* ... made here, with the impulses */
   int dae_index;
   sunindextype finite; /* eigenvalues */
   void *data;          /* of the generator */
+  /* Of those with parameters: puts matrices, waves and start of the values p together, at the beginning and when they
+   * change; entries stay where they are. */
+  void (*fill)(stf_linear *l);
+  sunrealtype p[STF_LINEAR_PARAMETERS];
+  sunrealtype *slope; /* what all of that is by each of them, and room for two more */
+  steif_parameters parameters;
   /* x_plus and c (zeroed) from x(0-) = x0. */
   int (*jump)(steif_context *ctx, const stf_linear *l, const sunrealtype *x0,
               stf_exact_start *out);
@@ -54,6 +66,9 @@ stf_linear *stf_linear_open(steif_context *ctx, steif_problem *self, sunindextyp
 void stf_linear_put(stf_sparse *m, sunindextype i, sunindextype j, sunrealtype value);
 void stf_linear_wave(stf_linear *l, sunindextype row, sunrealtype amplitude,
                      sunrealtype frequency, sunrealtype phase);
+/* `count` parameters, whose values the generator has put into l->p, for the problem; fills l. */
+void stf_linear_depend(stf_linear *l, steif_problem *self, int count, const char *const *name,
+                       void (*fill)(stf_linear *l));
 int stf_linear_finish(steif_context *ctx, const steif_spec *spec, steif_problem *self);
 void stf_linear_release(steif_context *ctx, steif_problem *self);
 

@@ -20,6 +20,11 @@ int stf_sparse_open(stf_pool *pool, sunindextype n, sunindextype room, stf_spars
 
 void stf_linear_put(stf_sparse *m, sunindextype i, sunindextype j, sunrealtype value)
 {
+  if (m->sorted) {
+    for (sunindextype k = m->at[j]; k < m->at[j + 1]; k++)
+      if (m->row[k] == i) m->value[k] += value;
+    return;
+  }
   const sunindextype k = m->count++;
   if (k < m->room) {
     m->row[k] = i;

@@ -78,23 +78,26 @@ static int choose(steif_solver *s, int count, int **parameter, sunrealtype **sca
   return STEIF_OK;
 }
 
-/* A times |S_j| sqrt(2 + j): what the terms of A S are as large as. */
+/* A times |S_j| sqrt(2 + j): what the terms of A S are as large as; with a part of y/p, which differences may leave. */
 static int size_of_terms(stf_carry *T, int k, N_Vector x, N_Vector out)
 {
+  static const sunrealtype part = 1e-5;
   sunrealtype *v = stf_array(x);
-  const sunrealtype *S = stf_array(T->S[k]);
+  const sunrealtype *S = stf_array(T->S[k]), *y = stf_array(T->step->y);
   for (sunindextype i = 0; i < T->step->problem->n; i++)
-    v[i] = fabs(S[i]) * sqrt(2 + (sunrealtype)i);
+    v[i] = (fabs(S[i]) + part * fabs(y[i]) / T->scale[k]) * sqrt(2 + (sunrealtype)i);
   return stf_matrices_at_product(&T->at, 0, 'A', x, out);
 }
 
 /* Rows of E without entries, where E applied to a vector of no particular direction is exactly 0, are equations
- * that S fulfils at the start: A S = dF/dp, up to the accuracy of a start that was computed. */
+ * that S fulfils at the start: A S = dF/dp, up to the accuracy of a start that was computed. Linear systems that begin as
+ * they are given jump, and S as they do. */
 static int check_start(steif_solver *s, stf_carry *T)
 {
   const stf_step *step = &s->step;
   N_Vector Ex = T->Y, r = T->Yp, x = T->error[0];
-  if (step->system.form == STEIF_ODE) return STEIF_OK;
+  const bool linear = step->system.form == STEIF_DESCRIPTOR && step->system.linear;
+  if (step->system.form == STEIF_ODE || (linear && !s->repair.pool)) return STEIF_OK;
   sunrealtype *v = stf_array(x);
   for (sunindextype i = 0; i < s->problem->n; i++) v[i] = sqrt(2 + (sunrealtype)i);
   int code = stf_carry_point(T, 0, step->t, step->y, step->yp);

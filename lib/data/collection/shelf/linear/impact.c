@@ -18,11 +18,15 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
-static const sunrealtype m1 = 1.5, m2 = 0.7, k = 40, d = 0.6, G = 9.81;
+enum { M1, M2, GAP, PARAMETERS };
+
+static const char *const parameter[] = {"m1", "m2", "gap"};
+static const sunrealtype k = 40, d = 0.6, G = 9.81;
 
 /* All unknowns from those of the pair. */
-static void spread(sunrealtype q, sunrealtype v, sunrealtype *x)
+static void spread(const stf_linear *l, sunrealtype q, sunrealtype v, sunrealtype *x)
 {
+  const sunrealtype m1 = l->p[M1], m2 = l->p[M2];
   x[0] = x[1] = q;
   x[2] = x[3] = v;
   x[4] = m2 * (d * v + k * q) / (m1 + m2);
@@ -31,14 +35,15 @@ static void spread(sunrealtype q, sunrealtype v, sunrealtype *x)
 static int jump(steif_context *ctx, const stf_linear *l, const sunrealtype *x0,
                 stf_exact_start *out)
 {
-  (void)ctx, (void)l;
-  const sunrealtype M = m1 + m2, mu = m1 * m2 / M;
+  const sunrealtype m1 = l->p[M1], m2 = l->p[M2], M = m1 + m2, mu = m1 * m2 / M;
+  (void)ctx;
   sunrealtype *c0 = out->c, *c1 = c0 + 5;
   c1[4] = mu * (x0[1] - x0[0]);
   c0[2] = c1[4] / m1;
   c0[3] = -c1[4] / m2;
   c0[4] = mu * (x0[3] - x0[2] + d * c0[2] / m1);
-  spread((m1 * x0[0] + m2 * x0[1]) / M, (m1 * x0[2] + m2 * x0[3] - d * c0[2]) / M, out->x_plus);
+  spread(l, (m1 * x0[0] + m2 * x0[1]) / M, (m1 * x0[2] + m2 * x0[3] - d * c0[2]) / M,
+         out->x_plus);
   return STEIF_OK;
 }
 
@@ -46,21 +51,23 @@ static int jump(steif_context *ctx, const stf_linear *l, const sunrealtype *x0,
 static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   const stf_linear *l = user;
-  const sunrealtype M = m1 + m2, rest = M * G / k, a = d / (2 * M), w = sqrt(k / M - a * a);
+  const sunrealtype M = l->p[M1] + l->p[M2], rest = M * G / k, a = d / (2 * M),
+                    w = sqrt(k / M - a * a);
   sunrealtype x0[5], c[10] = {0};
   jump(NULL, l, l->start, &(stf_exact_start){.x_plus = x0, .c = c});
   const sunrealtype p = x0[0] - rest, s = (x0[2] + a * p) / w;
   const sunrealtype cosine = exp(-a * t) * cos(w * t), sine = exp(-a * t) * sin(w * t);
   const sunrealtype q = p * cosine + s * sine;
   const sunrealtype v = (s * w - a * p) * cosine - (p * w + a * s) * sine;
-  spread(rest + q, v, N_VGetArrayPointer(y));
-  if (yp) spread(v, -(d * v + k * q) / M, N_VGetArrayPointer(yp));
+  spread(l, rest + q, v, N_VGetArrayPointer(y));
+  if (yp) spread(l, v, -(d * v + k * q) / M, N_VGetArrayPointer(yp));
   return 0;
 }
 
 static void mechanics(stf_linear *l)
 {
-  const sunrealtype mass[] = {m1, m2};
+  const sunrealtype mass[] = {l->p[M1], l->p[M2]}, *speed = l->data;
+  const sunrealtype start[] = {0.4, 0.4 + l->p[GAP], *speed, 0, 0};
   for (sunindextype i = 0; i < 2; i++) {
     const sunrealtype sign = i == 0 ? -1 : 1;
     stf_linear_put(&l->E, i, i, 1);
@@ -74,6 +81,7 @@ static void mechanics(stf_linear *l)
   stf_linear_put(&l->F, 2, 0, k);
   stf_linear_put(&l->F, 2, 2, d);
   l->index[4] = 3;
+  memcpy(l->start, start, sizeof start);
 }
 
 static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self)
@@ -85,10 +93,11 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   STEIF_TRY(stf_spec_real(ctx, spec, "gap", -1e6, 1e6, 0, &gap));
   stf_linear *l = stf_linear_open(ctx, self, 5, 4, 8, 2);
   if (!l) return STEIF_NO_MEMORY;
-  mechanics(l);
-  l->start[0] = 0.4;
-  l->start[1] = 0.4 + gap;
-  l->start[2] = speed;
+  sunrealtype *struck = stf_pool_array(l->pool, 1, sizeof *struck);
+  if (!struck) return STEIF_NO_MEMORY;
+  *struck = speed, l->data = struck;
+  l->p[M1] = 1.5, l->p[M2] = 0.7, l->p[GAP] = gap;
+  stf_linear_depend(l, self, PARAMETERS, parameter, mechanics);
   l->dae_index = 3;
   l->finite = 2;
   l->jump = jump;

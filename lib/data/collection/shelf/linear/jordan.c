@@ -1,6 +1,6 @@
-/* jordan.c: N x' + x = f(t), index k: N the k x k Jordan block with ones above a zero diagonal.
+/* jordan.c: q N x' + x = f(t), index k: N the k x k Jordan block with ones above a zero diagonal, q = 1 a parameter.
  *
- * Smooth part x_s = sum_{i<k} (-1)^i N^i f^(i), whatever the start; x(0-) off it adds impulses.
+ * Smooth part x_s = sum_{i<k} (-q)^i N^i f^(i), whatever the start; x(0-) off it adds impulses.
  *
  *   case       f_m, m = 1..k     x(0-)
  *   H-inc      0                 (1, ..., k)
@@ -16,6 +16,7 @@
 #include "collection.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
+#include <steif/parameters.h>
 #include <string.h>
 
 enum { LARGEST = 12 };
@@ -36,11 +37,15 @@ static const variant variants[] = {{"N-cons", COSINE, 1, 0, 1},
                                    {"sin-inc", SINE, 1, 0.1, 2}};
 enum { VARIANTS = sizeof variants / sizeof *variants };
 
+static const char *const names_of_parameters[] = {"q"};
+
 typedef struct block {
   int k;
   const variant *kind;
   int index[LARGEST];
   sunrealtype start[LARGEST], slope[LARGEST];
+  sunrealtype q;
+  steif_parameters parameters;
 } block;
 
 /* f_m^(q)(t), m = 1 .. k. */
@@ -57,8 +62,42 @@ static sunrealtype smooth(const block *b, int m, int q, sunrealtype t)
 {
   sunrealtype sum = 0;
   for (int i = b->k - m; i >= 0; i--)
-    sum += (i % 2 ? -1 : 1) * force(b->kind->forcing, m + i, q + i, t);
+    sum += pow(-b->q, i) * force(b->kind->forcing, m + i, q + i, t);
   return sum;
+}
+
+/* x(0-) and the slope of the smooth part there. */
+static int follow(void *user)
+{
+  block *b = user;
+  for (int m = 1; m <= b->k; m++) {
+    b->start[m - 1] = b->kind->smooth * smooth(b, m, 0, 0) + b->kind->ramp * m;
+    b->slope[m - 1] = smooth(b, m, 1, 0);
+  }
+  return 0;
+}
+
+/* d x(0-)/dq and d(E x')/dq. */
+static int begin_slope(int k, N_Vector S0, void *user)
+{
+  const block *b = user;
+  (void)k;
+  for (int m = 1; m <= b->k; m++) {
+    sunrealtype sum = 0;
+    for (int i = b->k - m; i > 0; i--)
+      sum -= i * pow(-b->q, i - 1) * force(b->kind->forcing, m + i, i, 0);
+    N_VGetArrayPointer(S0)[m - 1] = b->kind->smooth * sum;
+  }
+  return 0;
+}
+
+static int slope_by_q(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  const block *b = user;
+  const sunrealtype *d = N_VGetArrayPointer(yp);
+  (void)t, (void)y, (void)k;
+  for (int m = 1; m <= b->k; m++) N_VGetArrayPointer(out)[m - 1] = m < b->k ? d[m] : 0;
+  return 0;
 }
 
 static int g(sunrealtype t, int derivative, N_Vector out, void *user)
@@ -72,9 +111,8 @@ static int g(sunrealtype t, int derivative, N_Vector out, void *user)
 
 static int E(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
 {
-  static const sunrealtype one[] = {1};
-  (void)t, (void)y, (void)yp, (void)user;
-  return stf_collection_toeplitz(M, 1, 1, one);
+  (void)t, (void)y, (void)yp;
+  return stf_collection_toeplitz(M, 1, 1, &((const block *)user)->q);
 }
 
 static int A(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
@@ -120,11 +158,16 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   if (!b) return STEIF_NO_MEMORY;
   b->k = k;
   b->kind = kind;
-  for (int m = 1; m <= k; m++) {
-    b->index[m - 1] = k - m < 2 ? k - m + 1 : 3;
-    b->start[m - 1] = kind->smooth * smooth(b, m, 0, 0) + kind->ramp * m;
-    b->slope[m - 1] = smooth(b, m, 1, 0);
-  }
+  b->q = 1;
+  b->parameters = (steif_parameters){.count = 1,
+                                     .value = &b->q,
+                                     .name = names_of_parameters,
+                                     .dFdp = slope_by_q,
+                                     .start = begin_slope,
+                                     .moved = follow};
+  self->parameters = &b->parameters;
+  for (int m = 1; m <= k; m++) b->index[m - 1] = k - m < 2 ? k - m + 1 : 3;
+  follow(b);
   self->n = self->dae_index = k;
   self->index = b->index;
   self->y0 = b->start;

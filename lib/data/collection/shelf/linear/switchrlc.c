@@ -15,60 +15,67 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 
-static const sunrealtype C1 = 2e-6, C2 = 3e-6, L = 1e-3, R = 10, R2 = 200, V = 6;
+enum { C1, C2, L, R, R2, V, PARAMETERS };
+
+static const sunrealtype usual[PARAMETERS] = {2e-6, 3e-6, 1e-3, 10, 200, 6};
+static const char *const parameter[] = {"C1", "C2", "L", "R", "R2", "V"};
 
 /* e and i from v and i_L: V = R i_L + e, and v1' = v2'. */
-static void algebraic(sunrealtype *x)
+static void algebraic(const sunrealtype *p, sunrealtype *x)
 {
-  x[3] = V - R * x[2];
-  x[4] = (C2 * x[2] + C1 * x[1] / R2) / (C1 + C2);
+  x[3] = p[V] - p[R] * x[2];
+  x[4] = (p[C2] * x[2] + p[C1] * x[1] / p[R2]) / (p[C1] + p[C2]);
 }
 
 static int jump(steif_context *ctx, const stf_linear *l, const sunrealtype *x0,
                 stf_exact_start *out)
 {
-  (void)ctx, (void)l;
+  const sunrealtype *p = l->p;
   sunrealtype *x = out->x_plus;
-  x[0] = x[1] = (C1 * x0[0] + C2 * x0[1]) / (C1 + C2);
+  (void)ctx;
+  x[0] = x[1] = (p[C1] * x0[0] + p[C2] * x0[1]) / (p[C1] + p[C2]);
   x[2] = x0[2];
-  algebraic(x);
-  out->c[4] = C1 * C2 / (C1 + C2) * (x0[0] - x0[1]);
+  algebraic(p, x);
+  out->c[4] = p[C1] * p[C2] / (p[C1] + p[C2]) * (x0[0] - x0[1]);
   return STEIF_OK;
 }
 
 /* (v, i_L)' with the switch closed, without the battery. */
-static void rates(const sunrealtype *w, sunrealtype *out)
+static void rates(const sunrealtype *p, const sunrealtype *w, sunrealtype *out)
 {
-  out[0] = (w[1] - w[0] / R2) / (C1 + C2);
-  out[1] = -(w[0] + R * w[1]) / L;
+  out[0] = (w[1] - w[0] / p[R2]) / (p[C1] + p[C2]);
+  out[1] = -(w[0] + p[R] * w[1]) / p[L];
 }
 
 static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
-  const sunrealtype *x0 = ((const stf_linear *)user)->start;
-  const sunrealtype a = -(1 / (R2 * (C1 + C2)) + R / L) / 2;
-  const sunrealtype b = sqrt((1 + R / R2) / (L * (C1 + C2)) - a * a);
-  const sunrealtype rest[] = {V * R2 / (R + R2), V / (R + R2)};
-  const sunrealtype w0[] = {(C1 * x0[0] + C2 * x0[1]) / (C1 + C2) - rest[0], x0[2] - rest[1]};
+  const stf_linear *l = user;
+  const sunrealtype *x0 = l->start, *p = l->p;
+  const sunrealtype a = -(1 / (p[R2] * (p[C1] + p[C2])) + p[R] / p[L]) / 2;
+  const sunrealtype b = sqrt((1 + p[R] / p[R2]) / (p[L] * (p[C1] + p[C2])) - a * a);
+  const sunrealtype rest[] = {p[V] * p[R2] / (p[R] + p[R2]), p[V] / (p[R] + p[R2])};
+  const sunrealtype w0[] = {(p[C1] * x0[0] + p[C2] * x0[1]) / (p[C1] + p[C2]) - rest[0],
+                            x0[2] - rest[1]};
   sunrealtype *x = N_VGetArrayPointer(y), w[2], slope[2];
-  rates(w0, slope);
+  rates(p, w0, slope);
   for (int k = 0; k < 2; k++)
     w[k] = exp(a * t) * (cos(b * t) * w0[k] + sin(b * t) / b * (slope[k] - a * w0[k]));
   x[0] = x[1] = w[0] + rest[0];
   x[2] = w[1] + rest[1];
-  algebraic(x);
+  algebraic(p, x);
   if (!yp) return 0;
   sunrealtype *d = N_VGetArrayPointer(yp);
-  rates(w, slope);
+  rates(p, w, slope);
   d[0] = d[1] = slope[0];
   d[2] = slope[1];
-  d[3] = -R * d[2];
-  d[4] = (C2 * d[2] + C1 * d[0] / R2) / (C1 + C2);
+  d[3] = -p[R] * d[2];
+  d[4] = (p[C2] * d[2] + p[C1] * d[0] / p[R2]) / (p[C1] + p[C2]);
   return 0;
 }
 
 static void circuit(stf_linear *l)
 {
+  const sunrealtype *p = l->p;
   static const struct {
     int i, j;
     sunrealtype value;
@@ -76,12 +83,15 @@ static void circuit(stf_linear *l)
            {2, 3, -1}, {3, 3, 1}, {4, 0, 1},  {4, 1, -1}};
   for (size_t k = 0; k < sizeof F / sizeof *F; k++)
     stf_linear_put(&l->F, F[k].i, F[k].j, F[k].value);
-  stf_linear_put(&l->F, 1, 1, 1 / R2);
-  stf_linear_put(&l->F, 3, 2, R);
-  stf_linear_put(&l->E, 0, 0, C1);
-  stf_linear_put(&l->E, 1, 1, C2);
-  stf_linear_put(&l->E, 2, 2, L);
-  stf_linear_wave(l, 3, V, 0, 0);
+  stf_linear_put(&l->F, 1, 1, 1 / p[R2]);
+  stf_linear_put(&l->F, 3, 2, p[R]);
+  stf_linear_put(&l->E, 0, 0, p[C1]);
+  stf_linear_put(&l->E, 1, 1, p[C2]);
+  stf_linear_put(&l->E, 2, 2, p[L]);
+  stf_linear_wave(l, 3, p[V], 0, 0);
+  const sunrealtype *charged = l->data;
+  const sunrealtype start[] = {charged[0], charged[1], 0, p[V], 0};
+  memcpy(l->start, start, sizeof start);
 }
 
 static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self)
@@ -93,10 +103,11 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   STEIF_TRY(stf_spec_real(ctx, spec, "v2", -1e6, 1e6, 1, &v2));
   stf_linear *l = stf_linear_open(ctx, self, 5, 3, 10, 1);
   if (!l) return STEIF_NO_MEMORY;
-  circuit(l);
-  l->start[0] = v1;
-  l->start[1] = v2;
-  l->start[3] = V;
+  sunrealtype *charged = stf_pool_array(l->pool, 2, sizeof *charged);
+  if (!charged) return STEIF_NO_MEMORY;
+  charged[0] = v1, charged[1] = v2, l->data = charged;
+  memcpy(l->p, usual, sizeof usual);
+  stf_linear_depend(l, self, PARAMETERS, parameter, circuit);
   l->index[4] = 2;
   l->dae_index = 2;
   l->finite = 2;

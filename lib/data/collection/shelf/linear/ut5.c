@@ -7,11 +7,15 @@
  *   x = (z_1 - w_1 + w_2, z_2 - w_1 + w_2 - w_3, w_1 - w_2, w_2, w_3) = V^{-1} (z, w).
  * x(0-) = (1, 2, 3, 4, 5) has impulses (case=inc); case=cons starts from x(0+).
  *
+ * Parameters that leave the structure as it is: beta N_3 for N_3; (1 + rows X) E (1 + columns X), and F likewise, with
+ * X = e_12 + 2 e_24 + e_31 - e_45 + e_53. beta = 1, rows = columns = 0 is the pencil above.
+ *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collection.h"
 #include <complex.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
+#include <steif/parameters.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
@@ -24,6 +28,22 @@ static const sunrealtype tail[SIZE][SIZE] = {{.5, 3, 3.5, 0, 3},
                                              {-3, .5, -1.5, 1, .5},
                                              {0, 0, 1, 2, 0},
                                              {.5, 3, 3.5, 1, 4}};
+
+/* U diag(0, N_3) V, and X. */
+static const sunrealtype nilpotent[SIZE][SIZE] = {
+  {0}, {0}, {0, 0, 0, 1, 0}, {0, 0, 0, 1, 1}, {0, 0, 0, 0, 1}};
+static const sunrealtype mixed[SIZE][SIZE] = {
+  {0, 1, 0, 0, 0}, {0, 0, 0, 2, 0}, {1, 0, 0, 0, 0}, {0, 0, 0, 0, -1}, {0, 0, 1, 0, 0}};
+
+enum { BETA, ROWS, COLUMNS, PARAMETERS };
+static const char *const parameter[] = {"beta", "rows", "columns"};
+
+typedef struct pencil {
+  sunrealtype p[PARAMETERS];
+  sunrealtype E[SIZE][SIZE], F[SIZE][SIZE];
+  sunrealtype dE[PARAMETERS][SIZE][SIZE], dF[PARAMETERS][SIZE][SIZE];
+  steif_parameters parameters;
+} pencil;
 
 static const sunrealtype before[] = {1, 2, 3, 4, 5}, after[] = {-8, -2, 12, 0, 0};
 static const sunrealtype slope[] = {-56, -18, 25, -10, -1}; /* of x at 0+ */
@@ -63,19 +83,74 @@ static int g(sunrealtype t, int derivative, N_Vector out, void *user)
   return 0;
 }
 
+/* out = (a + rows X) M (b + columns X). */
+static void mix(sunrealtype a, sunrealtype rows, sunrealtype M[SIZE][SIZE], sunrealtype b,
+                sunrealtype columns, sunrealtype out[SIZE][SIZE])
+{
+  sunrealtype left[SIZE][SIZE];
+  for (int i = 0; i < SIZE; i++)
+    for (int j = 0; j < SIZE; j++) {
+      left[i][j] = a * M[i][j];
+      for (int k = 0; k < SIZE; k++) left[i][j] += rows * mixed[i][k] * M[k][j];
+    }
+  for (int i = 0; i < SIZE; i++)
+    for (int j = 0; j < SIZE; j++) {
+      out[i][j] = b * left[i][j];
+      for (int k = 0; k < SIZE; k++) out[i][j] += columns * left[i][k] * mixed[k][j];
+    }
+}
+
+static void mix_all(const sunrealtype *p, sunrealtype M[SIZE][SIZE],
+                    sunrealtype out[SIZE][SIZE], sunrealtype by[PARAMETERS][SIZE][SIZE])
+{
+  mix(1, p[ROWS], M, 1, p[COLUMNS], out);
+  mix(0, 1, M, 1, p[COLUMNS], by[ROWS]);
+  mix(1, p[ROWS], M, 0, 1, by[COLUMNS]);
+}
+
+static int follow(void *user)
+{
+  pencil *b = user;
+  sunrealtype by_beta[SIZE][SIZE], E[SIZE][SIZE], F[SIZE][SIZE];
+  memcpy(by_beta, nilpotent, sizeof by_beta);
+  memcpy(F, tail, sizeof F);
+  for (int i = 0; i < SIZE; i++)
+    for (int j = 0; j < SIZE; j++) E[i][j] = lead[i][j] + (b->p[BETA] - 1) * nilpotent[i][j];
+  mix_all(b->p, E, b->E, b->dE);
+  mix_all(b->p, F, b->F, b->dF);
+  mix(1, b->p[ROWS], by_beta, 1, b->p[COLUMNS], b->dE[BETA]);
+  return 0;
+}
+
+/* E_p x' + F_p x. */
+static int slope_by_p(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
+{
+  const pencil *b = user;
+  const sunrealtype *x = N_VGetArrayPointer(y), *d = N_VGetArrayPointer(yp);
+  (void)t;
+  for (int i = 0; i < SIZE; i++) {
+    sunrealtype sum = 0;
+    for (int j = 0; j < SIZE; j++) sum += b->dE[k][i][j] * d[j] + b->dF[k][i][j] * x[j];
+    N_VGetArrayPointer(out)[i] = sum;
+  }
+  return 0;
+}
+
 static int E(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
 {
-  (void)t, (void)y, (void)yp, (void)user;
+  const pencil *b = user;
+  (void)t, (void)y, (void)yp;
   for (int i = 0; i < SIZE; i++)
-    for (int j = 0; j < SIZE; j++) SM_ELEMENT_D(M, i, j) = lead[i][j];
+    for (int j = 0; j < SIZE; j++) SM_ELEMENT_D(M, i, j) = b->E[i][j];
   return 0;
 }
 
 static int A(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
 {
-  (void)t, (void)y, (void)yp, (void)user;
+  const pencil *b = user;
+  (void)t, (void)y, (void)yp;
   for (int i = 0; i < SIZE; i++)
-    for (int j = 0; j < SIZE; j++) SM_ELEMENT_D(M, i, j) = -tail[i][j];
+    for (int j = 0; j < SIZE; j++) SM_ELEMENT_D(M, i, j) = -b->F[i][j];
   return 0;
 }
 
@@ -130,6 +205,13 @@ static int build(steif_context *ctx, const steif_spec *spec, steif_problem *self
   const bool consistent = word && !strcmp(word, "cons");
   STEIF_CHECK(!word || consistent || !strcmp(word, "inc"), ctx, STEIF_UNKNOWN_NAME,
               "case=%s of '%s' is not known: choose inc or cons", word, spec->name);
+  pencil *b = stf_collection_allocate(ctx, self, sizeof *b, 0);
+  if (!b) return STEIF_NO_MEMORY;
+  b->p[BETA] = 1, b->p[ROWS] = b->p[COLUMNS] = 0;
+  b->parameters = (steif_parameters){
+    .count = PARAMETERS, .value = b->p, .name = parameter, .dFdp = slope_by_p, .moved = follow};
+  self->parameters = &b->parameters;
+  follow(b);
   self->y0 = consistent ? after : before;
   self->yp0 = consistent ? slope : NULL;
   return STEIF_OK;
@@ -150,4 +232,5 @@ const steif_problem steif_problem_ut5 = {
   .exact = exact,
   .reference = &reference,
   .build = build,
+  .destroy = stf_collection_release,
 };
