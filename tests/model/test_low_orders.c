@@ -92,7 +92,37 @@ static void output_between_steps(void)
   fixture_close(&s);
 }
 
+static int square_and_moment(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+  (void)user;
+  g[0] = NV_Ith_S(y, 0) * NV_Ith_S(y, 0) + t * NV_Ith_S(y, 0);
+  return 0;
+}
+
+/* x = 1 - c t down to L at t = 1/c, and 0 from then on with L = b = 0: what an integral of x^2 + t x is by L and b is not in
+ * its value. In closed form (T^2 - 1/c^2)/2, and the integral of t (t - 1/c). */
+static void integrals_of_what_is_zero(void)
+{
+  static const char text[] = "param c=0.7, L=0, b=0\nstate x=1\ndiscrete s=0\n"
+                             "x'=if s>0.5 then b else -c\nwhen x<L:\n s=1\n x=x+b^2\nend\n"
+                             "time 0 to 2.987\n";
+  const double T = 2.987, e = 1 / 0.7;
+  const steif_functional J = {.count = 1, .integrand = square_and_moment};
+  fixture s;
+  CU_ASSERT_FATAL(!fixture_text(&s, text, ""));
+  steif_options o = steif_defaults();
+  steif_gradient g = {0};
+  CHECK(steif_gradient_find(s.ctx, &s.p, "bdf", &o, &J, &g) == STEIF_NOT_CERTIFIED);
+  steif_gradient_free(s.ctx, &g);
+  CHECK(!steif_gradient_find(s.ctx, &s.p, "radau:s=3", &o, &J, &g));
+  CLOSE(g.dp[1], (T * T - e * e) / 2, 1e-6);
+  CLOSE(g.dp[2], (T * T * T - e * e * e) / 3 - e * (T * T - e * e) / 2, 1e-6);
+  steif_gradient_free(s.ctx, &g);
+  fixture_close(&s);
+}
+
 CU_TestInfo tests_of_low_orders[] = {
+  {"integrals of what is zero", integrals_of_what_is_zero},
   {"gradients of ends and integrals", gradients_of_ends_and_integrals},
   {"integrals beside runs", integrals_beside_runs},
   {"output between steps", output_between_steps},

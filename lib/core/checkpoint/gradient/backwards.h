@@ -155,6 +155,9 @@ typedef struct stf_backwards {
   sunrealtype *value, *mu, *estimate;
   sunrealtype end[STEIF_STAGES]; /* weights of the stages in y where the step counts up to */
   const stf_passed *cut;         /* NULL: to its end */
+  /* integral_along.c: integrals of g(t, y + shift[0]), room, and what they come to by the method; NULL: not wanted. */
+  N_Vector *shift;
+  sunrealtype *shifted;
   N_Vector *
     extra; /* what integrals up to there add to stages or past values, then to y_n; NULL: none */
 } stf_backwards;
@@ -172,6 +175,9 @@ int stf_check_end_unknowns(stf_backwards *B, const steif_solver *s);
 int stf_functional_add(stf_backwards *B, sunrealtype c, sunrealtype t, N_Vector y,
                        sunrealtype *to);
 int stf_functional_by_time(stf_backwards *B, sunrealtype t, N_Vector y);
+/* to_i += c_i g_i(t, y + shift), where that is wanted and can be had. */
+int stf_functional_shifted(stf_backwards *B, const sunrealtype *c, sunrealtype t, N_Vector y,
+                           sunrealtype *to);
 /* out_k = w . dF/dp_k; and mu of a channel less that. */
 int stf_parameters_times(stf_backwards *B, sunrealtype t, N_Vector Y, N_Vector Yp, N_Vector w,
                          sunrealtype *out);

@@ -39,6 +39,9 @@ static int node(stf_backwards *B, const stf_head *head, int i, int rows)
   if (!history) weights(B, p->x[i], own);
   memcpy(STF_ARRAY(B->work), p->inside + (size_t)i * (size_t)B->n,
          (size_t)B->n * sizeof *p->inside);
+  sunrealtype *all = B->other + 2 * B->count;
+  for (int k = 0; k < B->count; k++) all[k] = c;
+  STEIF_TRY(stf_functional_shifted(B, all, head->t + p->x[i] * h, B->work, B->shifted));
   STEIF_TRY(stf_functional_at(B, 0, head->t + p->x[i] * h, B->work));
   for (int k = 0; k < B->count; k++) {
     B->value[k] += c * B->g[k];

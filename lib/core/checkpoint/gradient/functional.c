@@ -87,6 +87,23 @@ int stf_functional_add(stf_backwards *B, sunrealtype c, sunrealtype t, N_Vector 
   return STEIF_OK;
 }
 
+int stf_functional_shifted(stf_backwards *B, const sunrealtype *c, sunrealtype t, N_Vector y,
+                           sunrealtype *to)
+{
+  if (!B->shift) return STEIF_OK;
+  stf_sum(&B->space, 1, y, 1, B->shift[0], B->shift[1]);
+  const bool before = stf_silence(B->ctx, true);
+  const int code = values(B, 0, t, B->shift[1], B->other);
+  stf_silence(B->ctx, before);
+  if (code) {
+    steif_forget(B->ctx);
+    B->shift = NULL;
+    return STEIF_OK;
+  }
+  for (int i = 0; i < B->count; i++) to[i] += c[i] * B->other[i];
+  return STEIF_OK;
+}
+
 /* By central differences of two lengths, extrapolated. */
 int stf_functional_by_time(stf_backwards *B, sunrealtype t, N_Vector y)
 {

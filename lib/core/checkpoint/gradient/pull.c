@@ -57,6 +57,7 @@ static int quadrature(stf_backwards *B, const sunrealtype *c, sunrealtype t, int
     for (int k = 0; k < B->P; k++) mu[k] += c[i] * D->gp[i * B->P + k];
     stf_axpy(&B->space, c[i], D->gy[i], to[B->count + i]);
   }
+  STEIF_TRY(stf_functional_shifted(B, c, t, B->Y[j], B->shifted));
   STEIF_TRY(stf_functional_at(B, 0, t, B->Y[j]));
   for (int i = 0; i < B->count; i++) {
     B->value[i] += c[i] * B->g[i];
