@@ -176,7 +176,35 @@ static void given_steps_pass_no_breaks(void)
   fixture_close(&s);
 }
 
+/* x jumps to -b x at t = 1, or where it is L = 0.4, and z = x with it: conditions on z are others from then on. q(2) and its
+ * derivatives in closed form. */
+static void conditions_of_what_jumps(void)
+{
+  static const char *const methods[] = {"auto", "radau:s=3", "bdf", "dirk:hw43"};
+  const double e = exp(-1), exact[] = {e * (1 - e), 2 / 0.4};
+  for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+    fixture s;
+    sunrealtype S[2] = {0};
+    CU_ASSERT_FATAL(!fixture_text(&s,
+                                  "param b=2\nstate x=1, z, q=0\nx'=-x\n0=z-x\nq'=abs(z)\n"
+                                  "at 1: x=-b*x\ntime 0 to 2\n",
+                                  ""));
+    CHECK(fixture_derivatives(&s, methods[m], STEIF_DENSE, 1e-7, 1, S));
+    fixture_closely(methods[m], S, exact, 1, 1e-5);
+    fixture_close(&s);
+    CU_ASSERT_FATAL(!fixture_text(&s,
+                                  "param L=0.4, b=2\nstate x=1, z, q=0\nx'=-x\n0=z-x\n"
+                                  "q'=if z > 0 then 1 else 3\nwhen x < L and x > 0: x=-b*x\n"
+                                  "time 0 to 2\n",
+                                  ""));
+    CHECK(fixture_derivatives(&s, methods[m], STEIF_DENSE, 1e-7, 1, S));
+    fixture_closely(methods[m], S, exact + 1, 1, 1e-4);
+    fixture_close(&s);
+  }
+}
+
 CU_TestInfo tests_of_passages[] = {
+  {"conditions of what jumps", conditions_of_what_jumps},
   {"multipliers behind an event", multipliers_behind_an_event},
   {"explicit methods do not look ahead", explicit_methods_do_not_look_ahead},
   {"timers that end runs", timers_end_runs},

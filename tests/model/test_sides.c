@@ -133,7 +133,31 @@ static void a_valve_opens_and_closes(void)
   fixture_close(&s);
 }
 
+/* A mass on a plate A sin(w t) leaves it where the force is 0, A w^2 sin(w t) = g, and falls; the condition of the contact rests
+ * at zero until then, and hides nothing. The velocity at the end in closed form. */
+static void contacts_that_end(void)
+{
+  static const char *const methods[] = {"auto", "radau:s=3"};
+  const double g = 9.81, A = 0.3, w = 6, t = asin(g / (A * w * w)) / w, end = 0.25;
+  for (int m = 0; m < 2; m++)
+    for (double rtol = 1e-4; rtol > 1e-9; rtol /= 100) {
+      fixture s;
+      double y[3] = {0};
+      CU_ASSERT_FATAL(
+        !fixture_text(&s,
+                      "param m=0.5,g=9.81,A=0.3,w=6\nstate y=0,v=A*w,lam\ndiscrete on=1\n"
+                      "y'=v\nm*v'=-m*g+lam\n0=if on>0.5 then y-A*sin(w*t) else lam\n"
+                      "when y < A*sin(w*t) and on < 0.5: on=1\n"
+                      "when lam < 0 and on > 0.5: on=0\ntime 0 to 0.25\n",
+                      ""));
+      CHECK(fixture_run(&s, methods[m], rtol, y) == STEIF_OK);
+      CLOSE(y[1], A * w * cos(w * t) - g * (end - t), 100 * rtol);
+      fixture_close(&s);
+    }
+}
+
 CU_TestInfo tests_of_sides[] = {
+  {"contacts that end", contacts_that_end},
   {"a valve", a_valve_opens_and_closes},
   {"an algebraic unknown crosses once", an_algebraic_unknown_crosses_once},
   {"a force crosses once", a_force_crosses_once},

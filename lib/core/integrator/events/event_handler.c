@@ -121,6 +121,19 @@ static int ask_handler(steif_solver *s, sunrealtype t, int *wish)
   return STEIF_OK;
 }
 
+/* Derivatives pass what handlers do at the event, and modes; y that moves again is a case of its own. */
+static int check_left_alone(steif_solver *s, sunrealtype t)
+{
+  stf_detector *w = s->events;
+  N_VLinearSum(1, w->after, -1, w->y, w->y);
+  STEIF_CHECK(
+    N_VMaxNorm(w->y) == 0, s->ctx, STEIF_UNSUPPORTED,
+    "at t = %.12g a jump of problem '%s' makes other conditions true, and their handler "
+    "moves y again: what comes after it has no derivatives here",
+    t, s->problem->name);
+  return STEIF_OK;
+}
+
 /* Where the state jumps to the equations that hold from now on, conditions that it makes true or false are events
  * of this instant. *more: the handler has changed the equations again. */
 static int react_to_jump(steif_solver *s, sunrealtype t, bool *more)
@@ -130,7 +143,7 @@ static int react_to_jump(steif_solver *s, sunrealtype t, bool *more)
   int wish;
   *more = false;
   N_VLinearSum(1, w->after, -1, w->y, w->y);
-  if (o->reinitialise || s->engine || s->saltation || !(N_VMaxNorm(w->y) > 0)) return STEIF_OK;
+  if (o->reinitialise || s->engine || !(N_VMaxNorm(w->y) > 0)) return STEIF_OK;
   STEIF_TRY(stf_event_find_jumped(s, t, more));
   if (!*more) return STEIF_OK;
   name_fired(s);
@@ -139,10 +152,11 @@ static int react_to_jump(steif_solver *s, sunrealtype t, bool *more)
   *more = !terminal(s);
   s->finished = !*more;
   if (s->finished) return STEIF_OK;
+  if (s->saltation) N_VScale(1, w->after, w->y);
   STEIF_TRY(ask_handler(s, t, &wish));
   s->finished = wish == STEIF_FINISH; /* what is behind the jump has not been shown */
   *more = wish == STEIF_RESTART;
-  return STEIF_OK;
+  return s->saltation ? check_left_alone(s, t) : STEIF_OK;
 }
 
 /* The state behind the event, with what its jump brings about. */

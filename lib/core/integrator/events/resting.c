@@ -54,7 +54,8 @@ int stf_event_find_resting(steif_solver *s, sunrealtype t)
   if (s->engine || s->problem->dae_index < 2 || !s->step.system.space.serial) return STEIF_OK;
   for (int i = 0; i < w->count; i++) any = any || touched(s, i);
   if (!any) return STEIF_OK;
-  STEIF_TRY(find_errors(s, t, stf_array(s->step.y), w->node + (STF_NODES - 1) * w->count));
+  STEIF_TRY(stf_dense(s, t, w->place));
+  STEIF_TRY(find_errors(s, t, stf_array(w->place), w->node + (STF_NODES - 1) * w->count));
   for (int i = 0; i < w->count; i++) w->rests[i] = furthest(w, i) <= most * w->next[i];
   return STEIF_OK;
 }
