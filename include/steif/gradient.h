@@ -115,7 +115,9 @@ typedef struct steif_gradient {
  * are differentiated, dp of others being NaN, as where starts are consistent for some only. Codes of the run;
  * STEIF_BAD_INPUT: no functional, a limit of memory below what one step and 3 images need (the sentence says how much);
  * STEIF_NOT_FINITE: names functional or parameter, and time; STEIF_NO_CONVERGENCE: the
- * equations of a step backwards, GMRES with the transposed preconditioner among them. After failures nothing is there to be freed. */
+ * equations of a step backwards, GMRES with the transposed preconditioner among them. Where y stands still for a third of the
+ * interval, so that its error test says nothing of derivatives, the run is made again with steps a quarter as long, until two
+ * gradients agree to 100 rtol; STEIF_NOT_CERTIFIED: seven times were not enough. After failures nothing is there to be freed. */
 STEIF_EXPORT int steif_gradient_find(steif_context *ctx, const steif_problem *problem,
                                      const char *method, const steif_options *options,
                                      const steif_functional *functional,

@@ -121,7 +121,27 @@ static void integrals_of_what_is_zero(void)
   fixture_close(&s);
 }
 
+/* x' = -x + p sin 10 t from x = 0 with p = 0 does not move, and its error test sees nothing: dx(20)/dp in closed form. BDF, of
+ * order 1 there, is right or says that it is not. */
+static void gradients_of_what_stands_still(void)
+{
+  static const char *const methods[] = {"auto", "radau:s=3", "dirk:hw43", "gauss:s=3", "bdf"};
+  const steif_functional J = {.count = 1, .end = first};
+  fixture s;
+  CU_ASSERT_FATAL(
+    !fixture_text(&s, "param p=0\nstate x=0\nx'=-x+p*sin(10*t)\ntime 0 to 20\n", ""));
+  for (int m = 0; m < 5; m++) {
+    steif_gradient g = {0};
+    const int code = steif_gradient_find(s.ctx, &s.p, methods[m], NULL, &J, &g);
+    CHECK(code == STEIF_OK || (m == 4 && code == STEIF_NOT_CERTIFIED));
+    if (!code) CLOSE(g.dp[0], (sin(200) - 10 * cos(200) + 10 * exp(-20)) / 101, 1e-4);
+    steif_gradient_free(s.ctx, &g);
+  }
+  fixture_close(&s);
+}
+
 CU_TestInfo tests_of_low_orders[] = {
+  {"gradients of what stands still", gradients_of_what_stands_still},
   {"integrals of what is zero", integrals_of_what_is_zero},
   {"gradients of ends and integrals", gradients_of_ends_and_integrals},
   {"integrals beside runs", integrals_beside_runs},

@@ -333,14 +333,11 @@ static void clear(steif_context *ctx, steif_gradient *g)
   g->value = g->dp = g->dy0 = g->error_estimate = NULL;
 }
 
-int stf_journey_make(stf_journey *J, const steif_problem *problem,
+int stf_journey_once(stf_journey *J, const steif_problem *problem,
                      const steif_functional *functional, steif_gradient *g)
 {
   steif_context *ctx = J->back.ctx;
-  STEIF_TRY(check_call(ctx, problem, &J->options, functional, g));
   J->out = g, J->limit = g->memory ? g->memory : usual;
-  STEIF_TRY(check_problem(ctx, problem, &J->options, J->line != NULL));
-  J->options.observe = NULL, J->options.on_event = NULL;
   J->back =
     (stf_backwards){.ctx = ctx, .problem = problem, .functional = functional, .n = problem->n};
   J->back.count = functional->count;
@@ -348,8 +345,25 @@ int stf_journey_make(stf_journey *J, const steif_problem *problem,
   g->value = g->dp = g->dy0 = g->error_estimate = NULL;
   g->cost = (steif_gradient_cost){0};
   const int code = travel(J);
+  J->again = !code && stf_quiet(J);
   stf_journey_close(J);
   if (code) clear(ctx, g);
+  return code;
+}
+
+int stf_journey_make(stf_journey *J, const steif_problem *problem,
+                     const steif_functional *functional, steif_gradient *g)
+{
+  steif_context *ctx = J->back.ctx;
+  STEIF_TRY(check_call(ctx, problem, &J->options, functional, g));
+  STEIF_TRY(check_problem(ctx, problem, &J->options, J->line != NULL));
+  J->options.observe = NULL, J->options.on_event = NULL;
+  const stf_journey call = *J;
+  int code = stf_journey_once(J, problem, functional, g);
+  if (!code && J->again) {
+    code = stf_quiet_again(&call, problem, functional, J->longest, g);
+    if (code) clear(ctx, g);
+  }
   return as_status(ctx, code);
 }
 

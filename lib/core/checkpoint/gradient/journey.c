@@ -107,6 +107,7 @@ static int run(stf_journey *J)
     if (J->whole && J->recorded == J->window) STEIF_TRY(grow_records(J));
     STEIF_TRY(step(J, s, J->whole ? J->record + (size_t)J->recorded * J->back.width : NULL));
     if (J->whole) J->recorded++;
+    stf_quiet_step(J);
     STEIF_TRY(stf_passages_see(J));
     STEIF_TRY(stf_along_step(J));
     STEIF_TRY(log_step(J, s));

@@ -41,13 +41,24 @@ typedef struct stf_journey {
     *along;         /* integrals along dense output, of their sizes, and scratch; NULL: none */
   sunrealtype *end; /* count: G at the end */
   bool ended;       /* what is asked of the end has been looked at */
-  steif_direction *line; /* of second derivatives ... */
-  sunrealtype *Hp, *Hy0; /* ... which go there; NULL: first ones only */
+  sunrealtype quiet, longest; /* time in steps that show no error; the longest of all */
+  bool again;                 /* that was much */
+  steif_direction *line;      /* of second derivatives ... */
+  sunrealtype *Hp, *Hy0;      /* ... which go there; NULL: first ones only */
 } stf_journey;
 
 /* gradient.c: a gradient, and with a line, second derivatives along it. */
 int stf_journey_make(stf_journey *J, const steif_problem *problem,
                      const steif_functional *functional, steif_gradient *g);
+/* The way there and back, in one go, from a call that was checked. */
+int stf_journey_once(stf_journey *J, const steif_problem *problem,
+                     const steif_functional *functional, steif_gradient *g);
+/* quiet_steps.c: after a step; did y stand still for much of the time? Then the same once more with steps below the longest,
+ * until gradients agree. */
+void stf_quiet_step(stf_journey *J);
+bool stf_quiet(const stf_journey *J);
+int stf_quiet_again(const stf_journey *call, const steif_problem *problem,
+                    const steif_functional *functional, sunrealtype longest, steif_gradient *g);
 /* lambda, mu and J at the end, where the runner and the tangent stand. */
 int stf_journey_end(stf_journey *J);
 
