@@ -129,8 +129,8 @@ void sensitivity_event_rows(steif_report *r, const struct call *call,
                             const struct sensitivity_answer *a);
 /* Fits steif_options.on_event. */
 int sensitivity_before(steif_solver *s, double t, N_Vector y, const int *fired, void *answer);
-/* For --check: one more time; nonzero: no memory. The problem found once more, p moved by d v, or p_k by d where v is NULL: a model makes start and form
- * follow. */
+/* For --check: one more time; nonzero: no memory. The problem found once more, p moved by d v, or p_k by d where v is NULL: a
+ * model makes start and form follow. */
 int mesh_add(double **mesh, size_t *times, size_t *room, double t);
 int moved_problem(struct call *call, const steif_problem *problem, int k, const double *v,
                   double d, steif_problem *p);

@@ -119,10 +119,11 @@ typedef struct steif_fit {
 } steif_fit;
 
 /* The parameters of the problem have the values they had when it returns. STEIF_BAD_INPUT: fewer measurements than
- * parameters, a start outside the bounds and the like; STEIF_NO_CONVERGENCE: options.evaluations were too few,
- * or the best descent ended where there is no minimum; fit holds the best so far; STEIF_STOPPED, STEIF_TIME_LIMIT: the search was ended by options.run, and fit holds the
- * best run it had made, if there was one (else p is NULL); STEIF_UNSUPPORTED: steif was built without cminpack, or the method carries no
- * sensitivities; codes of the run where the first of every descent failed. */
+ * parameters, a start outside the bounds and the like; STEIF_NO_CONVERGENCE: options.evaluations were too few, or the best
+ * descent ended where there is no minimum; fit holds the best so far; STEIF_STOPPED, STEIF_TIME_LIMIT: the search was
+ * ended by options.run, and fit holds the best run it had made, if there was one (else p is NULL); STEIF_UNSUPPORTED:
+ * steif was built without cminpack, or the method carries no sensitivities; codes of the run where the first of every
+ * descent failed. */
 STEIF_EXPORT int steif_fit_find(steif_context *ctx, steif_problem *problem, const char *method,
                                 const steif_measurements *data,
                                 const steif_fit_options *options, steif_fit *fit);

@@ -47,8 +47,9 @@
  * dense output, and integrals are those along it. A terminal event (or STEIF_FINISH) ends J at its own time, which
  * moves: J(tau(p), p) is differentiated, G by t too. Problems that remember something (begin) need save and restore.
  *
- * Wrong derivatives. dFdp and the matrices of F are compared with differences at the start and at the end, as by sensitivity.h, slopes of
- * functionals and dFdp_transposed too: STEIF_BAD_INPUT with what is wrong, values and the error of the difference.
+ * Wrong derivatives. dFdp and the matrices of F are compared with differences at the start and at the end, as by
+ * sensitivity.h, slopes of functionals and dFdp_transposed too: STEIF_BAD_INPUT with what is wrong, values and the error of
+ * the difference.
  *
  * Derivatives along a direction, J v: direction.h; those of the gradient, H v: hessian.h.
  *

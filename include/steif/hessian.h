@@ -21,7 +21,8 @@
  *
  * Krylov storage: by Atv and Etv at the points of the differences, and exact Av (STEIF_UNSUPPORTED without it, or matrices).
  *
- * Methods, problems, checks of derivatives and codes are those of steif_gradient_find; STEIF_UNSUPPORTED: events that change or end a run, breaks.
+ * Methods, problems, checks of derivatives and codes are those of steif_gradient_find; STEIF_UNSUPPORTED: events that change
+ * or end a run, breaks.
  *
  * Sources: D. B. Ozyurt and P. I. Barton, SIAM J. Sci. Comput. 26 (2005) 1725-1743; A. Griewank and A. Walther, Evaluating
  * Derivatives (2008), 5.1: forward over reverse.

@@ -25,9 +25,11 @@ static int first(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 }
 
 /* dJ/dA of what `functional` says; NAN: refused as unsupported. */
-static double by_amplitude(fixture *s, const char *method, const steif_functional *functional)
+static double by_amplitude(fixture *s, const char *method, double rtol,
+                           const steif_functional *functional)
 {
   steif_options o = steif_defaults();
+  o.rtol = rtol;
   steif_gradient g = {0};
   const int code = steif_gradient_find(s->ctx, &s->p, method, &o, functional, &g);
   CHECK(code == STEIF_OK || code == STEIF_UNSUPPORTED);
@@ -47,13 +49,14 @@ static void gradients_of_ends_and_integrals(void)
   fixture s;
   CU_ASSERT_FATAL(!fixture_text(&s, forced, ""));
   for (int m = 0; m < 3; m++) {
-    CHECK(isnan(by_amplitude(&s, poor[m], &lam)));
-    CLOSE(by_amplitude(&s, poor[m], &x), dx, 1e-4);
-    CLOSE(by_amplitude(&s, good[m], &lam), dlam, 1e-4);
-    CLOSE(by_amplitude(&s, good[m], &sum), dsum, 1e-4);
+    CHECK(isnan(by_amplitude(&s, poor[m], steif_defaults().rtol, &lam)));
+    CLOSE(by_amplitude(&s, poor[m], steif_defaults().rtol, &x), dx, 1e-4);
+    CLOSE(by_amplitude(&s, good[m], steif_defaults().rtol, &lam), dlam, 1e-4);
+    CLOSE(by_amplitude(&s, good[m], steif_defaults().rtol, &sum), dsum, 1e-4);
   }
-  CHECK(isnan(by_amplitude(&s, "dirk:hw43", &sum)));
-  CLOSE(by_amplitude(&s, "gauss:s=3", &sum), dsum, 1e-3); /* its stages have lam */
+  CHECK(isnan(by_amplitude(&s, "dirk:hw43", steif_defaults().rtol, &sum)));
+  CLOSE(by_amplitude(&s, "gauss:s=3", steif_defaults().rtol, &sum), dsum,
+        1e-3); /* its stages have lam */
   fixture_close(&s);
 }
 
@@ -140,7 +143,39 @@ static void gradients_of_what_stands_still(void)
   fixture_close(&s);
 }
 
+/* The same by the start of x' = -x, without parameters and of a DAE: exp(-2). */
+static void by_starts_that_stand_still(void)
+{
+  static const char *const text[] = {"state x=0\nx'=-x\ntime 0 to 2\n",
+                                     "state x=0, z=0\nx'=-z\n0=z-x\ntime 0 to 2\n"};
+  static const char *const methods[] = {"radau:s=2", "radau:s=3", "dirk:hw43"};
+  const steif_functional J = {.count = 1, .end = first};
+  for (int k = 0; k < 2; k++)
+    for (int m = 0; m < 3; m++) {
+      fixture s;
+      steif_gradient g = {0};
+      CU_ASSERT_FATAL(!fixture_text(&s, text[k], ""));
+      CHECK(!steif_gradient_find(s.ctx, &s.p, methods[m], NULL, &J, &g));
+      if (g.dy0) CLOSE(g.dy0[0], exp(-2), 1e-3);
+      steif_gradient_free(s.ctx, &g);
+      fixture_close(&s);
+    }
+}
+
+/* Backward Euler, of one stage, has lam to its order. */
+static void one_stage_is_not_low(void)
+{
+  const steif_functional lam = {.count = 1, .end = last}, sum = {.count = 1, .integrand = last};
+  fixture s;
+  CU_ASSERT_FATAL(!fixture_text(&s, forced, ""));
+  CLOSE(by_amplitude(&s, "radau:s=1", 1e-3, &lam), 0.5 * 2 * cos(6) + sin(6), 1e-2);
+  CLOSE(by_amplitude(&s, "radau:s=1", 1e-3, &sum), 0.5 * sin(6) + (1 - cos(6)) / 2, 1e-2);
+  fixture_close(&s);
+}
+
 CU_TestInfo tests_of_low_orders[] = {
+  {"by starts that stand still", by_starts_that_stand_still},
+  {"one stage is not low", one_stage_is_not_low},
   {"gradients of what stands still", gradients_of_what_stands_still},
   {"integrals of what is zero", integrals_of_what_is_zero},
   {"gradients of ends and integrals", gradients_of_ends_and_integrals},

@@ -65,3 +65,19 @@ void sensitivity_at(steif_context *ctx, const steif_problem *p, const char *meth
   N_VDestroy(d);
   steif_solver_free(&s);
 }
+
+int constrained_f(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
+{
+  const sunrealtype *p = user, *u = NV_DATA_S(y);
+  (void)t;
+  NV_Ith_S(ydot, 0) = -u[1];
+  NV_Ith_S(ydot, 1) = u[1] - p[0] * u[0];
+  return 0;
+}
+
+int constrained_mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  static const sunrealtype d[] = {1, 0};
+  (void)t, (void)y, (void)yp, (void)user;
+  return steif_fill_diagonal(E, d);
+}

@@ -16,6 +16,10 @@ struct forcing {
 /* `differences`: dF/dp is left to them. */
 void forcing_open(struct forcing *f, int differences);
 
+/* x' = -z, 0 = z - p x as y' = f of a mass form, user: p. */
+int constrained_f(sunrealtype t, N_Vector y, N_Vector ydot, void *user);
+int constrained_mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user);
+
 /* dy/dp_k at the end of a run on [t0, t1]; a failure is asserted. */
 void sensitivity_at(steif_context *ctx, const steif_problem *p, const char *method,
                     const steif_options *o, int k, sunrealtype t, sunrealtype *S,

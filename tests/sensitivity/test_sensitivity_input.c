@@ -16,22 +16,6 @@ static void refused(steif_context *ctx, const steif_problem *p, const char *meth
 }
 
 /* 0 = y2 - p y1: with dy0/dp = 0 the derivative of the equation does not hold at the start. */
-static int constrained(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
-{
-  const sunrealtype *p = user, *u = NV_DATA_S(y);
-  (void)t;
-  NV_Ith_S(ydot, 0) = -u[1];
-  NV_Ith_S(ydot, 1) = u[1] - p[0] * u[0];
-  return 0;
-}
-
-static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
-{
-  static const sunrealtype d[] = {1, 0};
-  (void)t, (void)y, (void)yp, (void)user;
-  return steif_fill_diagonal(E, d);
-}
-
 static int by_p(sunrealtype t, N_Vector y, N_Vector yp, int k, N_Vector out, void *user)
 {
   (void)t, (void)yp, (void)k, (void)user;
@@ -58,8 +42,8 @@ static void inconsistent_derivatives_of_starts_are_refused(void)
                                  .n = 2,
                                  .t1 = 1,
                                  .y0 = y0,
-                                 .f = constrained,
-                                 .E = mass,
+                                 .f = constrained_f,
+                                 .E = constrained_mass,
                                  .user = p,
                                  .dae_index = 1,
                                  .parameters = &q};

@@ -113,22 +113,6 @@ static void others_are_not(void)
 
 static sunrealtype of_x, of_z;
 
-static int constrained(sunrealtype t, N_Vector y, N_Vector ydot, void *user)
-{
-  const sunrealtype *p = user, *u = NV_DATA_S(y);
-  (void)t;
-  NV_Ith_S(ydot, 0) = -u[1];
-  NV_Ith_S(ydot, 1) = u[1] - p[0] * u[0];
-  return 0;
-}
-
-static int mass(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
-{
-  static const sunrealtype d[] = {1, 0};
-  (void)t, (void)y, (void)yp, (void)user;
-  return steif_fill_diagonal(E, d);
-}
-
 static int guess(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   (void)t, (void)yp;
@@ -152,8 +136,8 @@ static void algebraic_unknowns_follow(void)
   const steif_problem problem = {.name = "constrained",
                                  .n = 2,
                                  .t1 = 1,
-                                 .f = constrained,
-                                 .E = mass,
+                                 .f = constrained_f,
+                                 .E = constrained_mass,
                                  .start = guess,
                                  .user = p,
                                  .dae_index = 1,

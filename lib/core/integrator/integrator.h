@@ -226,13 +226,14 @@ int stf_quadrature_step(steif_solver *s);
 int stf_quadrature_to(steif_solver *s, sunrealtype t);
 /* The larger of *e and their errors in the attempt, in tolerances. */
 int stf_quadrature_test(steif_solver *s, sunrealtype h, sunrealtype *e);
-/* low_orders.c: does an integrand read what the method knows badly? */
-typedef int (*stf_integrand)(steif_solver *s, sunrealtype t, N_Vector y, sunrealtype *g);
-int stf_quadrature_orders(steif_solver *s, stf_integrand value, N_Vector moved, int count,
-                          sunrealtype *g, sunrealtype *other);
-int stf_quadrature_before(steif_solver *s, sunrealtype t, N_Vector y);
+/* *i: an integrand that is another where y_j moves by a part of its size, -1: none. */
+int stf_quadrature_reads(steif_solver *s, sunrealtype t, N_Vector y, sunindextype j, int *i);
+/* unfit_integrands.c: STEIF_UNSUPPORTED where an integrand reads what the method knows badly, or at a jump of y at t what has
+ * an impulse there. */
+int stf_quadrature_orders(steif_solver *s);
 int stf_quadrature_impulses(steif_solver *s, sunrealtype t, N_Vector y, const bool *algebraic,
                             const int *index);
+int stf_quadrature_before(steif_solver *s, sunrealtype t, N_Vector y);
 int stf_quadrature_after(steif_solver *s, sunrealtype t, N_Vector y, const sunrealtype *tau);
 
 /* The invariants at the start. */

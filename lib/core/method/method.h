@@ -216,6 +216,12 @@ int stf_spectral_radius(stf_step *s, N_Vector v, N_Vector w, N_Vector work, sunr
 void stf_method_keep(stf_step *s, stf_image *m);
 void stf_step_keep(stf_step *s, stf_image *m);
 
+/* Stages of order 1 beside others have unknowns of index 2 and 3 to a few digits only (Hairer and Wanner, Solving ODEs II,
+ * VII.4). */
+static inline bool stf_low_stages(const steif_table *T)
+{
+  return T && T->stage_order < 2 && T->s > 1;
+}
 /* Does the method in use find the multipliers of the index that s->problem has now (error/error_estimate.c)? */
 int stf_check_mode_index(const stf_step *s);
 

@@ -5,16 +5,13 @@
 #include "backwards.h"
 #include "integrator.h"
 
-static bool low(const steif_table *T, const steif_problem *p, sunindextype j)
-{
-  return p->index && p->index[j] > 1 && T->stage_order < 2;
-}
-
 static bool badly_known(const steif_solver *s, sunindextype j, bool at_end)
 {
   const steif_table *T = s->step.table;
+  const int *index = s->problem->index;
   if (!T || !s->step.adaptive || s->step.system.form == STEIF_ODE) return false;
-  if (!at_end || (T->claims & STEIF_STIFFLY_ACCURATE)) return low(T, s->problem, j);
+  if (!at_end || (T->claims & STEIF_STIFFLY_ACCURATE))
+    return stf_low_stages(T) && index && index[j] > 1;
   return s->repair.algebraic && s->repair.algebraic[j];
 }
 
@@ -34,8 +31,7 @@ static int check(stf_backwards *B, const steif_solver *s, bool at_end)
 
 int stf_check_inside_unknowns(stf_backwards *B, const steif_solver *s)
 {
-  const steif_table *T = s->step.table;
-  if (!B->functional->integrand || !B->space.serial || !T || T->stage_order > 1)
+  if (!B->functional->integrand || !B->space.serial || !stf_low_stages(s->step.table))
     return STEIF_OK;
   STEIF_TRY(stf_functional_at(B, 0, s->end, stf_last(s)));
   return check(B, s, false);

@@ -102,9 +102,8 @@ bool stf_recomputes_at(const steif_solver *s, sunrealtype t)
 /* Cubics by slopes of stages of order 1, which of index 2 and 3 have few digits: what is shown is off by as much. */
 static int check_drift(const steif_solver *s, sunrealtype t, sunrealtype drift)
 {
-  const steif_table *T = s->step.table;
   STEIF_CHECK(
-    drift <= furthest || !T || T->stage_order > 1 || t == s->step.t, s->ctx,
+    drift <= furthest || !stf_low_stages(s->step.table) || t == s->step.t, s->ctx,
     STEIF_NOT_CERTIFIED,
     "the solution of problem '%s' that '%s' has inside its steps, at t = %.12g, is %.2g "
     "tolerances off the constraints: take radau or bdf for times between the steps of "

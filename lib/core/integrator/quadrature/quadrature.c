@@ -102,6 +102,18 @@ static int value(steif_solver *s, sunrealtype t, N_Vector y, sunrealtype *g)
   return STEIF_OK;
 }
 
+int stf_quadrature_reads(steif_solver *s, sunrealtype t, N_Vector y, sunindextype j, int *i)
+{
+  stf_quadratures *w = s->quadratures;
+  STEIF_TRY(value(s, t, y, w->g));
+  N_VScale(1, y, w->moved);
+  stf_array(w->moved)[j] += 1.0 / 64 * (fabs(stf_array(y)[j]) + s->step.system.scale);
+  STEIF_TRY(value(s, t, w->moved, w->other));
+  for (*i = 0; *i < w->count && w->g[*i] == w->other[*i];) ++*i;
+  if (*i == w->count) *i = -1;
+  return STEIF_OK;
+}
+
 /* g at y + x dy, p_k + x. */
 static int value_along(steif_solver *s, sunrealtype t, N_Vector y, N_Vector dy, int k,
                        sunrealtype x, sunrealtype *g)
@@ -224,7 +236,7 @@ int stf_quadrature_step(steif_solver *s)
     if (!served) STEIF_TRY(along(s, s->end, column, sum_of(w, column)));
   }
   w->t = s->end;
-  return stf_quadrature_orders(s, value, w->moved, w->count, w->g, w->other);
+  return stf_quadrature_orders(s);
 }
 
 /* ---- test ------------------------------------------------------------------------------------- */
@@ -288,30 +300,6 @@ int stf_quadrature_after(steif_solver *s, sunrealtype t, N_Vector y, const sunre
   for (int column = 0; column < w->columns; column++)
     for (int i = 0; i < w->count; i++)
       sum_of(w, column)[i] += (w->before[i] - w->g[i]) * tau[column];
-  return STEIF_OK;
-}
-
-/* Where y jumps at t, multipliers have impulses, which their values do not tell, and integrals of them are not known:
- * unknowns without a derivative, of index 2 or 3. */
-int stf_quadrature_impulses(steif_solver *s, sunrealtype t, N_Vector y, const bool *algebraic,
-                            const int *index)
-{
-  stf_quadratures *w = s->quadratures;
-  char name[STEIF_SPEC_WORD];
-  if (!w || !index) return STEIF_OK;
-  STEIF_TRY(value(s, t, y, w->g));
-  for (sunindextype j = 0; j < s->problem->n; j++) {
-    if (!algebraic[j] || index[j] < 2) continue;
-    N_VScale(1, y, w->moved);
-    stf_array(w->moved)[j] += 1 + fabs(stf_array(y)[j]);
-    STEIF_TRY(value(s, t, w->moved, w->other));
-    for (int i = 0; i < w->count; i++)
-      STEIF_CHECK(w->other[i] == w->g[i], s->ctx, STEIF_UNSUPPORTED,
-                  "integral %d of problem '%s' is of %s, and at t = %.12g unknowns jump by "
-                  "impulses, which values of such a multiplier do not tell: take what jumps, a "
-                  "charge or a momentum, at the end instead",
-                  i + 1, s->problem->name, stf_unknown(s->problem, j, name), t);
-  }
   return STEIF_OK;
 }
 

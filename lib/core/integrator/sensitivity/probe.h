@@ -4,6 +4,7 @@
 #define STF_PROBE_H
 
 #include "integrator.h"
+#include <math.h>
 
 typedef struct stf_slope_probe {
   steif_solver *s;
@@ -34,5 +35,17 @@ int stf_probe_rounding(stf_slope_probe *q);
 sunindextype stf_probe_worst(const stf_slope_probe *q, sunrealtype d,
                              bool (*unknown)(const stf_slope_probe *q, sunindextype i),
                              sunrealtype *bar);
+
+/* An entry that is given, beside differences over [-d, d], [-2d, 2d] or longer, and [0, d]: how far it is off, in parts of
+ * ten times what they are apart, with what rounding makes of them, and of 1e-3 of itself; *error: the first of these. */
+static inline sunrealtype stf_probe_excess(sunrealtype given, sunrealtype found,
+                                           sunrealtype wide, sunrealtype half,
+                                           sunrealtype rounding, sunrealtype *error)
+{
+  const sunrealtype sure = 10, relative = 1e-3;
+  const sunrealtype spread = fmax(fabs(found - wide), fabs(found - half));
+  *error = sure * (spread + rounding);
+  return fabs(given - found) / fmax(*error, relative * fmax(fabs(given), fabs(found)));
+}
 
 #endif

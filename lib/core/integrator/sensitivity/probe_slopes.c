@@ -12,7 +12,7 @@
 
 typedef stf_slope_probe probe;
 
-static const sunrealtype sure = 10, relative = 1e-3, units = 8;
+static const sunrealtype relative = 1e-3, units = 8;
 
 int stf_probe_rounding(stf_slope_probe *q)
 {
@@ -89,13 +89,11 @@ sunindextype stf_probe_worst(const stf_slope_probe *q, sunrealtype d,
   const sunrealtype *c = stf_array(q->found), *w = stf_array(q->wide), *h = stf_array(q->half),
                     *g = stf_array(q->given), *r = stf_array(q->rounding);
   sunindextype worst = -1;
-  sunrealtype most = 1;
+  sunrealtype most = 1, error;
   for (sunindextype i = 0; i < q->s->problem->n; i++) {
-    const sunrealtype spread = fmax(fabs(c[i] - w[i]), fabs(c[i] - h[i])),
-                      error = sure * (spread + r[i] / d), off = fabs(g[i] - c[i]),
-                      least = fmax(error, relative * fmax(fabs(g[i]), fabs(c[i])));
-    if (!(off > most * least) || !isfinite(off) || (unknown && unknown(q, i))) continue;
-    worst = i, most = off / least, *bar = error;
+    const sunrealtype excess = stf_probe_excess(g[i], c[i], w[i], h[i], r[i] / d, &error);
+    if (!(excess > most) || !isfinite(excess) || (unknown && unknown(q, i))) continue;
+    worst = i, most = excess, *bar = error;
   }
   return worst;
 }

@@ -8,11 +8,12 @@
  * start_derivatives.c looks at.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "probe.h"
 #include "saltation.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
 
-static const sunrealtype sure = 10, relative = 1e-3, units = 8, longer = 1e-3;
+static const sunrealtype units = 8, longer = 1e-3;
 
 typedef struct probe {
   steif_context *ctx;
@@ -72,8 +73,8 @@ static int say(const probe *q, int k, sunindextype i, sunrealtype bar)
   return STEIF_FAIL(
     q->ctx, STEIF_BAD_INPUT,
     "%sdy0/dp of parameter %d%s%.40s%s of problem '%s' is wrong: parameters.start gives %.6g "
-    "in "
-    "%s, where differences of problem.start are %.6g, to about %.1g: correct parameters.start, "
+    "in %s, where differences of problem.start are %.6g, to about %.1g: correct "
+    "parameters.start, "
     "or leave it NULL",
     q->T ? "E " : "", k + 1, all->name ? " (" : "", all->name ? all->name[k] : "",
     all->name ? ")" : "", p->name, stf_array(q->given)[i],
@@ -87,13 +88,11 @@ static int compare(const probe *q, int k)
                     *h = stf_array(q->half), *y = stf_array(q->y);
   const sunrealtype size = q->T ? N_VMaxNorm(q->y) : 0;
   sunindextype worst = -1;
-  sunrealtype most = 1, bar = 0;
+  sunrealtype most = 1, bar = 0, error;
   for (sunindextype i = 0; i < q->problem->n; i++) {
-    const sunrealtype spread = fmax(fabs(c[i] - w[i]), fabs(c[i] - h[i])),
-                      rounding = units * STF_EPS * fmax(size, fabs(y[i])) / q->d,
-                      error = sure * (spread + rounding), off = fabs(g[i] - c[i]),
-                      least = fmax(error, relative * fmax(fabs(g[i]), fabs(c[i])));
-    if (off > most * least && isfinite(off)) worst = i, most = off / least, bar = error;
+    const sunrealtype rounding = units * STF_EPS * fmax(size, fabs(y[i])) / q->d;
+    const sunrealtype excess = stf_probe_excess(g[i], c[i], w[i], h[i], rounding, &error);
+    if (excess > most && isfinite(excess)) worst = i, most = excess, bar = error;
   }
   return worst < 0 ? STEIF_OK : say(q, k, worst, bar);
 }
