@@ -4,11 +4,24 @@
 #include "base.h"
 #include <amd.h>
 #include <cholmod.h>
+#include <pthread.h>
 
 /* From here on nested dissection saves more in the factors than it costs. */
 enum { LARGE = 1500 };
 
 #ifdef STEIF_HAVE_METIS
+/* METIS draws from rand() of the C library, which it seeds at each call: the order of a pattern is one and the same
+ * only while nobody else draws. */
+static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
+
+static bool metis(cholmod_sparse *A, SuiteSparse_long *order, cholmod_common *c)
+{
+  pthread_mutex_lock(&alone);
+  const bool good = cholmod_l_metis(A, NULL, 0, 1, order, c);
+  pthread_mutex_unlock(&alone);
+  return good && c->status == CHOLMOD_OK;
+}
+
 static cholmod_sparse pattern(SuiteSparse_long n, SuiteSparse_long *ptr, SuiteSparse_long *row,
                               int symmetric)
 {
@@ -31,7 +44,7 @@ static bool dissect(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row
   if (!cholmod_l_start(&c)) return false;
   c.print = 0;
   cholmod_sparse A = pattern(n, ptr, row, 1);
-  const bool good = cholmod_l_metis(&A, NULL, 0, 1, order, &c) && c.status == CHOLMOD_OK;
+  const bool good = metis(&A, order, &c);
   cholmod_l_finish(&c);
   return good;
 }
@@ -49,12 +62,11 @@ SuiteSparse_long stf_fill_order_block(SuiteSparse_long n, SuiteSparse_long *ptr,
   cholmod_sparse *T = cholmod_l_transpose(&A, 0, &c);
   cholmod_sparse *both = T ? cholmod_l_add(&A, T, one, one, 0, 0, &c) : NULL;
   cholmod_sparse *upper = both ? cholmod_l_copy(both, 1, 0, &c) : NULL;
-  const bool good = upper && cholmod_l_metis(upper, NULL, 0, 1, order, &c);
-  const bool sound = c.status == CHOLMOD_OK;
+  const bool good = upper && metis(upper, order, &c);
   cholmod_l_free_sparse(&T, &c), cholmod_l_free_sparse(&both, &c);
   cholmod_l_free_sparse(&upper, &c);
   cholmod_l_finish(&c);
-  return good && sound;
+  return good;
 }
 #else
 static bool dissect(sunindextype n, SuiteSparse_long *ptr, SuiteSparse_long *row,
