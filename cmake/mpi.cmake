@@ -40,12 +40,13 @@ if(STEIF_MPI)
 endif()
 
 if(steif_mpi)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/mpi/*.c)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/mpi/*.c)
   add_library(steif-mpi SHARED ${sources})
   add_library(steif::steif-mpi ALIAS steif-mpi)
   set_target_properties(steif-mpi PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 1)
   target_include_directories(steif-mpi PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include/mpi>
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(steif-mpi PRIVATE lib/mpi lib/mpi/collection)
   # Headers of others are not held to our warnings.
   target_include_directories(steif-mpi SYSTEM PRIVATE ${HYPRE_INCLUDE_DIR} ${MUMPS_INCLUDE_DIR})
   target_link_libraries(steif-mpi PUBLIC steif MPI::MPI_C SUNDIALS::nvecparallel
@@ -57,11 +58,11 @@ if(steif_mpi)
   install(TARGETS steif-mpi EXPORT steif-mpiTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT steif-mpiTargets NAMESPACE steif:: DESTINATION ${steif_package})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/drivers/ranks/*.c)
-  add_executable(steif_mpi_program ${sources} drivers/sweep.c)
+  add_executable(steif_mpi_program ${sources} drivers/sweep.c drivers/impulse.c drivers/pencil.c)
   set_target_properties(steif_mpi_program PROPERTIES OUTPUT_NAME steif-mpi)
   # The parts of the program, with the shared library in place of the static one.
   add_dependencies(steif_mpi_program steif_parts)
-  target_include_directories(steif_mpi_program PRIVATE drivers/program drivers/answers)
+  target_include_directories(steif_mpi_program PRIVATE drivers/program drivers/answers drivers/systems)
   target_link_libraries(steif_mpi_program PRIVATE $<TARGET_FILE:steif_parts> steif-mpi steif_settings)
   if(NOT APPLE)
     file(RELATIVE_PATH to_library ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})

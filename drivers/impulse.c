@@ -38,6 +38,7 @@ static const struct option options[] = {
   {"--vs", CHOICE, "ida|cvode|arkode",
    "run it, too, from x(0-) to --t1 (all: each); ida in every setting, best first", NULL},
   ANALYSIS_OPTIONS,
+  PARALLEL_OPTION("circles shared by ranks: mpirun -np N steif ... --parallel, N = points / 8"),
   OPTIONS_END,
 };
 

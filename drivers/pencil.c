@@ -43,6 +43,7 @@ static int run(struct call *call)
 
 static const struct option options[] = {
   ANALYSIS_OPTIONS,
+  PARALLEL_OPTION("circles shared by ranks: mpirun -np N steif ... --parallel, N = points / 8"),
   {"--count", COUNT, "N",
    "eigenvalues nearest to --near (default: all of dense or small pencils)", NULL},
   {"--near", WORD, "RE[,IM]", "a point S of the complex plane (default: 0)", NULL},

@@ -1,4 +1,4 @@
-/* over_ranks.h: the program steif-mpi, which `steif solve`, `compare` and `sweep` with --parallel become.
+/* over_ranks.h: the program steif-mpi, which steif with --parallel becomes.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef OVER_RANKS_H
 #define OVER_RANKS_H
@@ -42,5 +42,8 @@ void run_over_ranks(steif_context *ctx, const steif_problem *p, N_Vector like,
 int solve_over_ranks(const request *r);
 int compare_over_ranks(const request *r);
 int sweep_over_ranks(int argc, char **argv);
+/* The verbs whose analyses ranks share. */
+bool team_verb(const char *name);
+int team_over_ranks(const request *r, int argc, char **argv);
 
 #endif

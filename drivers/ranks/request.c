@@ -89,7 +89,9 @@ int request_read(request *r, int argc, char **argv)
 {
   r->verb = argc > 1 ? argv[1] : "";
   if (strcmp(r->verb, "solve") && strcmp(r->verb, "compare"))
-    return object(r, "the verbs solve, compare and sweep run over ranks [STEIF_UNSUPPORTED]");
+    return object(
+      r,
+      "the verbs solve, compare, sweep, impulse and pencil run over ranks [STEIF_UNSUPPORTED]");
   for (int i = 2; i < argc; i++) {
     const int code = argv[i][0] == '-' ? read_option(r, argc, argv, &i) : read_word(r, argv[i]);
     if (code) return code;

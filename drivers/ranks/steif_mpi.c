@@ -11,16 +11,12 @@ int main(int argc, char **argv)
   MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &level);
   MPI_Comm_rank(MPI_COMM_WORLD, &r.rank), MPI_Comm_size(MPI_COMM_WORLD, &r.ranks);
   int code = FINE;
-  if (argc > 1 && !strcmp(argv[1], "sweep")) {
+  if (argc > 1 && !strcmp(argv[1], "sweep"))
     code = sweep_over_ranks(argc, argv);
-    MPI_Finalize();
-    return code;
-  }
-  code = request_read(&r, argc, argv);
-  if (!code && !strcmp(r.verb, "solve"))
-    code = solve_over_ranks(&r);
-  else if (!code)
-    code = compare_over_ranks(&r);
+  else if (argc > 1 && team_verb(argv[1]))
+    code = team_over_ranks(&r, argc, argv);
+  else if (!(code = request_read(&r, argc, argv)))
+    code = strcmp(r.verb, "solve") ? compare_over_ranks(&r) : solve_over_ranks(&r);
   MPI_Finalize();
   return code;
 }

@@ -5,6 +5,7 @@
 
 #include <steif/impulse.h>
 #include <steif/slopes.h>
+#include <steif/team.h>
 #include <steif/eigenvalues.h>
 #include <steif/jump.h>
 #include <steif/runs.h>

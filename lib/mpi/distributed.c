@@ -16,7 +16,7 @@ struct steif_mpi {
 
 /* -- vectors ---------------------------------------------------------------------------------- */
 
-static int initialised(steif_context *ctx)
+int own_rows_initialised(steif_context *ctx)
 {
   int on = 0, off = 0;
   MPI_Initialized(&on), MPI_Finalized(&off);
@@ -28,7 +28,7 @@ static int initialised(steif_context *ctx)
 
 N_Vector steif_mpi_vector(steif_context *ctx, MPI_Comm comm, sunindextype rows_here)
 {
-  if (!ctx || initialised(ctx)) return NULL;
+  if (!ctx || own_rows_initialised(ctx)) return NULL;
   int rank;
   long long all[2] = {rows_here < 0 ? 0 : rows_here, 0}, wrong[2];
   MPI_Comm_rank(comm, &rank);
@@ -293,7 +293,7 @@ static int prepare(steif_mpi *m, const char *text)
 steif_mpi *steif_mpi_open(steif_context *ctx, const steif_problem *problem, const char *spec,
                           N_Vector like)
 {
-  if (!ctx || initialised(ctx)) return NULL;
+  if (!ctx || own_rows_initialised(ctx)) return NULL;
   if (!problem || !spec || !like || N_VGetVectorID(like) != SUNDIALS_NVEC_PARALLEL) {
     steif_fail(ctx, STEIF_BAD_INPUT,
                "steif_mpi_open needs a problem, a spec and a vector of steif_mpi_vector");

@@ -51,6 +51,8 @@ typedef struct rows {
   steif_mpi_stats stats;
 } rows;
 
+/* STEIF_OK, or a sentence: MPI is not ready. */
+int own_rows_initialised(steif_context *ctx);
 sunindextype rows_owner(const owners *o, sunindextype row);
 int rows_open(rows *r, steif_context *ctx, const steif_problem *p, N_Vector like);
 /* Values at (t, y, yp); E once. */

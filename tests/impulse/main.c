@@ -5,7 +5,7 @@
 extern CU_TestInfo tests_of_certificates[], tests_of_circle[], tests_of_contour[],
   tests_of_demand[], tests_of_eigenvalues[], tests_of_families[], tests_of_hidden[],
   tests_of_impulse_dense[], tests_of_regular[], tests_of_slopes[], tests_of_slope_directions[],
-  tests_of_structure[], tests_of_units[], tests_of_whole_numbers[];
+  tests_of_structure[], tests_of_teams[], tests_of_units[], tests_of_whole_numbers[];
 
 SUITE_MAIN({.pName = "certificates", .pTests = tests_of_certificates},
            {.pName = "circle", .pTests = tests_of_circle},
@@ -19,5 +19,6 @@ SUITE_MAIN({.pName = "certificates", .pTests = tests_of_certificates},
            {.pName = "slopes", .pTests = tests_of_slopes},
            {.pName = "slope directions", .pTests = tests_of_slope_directions},
            {.pName = "structure", .pTests = tests_of_structure},
+           {.pName = "teams", .pTests = tests_of_teams},
            {.pName = "units", .pTests = tests_of_units},
            {.pName = "whole numbers", .pTests = tests_of_whole_numbers})

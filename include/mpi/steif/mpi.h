@@ -31,6 +31,7 @@
 #include <mpi.h>
 #include <nvector/nvector_parallel.h>
 #include <steif/steif.h>
+#include <steif/team.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -98,6 +99,13 @@ STEIF_EXPORT steif_problem *steif_mpi_problem_new(steif_context *ctx, const char
 /* Frees the vector too. */
 STEIF_EXPORT void steif_mpi_problem_free(steif_context *ctx, steif_problem **problem,
                                          N_Vector *like);
+
+/* A team of the ranks of a communicator, which share the analyses of large descriptor systems (steif/team.h): rank 0
+ * leads (steif_team_lead) and makes the calls, the others serve (steif_team_serve) until it dismisses them. NULL with
+ * the sentence set: MPI is not initialised, or the communicator has one rank. */
+STEIF_EXPORT steif_team *steif_mpi_team_new(steif_context *ctx, MPI_Comm comm);
+/* On all ranks, before MPI_Finalize and the end of the context; NULL is accepted. */
+STEIF_EXPORT void steif_mpi_team_free(steif_team **team);
 
 #ifdef __cplusplus
 }

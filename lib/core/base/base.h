@@ -46,6 +46,10 @@ void stf_release(steif_context *ctx, void *block);
 /* Do blocks come from the caller of the library? */
 bool stf_foreign_memory(const steif_context *ctx);
 int stf_threads(const steif_context *ctx);
+/* Processes that share analyses with this one (steif/team.h), NULL: none; the number changes with the team. */
+struct steif_team;
+const struct steif_team *stf_team(const steif_context *ctx, long long *number);
+void stf_context_lead(steif_context *ctx, const struct steif_team *team);
 
 /* A pool owns blocks and vectors that live and die together. Claims return NULL with the message
  * set; stf_pool_free accepts NULL and half-built pools. */

@@ -18,7 +18,9 @@ struct steif_context {
   SUNContext sundials;
   int code;
   bool silent;
-  long failures; /* told by stf_fail */
+  const struct steif_team *team;
+  long long teams; /* that have led or gone */
+  long failures;   /* told by stf_fail */
   char message[MESSAGE];
 };
 
@@ -98,6 +100,18 @@ void steif_forget(steif_context *ctx)
 }
 
 SUNContext steif_sundials(steif_context *ctx) { return ctx ? ctx->sundials : NULL; }
+
+const struct steif_team *stf_team(const steif_context *ctx, long long *number)
+{
+  *number = ctx->teams;
+  return ctx->team;
+}
+
+void stf_context_lead(steif_context *ctx, const struct steif_team *team)
+{
+  ctx->team = team;
+  ctx->teams++;
+}
 
 int stf_threads(const steif_context *ctx) { return ctx->setup.threads; }
 

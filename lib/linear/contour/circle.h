@@ -9,6 +9,8 @@
 #include <nvector/nvector_serial.h>
 #include <steif/pencil.h>
 
+struct steif_team;
+
 /* E and F scaled: rows and columns multiplied by powers of two that bring the largest entries
  * of size |E| + |F| near one, so that scaling rounds nothing. */
 typedef struct stf_scaled {
@@ -50,11 +52,17 @@ typedef struct stf_circle {
     careful; /* growth of pivots is checked and solves are refined; else residuals alone decide */
   stf_sequence *sequence; /* pivots, of the first node or the last that needed its own */
   sunrealtype filled;     /* the size of the scales whose values it has */
+  long long pivots;       /* how often they were sought; where they are from: */
+  int from_visit;
+  sunrealtype from_radius, from_at; /* of the circle; of the scales */
   stf_multishift *batch;
   sunrealtype *sum;    /* count x n by rows: R^i times the coefficient of s^i, i = -1, 0, ... */
   sunrealtype *square; /* squared norms of the sums */
   sunrealtype radius;
-  sunrealtype log_det; /* mean of log |det(s E + F)| over the circle */
+  sunrealtype log_det;           /* mean of log |det(s E + F)| over the circle */
+  const struct steif_team *team; /* that shares the batches; NULL: none */
+  long long team_number;
+  int known, answer; /* to processes 1 .. known; the code of the last that answered */
 } stf_circle;
 
 /* Largest index that may be looked for. */
