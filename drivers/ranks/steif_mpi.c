@@ -2,12 +2,14 @@
  * same on all ranks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "over_ranks.h"
+#include <stdlib.h>
 #include <string.h>
 
 int main(int argc, char **argv)
 {
   request r = {.linear = "amg"};
   int level;
+  setenv("SCOTCH_PTHREAD_NUMBER", "1", 0); /* its threads would call MPI */
   MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &level);
   MPI_Comm_rank(MPI_COMM_WORLD, &r.rank), MPI_Comm_size(MPI_COMM_WORLD, &r.ranks);
   int code = FINE;

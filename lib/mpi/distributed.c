@@ -1,6 +1,7 @@
 /* distributed.c: a problem over ranks with a solver of its linear systems.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "own_rows.h"
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -202,6 +203,20 @@ static int own_parts(steif_mpi *m, int halves, N_Vector *b, N_Vector *x, sunreal
   return STEIF_OK;
 }
 
+static int finite(const steif_mpi *m, char which, int halves, sunrealtype *const *part)
+{
+  const rows *r = &m->rows;
+  int code = STEIF_OK;
+  for (int k = 0; k < halves && !code; k++)
+    for (sunindextype i = 0; i < r->own.rows && !code; i++)
+      if (!isfinite(part[k][i]))
+        code =
+          steif_fail(r->ctx, STEIF_NOT_FINITE, "vector %d of %c has %g in row %lld (rank %d)%s",
+                     k, which, part[k][i], (long long)(r->own.first + i), r->own.rank,
+                     which == 'x' ? ": the solution is beyond the largest number" : "");
+  return steif_agree(r->ctx, r->like, code);
+}
+
 int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp, sunrealtype c_re,
                     sunrealtype c_im, int transposed, int count, N_Vector *b, N_Vector *x)
 {
@@ -213,13 +228,18 @@ int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp, sunrea
                       m->with->name);
   if (count < 1)
     return steif_fail(ctx, STEIF_BAD_INPUT, "%d right-hand sides; give 1 or more", count);
+  if (!isfinite(c_re) || !isfinite(c_im))
+    return steif_fail(ctx, STEIF_BAD_INPUT, "c = %g%+gi is not finite", c_re, c_im);
   MPI_TRY(fill(m, t, y, yp));
   MPI_TRY(m->with->setup(m->state, c_re, c_im));
+  MPI_TRY(mumps_sound(m->state, c_re, c_im));
   const int halves = c_im != 0 ? 2 * count : count;
   int code = own_parts(m, halves, b, x, &parts);
+  if (!code) code = finite(m, 'b', halves, parts);
   if (!code)
     code = m->with->solve(m->state, c_re, c_im, transposed, count,
                           (const sunrealtype *const *)parts, parts + halves);
+  if (!code) code = finite(m, 'x', halves, parts + halves);
   steif_release(ctx, parts);
   return code;
 }

@@ -2,6 +2,7 @@
  * pair in it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "own_rows.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -148,6 +149,33 @@ void halo_exchange(rows *r, int width, const sunrealtype *const *x)
   MPI_Waitall(used, h->request, MPI_STATUSES_IGNORE);
   for (sunindextype k = 0; k < h->count; k++)
     for (int w = 0; w < width; w++) to[w][r->own.rows + k] = h->in[width * k + w];
+  r->stats.exchanges++;
+}
+
+/* From the halo to the owners: their values are added, or the largest kept. */
+void halo_return(rows *r, int width, bool largest, const sunrealtype *const *from,
+                 sunrealtype *const *to)
+{
+  halo *h = &r->halo;
+  int used = 0;
+  for (sunindextype k = 0; k < h->count; k++)
+    for (int w = 0; w < width; w++) h->in[width * k + w] = from[w][r->own.rows + k];
+  for (int k = 0; k < r->own.size; k++)
+    if (h->give[k])
+      MPI_Irecv(h->out + width * h->give_at[k], width * h->give[k], MPI_DOUBLE, k, 0,
+                r->own.comm, &h->request[used++]);
+  for (int k = 0; k < r->own.size; k++)
+    if (h->get[k]) {
+      MPI_Isend(h->in + width * h->get_at[k], width * h->get[k], MPI_DOUBLE, k, 0, r->own.comm,
+                &h->request[used++]);
+      r->stats.sent += (long long)sizeof(sunrealtype) * width * h->get[k];
+    }
+  MPI_Waitall(used, h->request, MPI_STATUSES_IGNORE);
+  for (int i = 0; i < h->give_at[r->own.size]; i++)
+    for (int w = 0; w < width; w++) {
+      sunrealtype *at = &to[w][h->source[i]];
+      *at = !largest ? *at + h->out[width * i + w] : fmax(*at, h->out[width * i + w]);
+    }
   r->stats.exchanges++;
 }
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WORKSPACE = 20, MOST_WORKSPACE = 160 };
+enum { WORKSPACE = 20, MOST_WORKSPACE = 1280 };
 
 static int start(rows *r, const steif_spec *spec, void **state)
 {
@@ -20,8 +20,9 @@ static int start(rows *r, const steif_spec *spec, void **state)
 static void drop(mumps *s, slot *t)
 {
   if (t->m) t->with->close(t->m, s->r);
-  void *const all[] = {t->value,  t->x,     t->row_of_x, t->give, t->give_at, t->get,
-                       t->get_at, t->order, t->place,    t->out,  t->in};
+  void *const all[] = {t->value, t->x,      t->row_of_x, t->give,  t->give_at,
+                       t->get,   t->get_at, t->order,    t->place, t->out,
+                       t->in,    t->row,    t->column};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) steif_release(s->r->ctx, all[i]);
   *t = (slot){0};
 }
@@ -29,12 +30,12 @@ static void drop(mumps *s, slot *t)
 static void forget(mumps *s)
 {
   for (int i = 0; i < 2 * SLOTS; i++) drop(s, &s->slot[i]);
-  void *const all[] = {s->set.row, s->set.column, s->set.place, s->row_of_b,
-                       s->b,       s->d,          s->own};
+  void *const all[] = {s->set.row, s->set.column, s->set.place, s->row_of_b, s->b,
+                       s->d,       s->own,        s->part[0],   s->part[1],  s->part[2]};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) steif_release(s->r->ctx, all[i]);
   s->set.row = s->set.column = s->set.place = s->row_of_b = NULL;
   s->set.placed = false;
-  s->b = s->d = s->own = NULL;
+  s->b = s->d = s->own = s->part[0] = s->part[1] = s->part[2] = NULL;
   s->columns = 0;
 }
 
@@ -52,6 +53,10 @@ static int pattern(mumps *s)
   s->set.row = steif_allocate(r->ctx, entries, sizeof(int));
   s->set.column = steif_allocate(r->ctx, entries, sizeof(int));
   s->row_of_b = steif_allocate(r->ctx, here, sizeof(int));
+  for (int k = 0; k < 3; k++) {
+    s->part[k] = steif_allocate(r->ctx, here + (size_t)r->halo.count, sizeof *s->part[k]);
+    if (!s->part[k]) return STEIF_NO_MEMORY;
+  }
   if (r->own.rank == 0 &&
       !(s->set.place = steif_allocate(r->ctx, (size_t)r->own.n, sizeof(int))))
     return STEIF_NO_MEMORY;
@@ -77,7 +82,9 @@ static int claim(mumps *s, slot *t)
     if (!(*each[i] = steif_allocate(r->ctx, size, sizeof(int)))) return STEIF_NO_MEMORY;
   t->place = steif_allocate(r->ctx, (size_t)r->own.rows + 1, sizeof(int));
   t->in = steif_allocate(r->ctx, width * ((size_t)r->own.rows + 1), sizeof *t->in);
-  return t->value && t->place && t->in ? STEIF_OK : STEIF_NO_MEMORY;
+  t->row = steif_allocate(r->ctx, (size_t)r->own.rows + 1, sizeof *t->row);
+  t->column = steif_allocate(r->ctx, (size_t)(r->own.rows + r->halo.count) + 1, sizeof *t->row);
+  return t->value && t->place && t->in && t->row && t->column ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 /* -- what MUMPS answers ----------------------------------------------------------------------- */
@@ -95,12 +102,22 @@ int mumps_told(const mumps *s, const factors_answer *a, const char *what, const 
   bool memory = false;
   for (size_t i = 0; i < sizeof short_of / sizeof *short_of; i++)
     memory |= a->code == short_of[i];
-  if (memory)
+  if (memory && s->set.memory && a->code == -13)
     return steif_fail(
       ctx, STEIF_NO_MEMORY,
-      "MUMPS has not memory enough to %s (INFOG(1) = %d, INFOG(2) = %d)%s: give "
-      "more ranks or a larger memory=MB",
-      what, a->code, a->detail, s->set.memory ? " within memory=" : "");
+      "the %d MB a rank of memory= are more than there are (INFOG(1) = -13): give "
+      "more ranks or a smaller memory=MB",
+      s->set.memory);
+  if (memory && s->set.memory)
+    return steif_fail(ctx, STEIF_NO_MEMORY,
+                      "MUMPS has not memory enough to %s within the %d MB a rank of memory= "
+                      "(INFOG(1) = %d, INFOG(2) = %d): give more ranks or a larger memory=MB",
+                      what, s->set.memory, a->code, a->detail);
+  if (memory)
+    return steif_fail(ctx, STEIF_NO_MEMORY,
+                      "MUMPS has not memory enough to %s (INFOG(1) = %d, INFOG(2) = %d): give "
+                      "more ranks",
+                      what, a->code, a->detail);
   if (a->code == -38)
     return steif_fail(ctx, STEIF_UNSUPPORTED,
                       "MUMPS was built without parallel ordering: install "
@@ -114,10 +131,12 @@ int mumps_told(const mumps *s, const factors_answer *a, const char *what, const 
 static void shifted(const rows *r, slot *t)
 {
   const int width = t->with->complex ? 2 : 1;
-  for (sunindextype k = 0; k < r->entries; k++) {
-    t->value[width * k] = t->re * r->e[k] - r->a[k];
-    if (width == 2) t->value[width * k + 1] = t->im * r->e[k];
-  }
+  for (sunindextype i = 0; i < r->own.rows; i++)
+    for (sunindextype k = r->row_at[i]; k < r->row_at[i + 1]; k++) {
+      const sunrealtype column = t->column[r->local[k]];
+      t->value[width * k] = (t->re * r->e[k] - r->a[k]) * t->row[i] * column;
+      if (width == 2) t->value[width * k + 1] = t->im * r->e[k] * t->row[i] * column;
+    }
 }
 
 static int analyse(mumps *s, slot *t)
@@ -158,6 +177,8 @@ static int factor(mumps *s, slot *t)
   factors_answer a;
   rows *r = s->r;
   t->get_at[r->own.size] = -1; /* the way of the solution is found at the first solve */
+  t->sound = false;
+  mumps_scale(s, t);
   for (int extra = WORKSPACE; extra <= MOST_WORKSPACE; extra *= 2) {
     shifted(r, t);
     t->with->factor(t->m, t->value, extra, &a);

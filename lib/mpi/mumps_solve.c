@@ -2,8 +2,12 @@
  * solutions.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mumps.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
+
+/* A backward error that needs no refinement. */
+#define ENOUGH 1e-14
 
 /* Room for `count` right-hand sides. */
 static int widen(mumps *s, int count)
@@ -19,7 +23,15 @@ static int widen(mumps *s, int count)
   return s->columns ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
-/* Who gets which entries of the solution as MUMPS spreads it: once for each factorisation. */
+int mumps_room(mumps *s, slot *t, int columns)
+{
+  int code = widen(s, columns);
+  if (!code) code = mumps_receive(s, t, t->room - 1, columns);
+  return steif_agree(s->r->ctx, s->r->like, code);
+}
+
+/* Who gets which entries of the solution as MUMPS spreads it: found at the first solve by new
+ * factors. */
 static int find_way(mumps *s, slot *t, int count)
 {
   const owners *o = &s->r->own;
@@ -47,9 +59,9 @@ static int find_way(mumps *s, slot *t, int count)
   return STEIF_OK;
 }
 
-/* x += the correction, to its owners. */
-static void give_back(mumps *s, slot *t, const sunrealtype *from, int count,
-                      sunrealtype *const *x)
+/* x += the correction, times `scale`, to its owners. */
+static void give_back(mumps *s, slot *t, const sunrealtype *scale, const sunrealtype *from,
+                      int count, sunrealtype *const *x)
 {
   const owners *o = &s->r->own;
   const int width = t->with->complex ? 2 : 1;
@@ -58,91 +70,171 @@ static void give_back(mumps *s, slot *t, const sunrealtype *from, int count,
     for (int w = 0; w < width; w++) t->out[width * k + w] = from[width * t->order[k] + w];
   MPI_Alltoallv(t->out, t->give, t->give_at, number, t->in, t->get, t->get_at, number, o->comm);
   for (sunindextype k = 0; k < o->rows; k++)
-    for (int w = 0; w < width; w++) x[w][t->place[k]] += t->in[width * k + w];
+    for (int w = 0; w < width; w++)
+      x[w][t->place[k]] += t->in[width * k + w] * (scale ? scale[t->place[k]] : 1);
 }
 
-/* x += M^{-1} d for `count` columns, d and x the halves of each. */
-static int correct(mumps *s, slot *t, bool transposed, int count, sunrealtype *const *d,
-                   sunrealtype *const *x)
+/* The factors are those of R M C, R and C the scales: M^{-1} = C (R M C)^{-1} R. */
+int mumps_correct(mumps *s, slot *t, bool transposed, bool scaled, int count,
+                  sunrealtype *const *d, sunrealtype *const *x)
 {
   factors_answer a;
   const owners *o = &s->r->own;
   const int width = t->with->complex ? 2 : 1;
+  const sunrealtype *first = scaled       ? NULL
+                             : transposed ? t->column
+                                          : t->row,
+                    *last = scaled       ? NULL
+                            : transposed ? t->row
+                                         : t->column;
   sunrealtype *b = s->b;
   for (int k = 0; k < count; k++)
     for (sunindextype i = 0; i < o->rows; i++)
-      for (int w = 0; w < width; w++) *b++ = d[width * k + w][i];
+      for (int w = 0; w < width; w++) *b++ = d[width * k + w][i] * (first ? first[i] : 1);
   t->with->solve(t->m, transposed, count, s->b, s->row_of_b, (int)o->rows, t->x, t->row_of_x,
                  t->room, &a);
   s->r->stats.solves += count;
   MPI_TRY(mumps_told(s, &a, "solve", t));
-  if (t->get_at[o->size] < 0) MPI_TRY(find_way(s, t, t->give_at[o->size] = a.rows));
+  if (t->get_at[o->size] < 0 || t->way_across != transposed)
+    MPI_TRY(find_way(s, t, t->give_at[o->size] = a.rows));
+  t->way_across = transposed;
   for (int k = 0; k < count; k++)
-    give_back(s, t, t->x + (size_t)(width * k) * (size_t)t->room, t->give_at[o->size],
+    give_back(s, t, last, t->x + (size_t)(width * k) * (size_t)t->room, t->give_at[o->size],
               x + width * k);
   return STEIF_OK;
 }
 
-/* d = b - M x of one column, and what its size is measured by: d, M, x, b. */
-static void column_residual(mumps *s, const slot *t, const sunrealtype *const *b,
-                            sunrealtype *const *x, sunrealtype *const *d, sunrealtype most[4])
+/* -- residuals ---------------------------------------------------------------------------------- */
+
+/* One column: b, its solution x, and the residual that comes into d. */
+typedef struct column {
+  const sunrealtype *const *b;
+  sunrealtype *const *x, *const *d;
+  sunrealtype longest; /* entry of x in units of the columns as they were factored */
+} column;
+
+/* The backward error of one equation, whose terms have the size `size`, in units of the row as it was factored: by
+ * itself (W. Oettli, W. Prager, Numer. Math. 6, 1964), or, where its terms are nothing but rounding of others, beside
+ * the longest entry of x (M. Arioli, J. Demmel, I. S. Duff, SIAM J. Matrix Anal. Appl. 10, 1989). */
+static sunrealtype error_of(sunrealtype residual, sunrealtype size, sunrealtype longest)
 {
-  rows *r = s->r;
-  const int width = t->with->complex ? 2 : 1;
-  halo_exchange(r, width, (const sunrealtype *const *)x);
-  for (sunindextype i = 0; i < r->own.rows; i++) {
-    sunrealtype re = b[0][i], im = width == 2 ? b[1][i] : 0, size = 0;
-    for (sunindextype k = r->row_at[i]; k < r->row_at[i + 1]; k++) {
-      const sunrealtype m = t->re * r->e[k] - r->a[k], n = t->im * r->e[k];
-      const sunrealtype u = r->one[r->local[k]], v = width == 2 ? r->two[r->local[k]] : 0;
-      re -= m * u - n * v, im -= m * v + n * u, size += hypot(m, n);
-    }
-    d[0][i] = re;
-    if (width == 2) d[1][i] = im;
-    most[0] = fmax(most[0], hypot(re, im)), most[1] = fmax(most[1], size);
-    most[2] = fmax(most[2], hypot(x[0][i], width == 2 ? x[1][i] : 0));
-    most[3] = fmax(most[3], hypot(b[0][i], width == 2 ? b[1][i] : 0));
-  }
+  if (!isfinite(residual) || !isfinite(size)) return 1; /* nothing is known */
+  if (size < 1e3 * DBL_EPSILON * longest) size += longest;
+  return size > 0 ? residual / size : residual > 0;
 }
 
-/* The largest of the columns, over all ranks. */
-static sunrealtype residual(mumps *s, const slot *t, int count, const sunrealtype *const *b,
-                            sunrealtype *const *x, sunrealtype *const *d)
+static sunrealtype size_of(sunrealtype re, sunrealtype im) { return fabs(re) + fabs(im); }
+
+static sunrealtype direct(mumps *s, const slot *t, const column *c)
 {
-  sunrealtype most[4 * COLUMNS] = {0}, largest = 0;
-  const int width = t->with->complex ? 2 : 1;
-  for (int k = 0; k < count; k++)
-    column_residual(s, t, b + width * k, x + width * k, d + width * k, most + 4 * k);
-  MPI_Allreduce(MPI_IN_PLACE, most, 4 * count, MPI_DOUBLE, MPI_MAX, s->r->own.comm);
-  for (int k = 0; k < count; k++) {
-    const sunrealtype *m = most + 4 * k, all = m[1] * m[2] + m[3];
-    if (all > 0) largest = fmax(largest, m[0] / all);
+  rows *r = s->r;
+  const bool pair = t->with->complex;
+  sunrealtype largest = 0;
+  halo_exchange(r, pair ? 2 : 1, (const sunrealtype *const *)c->x);
+  for (sunindextype i = 0; i < r->own.rows; i++) {
+    sunrealtype re = c->b[0][i], im = pair ? c->b[1][i] : 0, size = size_of(re, im);
+    for (sunindextype k = r->row_at[i]; k < r->row_at[i + 1]; k++) {
+      const sunrealtype m = t->re * r->e[k] - r->a[k], n = t->im * r->e[k];
+      const sunrealtype u = r->one[r->local[k]], v = pair ? r->two[r->local[k]] : 0;
+      re -= m * u - n * v, im -= m * v + n * u, size += size_of(m, n) * size_of(u, v);
+    }
+    c->d[0][i] = re;
+    if (pair) c->d[1][i] = im;
+    largest =
+      fmax(largest, error_of(size_of(re, im) * t->row[i], size * t->row[i], c->longest));
   }
   return largest;
 }
 
-/* At most COLUMNS of them. Sweeps of refinement while they at least halve the residual. */
+/* M^T x of own rows into own columns and those of the halo, and the size of its terms. */
+static void spread(mumps *s, const slot *t, const column *c)
+{
+  rows *r = s->r;
+  const bool pair = t->with->complex;
+  const size_t all = (size_t)(r->own.rows + r->halo.count) * sizeof(sunrealtype);
+  for (int k = 0; k < 3; k++) memset(s->part[k], 0, all);
+  for (sunindextype i = 0; i < r->own.rows; i++)
+    for (sunindextype k = r->row_at[i]; k < r->row_at[i + 1]; k++) {
+      const sunrealtype m = t->re * r->e[k] - r->a[k], n = t->im * r->e[k];
+      const sunrealtype u = c->x[0][i], v = pair ? c->x[1][i] : 0;
+      const sunindextype j = r->local[k];
+      s->part[0][j] += m * u - n * v, s->part[1][j] += m * v + n * u;
+      s->part[2][j] += size_of(m, n) * size_of(u, v);
+    }
+  halo_return(r, 2, false, (const sunrealtype *const *)s->part, s->part);
+  halo_return(r, 1, false, (const sunrealtype *const *)s->part + 2, s->part + 2);
+}
+
+static sunrealtype across(mumps *s, const slot *t, const column *c)
+{
+  const bool pair = t->with->complex;
+  sunrealtype largest = 0;
+  spread(s, t, c);
+  for (sunindextype j = 0; j < s->r->own.rows; j++) {
+    const sunrealtype re = c->b[0][j] - s->part[0][j],
+                      im = pair ? c->b[1][j] - s->part[1][j] : 0;
+    const sunrealtype size = s->part[2][j] + size_of(c->b[0][j], pair ? c->b[1][j] : 0);
+    c->d[0][j] = re;
+    if (pair) c->d[1][j] = im;
+    largest =
+      fmax(largest, error_of(size_of(re, im) * t->column[j], size * t->column[j], c->longest));
+  }
+  return largest;
+}
+
+/* In units of the columns as they were factored. */
+static sunrealtype longest_of(const mumps *s, const slot *t, bool transposed,
+                              const sunrealtype *const *x)
+{
+  const sunrealtype *unit = transposed ? t->row : t->column;
+  sunrealtype most = 0;
+  for (sunindextype i = 0; i < s->r->own.rows; i++) {
+    const sunrealtype size = size_of(x[0][i], t->with->complex ? x[1][i] : 0) / unit[i];
+    most = isfinite(size) ? fmax(most, size) : INFINITY;
+  }
+  return most;
+}
+
+/* d = b - M x, or with M^T; the largest backward error of the columns, over all ranks. */
+static sunrealtype residual(mumps *s, const slot *t, bool transposed, int count,
+                            const sunrealtype *const *b, sunrealtype *const *x,
+                            sunrealtype *const *d)
+{
+  sunrealtype longest[COLUMNS], largest = 0;
+  const int width = t->with->complex ? 2 : 1;
+  for (int k = 0; k < count; k++)
+    longest[k] = longest_of(s, t, transposed, (const sunrealtype *const *)x + width * k);
+  MPI_Allreduce(MPI_IN_PLACE, longest, count, MPI_DOUBLE, MPI_MAX, s->r->own.comm);
+  for (int k = 0; k < count; k++) {
+    const column c = {b + width * k, x + width * k, d + width * k, longest[k]};
+    largest = fmax(largest, transposed ? across(s, t, &c) : direct(s, t, &c));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, s->r->own.comm);
+  return largest;
+}
+
+/* -- solves --------------------------------------------------------------------------------------- */
+
+/* At most COLUMNS of them. Sweeps of refinement while they at least halve the backward error. */
 static int block(mumps *s, slot *t, bool transposed, int count, const sunrealtype *const *b,
                  sunrealtype *const *x)
 {
   sunrealtype *d[2 * COLUMNS], *own[2 * COLUMNS];
   const size_t here = (size_t)s->r->own.rows;
   const int halves = count * (t->with->complex ? 2 : 1);
-  int code = widen(s, count);
-  if (!code) code = mumps_receive(s, t, t->room - 1, count);
-  MPI_TRY(steif_agree(s->r->ctx, s->r->like, code));
+  MPI_TRY(mumps_room(s, t, count));
   for (int k = 0; k < halves; k++) {
     d[k] = s->d + (size_t)k * here, own[k] = s->own + (size_t)k * here;
     memcpy(d[k], b[k], here * sizeof(sunrealtype));
     memset(own[k], 0, here * sizeof(sunrealtype));
   }
-  MPI_TRY(correct(s, t, transposed, count, d, own));
+  MPI_TRY(mumps_correct(s, t, transposed, false, count, d, own));
   sunrealtype left = 0, before = INFINITY;
-  for (int sweep = 0; !transposed && sweep <= s->set.refine; sweep++) {
-    left = residual(s, t, count, b, own, d);
-    if (sweep == s->set.refine || left <= 1e-15 || !(left < 0.5 * before)) break;
+  for (int sweep = 0; sweep <= s->set.refine; sweep++) {
+    left = residual(s, t, transposed, count, b, own, d);
+    if (sweep == s->set.refine || left <= ENOUGH || !(left < 0.5 * before)) break;
     before = left;
-    MPI_TRY(correct(s, t, false, count, d, own));
+    MPI_TRY(mumps_correct(s, t, transposed, false, count, d, own));
   }
   s->r->stats.backward_error = fmax(s->r->stats.backward_error, left);
   for (int k = 0; k < halves; k++) memcpy(x[k], own[k], here * sizeof(sunrealtype));

@@ -63,6 +63,9 @@ int halo_open(rows *r);
 void halo_close(rows *r);
 /* `width` 1 or 2 vectors of own rows into r->one, r->two, with the halo after them. */
 void halo_exchange(rows *r, int width, const sunrealtype *const *x);
+/* Values of the halo, after own rows in `from`, to their owners, where they are added, or the largest kept. */
+void halo_return(rows *r, int width, bool largest, const sunrealtype *const *from,
+                 sunrealtype *const *to);
 /* out = (c E - A) x, or E x, or A x: w_e E + w_a A. */
 void rows_product(rows *r, sunrealtype w_e, sunrealtype w_a, const sunrealtype *x,
                   sunrealtype *out);
@@ -80,5 +83,8 @@ typedef struct back_end {
   void (*close)(void *state);
 } back_end;
 extern const back_end back_end_amg, back_end_mumps;
+/* STEIF_SINGULAR where the factors for this shift, which are there, are those of a matrix that is singular to
+ * rounding. */
+int mumps_sound(void *state, sunrealtype re, sunrealtype im);
 
 #endif

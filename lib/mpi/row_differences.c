@@ -201,12 +201,13 @@ static int compare(rows *r, const steif_problem *p, const sunrealtype *value, ch
   const sunrealtype sign = which == 'A' && d->implicit ? -1 : 1;
   halo_exchange(r, 1, &v);
   for (sunindextype i = 0; i < r->own.rows; i++) {
-    sunrealtype sum = 0, size = fabs(base[i]);
+    sunrealtype sum = 0, size = 0;
     for (sunindextype k = r->row_at[i]; k < r->row_at[i + 1]; k++) {
       const sunrealtype part = sign * value[k] * r->one[r->local[k]];
       sum += part, size += fabs(part);
     }
-    if (!(fabs(f[i] - base[i] - sum) <= 1e-6 * (size + fabs(f[i]))))
+    const sunrealtype rounding = 1e-9 * size + 1e-11 * (fabs(base[i]) + fabs(f[i]));
+    if (!(fabs(f[i] - base[i] - sum) <= rounding))
       return steif_fail(r->ctx, STEIF_BAD_INPUT,
                         "row %lld of %c depends on unknowns that the pattern of problem '%s' "
                         "does not have there (rank %d): it changes by %g where its entries "

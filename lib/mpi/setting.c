@@ -21,6 +21,19 @@ static bool read_order(factors_setting *s, const char *value)
   return false;
 }
 
+/* PT-Scotch calls MPI from threads of its own, unless it is told to have one. */
+static int threads_allowed(const rows *r)
+{
+  const char *threads = getenv("SCOTCH_PTHREAD_NUMBER");
+  int level = MPI_THREAD_SINGLE;
+  MPI_Query_thread(&level);
+  if (level >= MPI_THREAD_MULTIPLE || (threads && !strcmp(threads, "1"))) return STEIF_OK;
+  return steif_fail(r->ctx, STEIF_UNSUPPORTED,
+                    "mumps: order=ptscotch calls MPI from several threads: set "
+                    "SCOTCH_PTHREAD_NUMBER=1 in the environment, start MPI by MPI_Init_thread "
+                    "with MPI_THREAD_MULTIPLE, or take order=metis");
+}
+
 int factors_read(const rows *r, const steif_spec *spec, factors_setting *s)
 {
   s->order = r->own.n > SMALL ? FACTORS_METIS : AMF, s->refine = 2;
@@ -39,5 +52,5 @@ int factors_read(const rows *r, const steif_spec *spec, factors_setting *s)
                         "order=ptscotch, memory=MB, refine=0 .. 10",
                         key, value);
   }
-  return STEIF_OK;
+  return s->order == PARALLEL && r->own.size > 1 ? threads_allowed(r) : STEIF_OK;
 }

@@ -31,7 +31,7 @@ if(steif_mpi)
   add_executable(test_ranks ${sources})
   target_link_libraries(test_ranks PRIVATE steif-mpi steif_settings)
   foreach(ranks 1 2 3 4)
-    foreach(part solves bad short runs differences memory)
+    foreach(part solves hard bad short runs differences memory)
       add_test(NAME ranks_${part}_${ranks}
                COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
                        --bind-to none $<TARGET_FILE:test_ranks> ${part})

@@ -15,6 +15,7 @@ int everywhere(int condition, const char *text, const char *file, int line);
 int same(steif_context *ctx);
 
 void test_differences(void);
+void test_hard_systems(void);
 void test_one_rank_short(void);
 
 #endif

@@ -12,7 +12,8 @@
  *              there is more than one only while factors of an earlier step size or Jacobian serve.
  *              mumps:order=metis|amf|amd|ptscotch: nested dissection by METIS on rank 0, found once for a pattern; up to
  *              200 unknowns amf, approximate minimum fill, whose trees are as deep as a chain of unknowns is long
- *              and may take more stack than there is; ptscotch: by all ranks, for many thousand unknowns each;
+ *              and may take more stack than there is; ptscotch: by all ranks, for many thousand unknowns each, with
+ *              SCOTCH_PTHREAD_NUMBER=1 in the environment or MPI_THREAD_MULTIPLE;
  *              memory=MB a rank (as much as it takes), refine=N sweeps (2)
  *   "amg"      one cycle of BoomerAMG of hypre for the real c E - A, at |c| for both halves of a complex system:
  *              for elliptic parts; every row needs a diagonal entry.
@@ -48,7 +49,9 @@ typedef struct steif_mpi_stats {
   long long sent;        /* bytes of them, from this rank */
   double memory;         /* MB that the factors of MUMPS take on this rank at most */
   double
-    backward_error; /* the largest |b - M x| / (|M| |x| + |b|), in norms of maxima, after refinement */
+    backward_error; /* the largest |b - M x|_i / (|M| |x| + |b|)_i after refinement, of M^T as well (W. Oettli,
+                            W. Prager, 1964); rows whose terms are rounding of others are measured beside the longest
+                            |x|. 1: nothing is known, as terms are beyond the largest number */
   long evaluations; /* of f or F for differences */
   int colours;      /* of the columns then */
 } steif_mpi_stats;
@@ -83,7 +86,10 @@ STEIF_EXPORT void steif_mpi_free(steif_mpi **m);
 /* x = (c E - A)^{-1} b, or the transposed (not conjugated) one, by MUMPS, for `count` >= 1 right-hand sides, own rows of
  * x and b, and the (t, y, yp) given. c_im = 0: b and x are `count` vectors; else their real and imaginary parts by turns,
  * 2 count of them. Several at once cost less than one after the other: 16 go through the factors together. x may be b.
- * `spec` must have been "mumps". STEIF_SINGULAR: it is; STEIF_BAD_INPUT: count. */
+ * `spec` must have been "mumps". Rows and columns are scaled by powers of two before c E - A is factored, and solutions
+ * refined. STEIF_SINGULAR: it is, exactly or to rounding: by three scalings its reciprocal condition is below 4e-16, which
+ * two to six solves estimate once for each factorisation. STEIF_BAD_INPUT: count, or c is not finite; STEIF_NOT_FINITE:
+ * b is not, or x is beyond the largest number. */
 STEIF_EXPORT int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp,
                                  sunrealtype c_re, sunrealtype c_im, int transposed, int count,
                                  N_Vector *b, N_Vector *x);
