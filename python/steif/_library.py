@@ -69,6 +69,7 @@ for _row in (
     ("steif_solution", POINTER, POINTER),
     ("steif_dense", INT, POINTER, REAL, POINTER),
     ("steif_time", REAL, POINTER),
+    ("steif_recomputed", INT, POINTER, POINTER, POINTER),
     ("steif_statistics", POINTER, POINTER),
     ("steif_record_new", POINTER, POINTER, WHOLE, INT),
     ("steif_record_free", None, POINTER),

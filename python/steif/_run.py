@@ -109,6 +109,7 @@ class Run:
     def __init__(self, n, problem=None):
         self.n, self.raised, self.is_sparse = n, None, False
         self.read, self.problem, self.options = reader(n), problem or Struct("problem"), Struct("options")
+        self.options.set("recompute", INT, 1)
         self.t, self.y, self.names, self.outputs, self.jumped = [], [], None, None, None
         self.t_events = self.y_events = None
         self.happened, self.event_names = [], []
@@ -332,10 +333,19 @@ class Run:
                 code = lib.steif_solve_to(solver, t1)
         if self.raised:
             raise self.raised
-        points = steps.arrays() if steps else (np.array(self.t), np.array(self.y).reshape(len(self.t), self.n).T)
+        points = (self._ended(solver, *steps.arrays()) if steps else
+                  (np.array(self.t), np.array(self.y).reshape(len(self.t), self.n).T))
         r = self._result(context, solver, code, points)
         r.outputs = self.outputs.at(r.t, r.y, times is None) if self.outputs else {}
         return r
+
+    def _ended(self, solver, t, y):
+        """The steps as the method has them; unknowns of index 2 and 3 at the end recomputed, as at times asked for."""
+        drift = REAL()
+        if not lib.steif_recomputed(solver, c.byref(drift), None) and drift.value == drift.value and \
+                t[-1] == lib.steif_time(solver):
+            y[:, -1] = self.read(lib.steif_solution(solver))
+        return t, y
 
     def _result(self, context, solver, code, points):
         r, stats = Result(), Struct("stats", address=lib.steif_statistics(solver))

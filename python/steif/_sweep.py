@@ -94,6 +94,8 @@ def sweep(f, values, *, t1=None, method="auto", rtol=1e-6, atol=None, threads=0)
     where it did not), values, names. A name that the problem does not have is a ValueError before the first run.
     """
     columns, count = _sweep_columns(f, values)
+    if isinstance(threads, bool) or not hasattr(threads, "__index__"):
+        raise ValueError("threads is %r and must be a whole number: 0 for one on each core" % (threads,))
     context, run = Context(), None
     try:
         run, start, end = known(context, f, None, endless=t1 is not None)
@@ -110,7 +112,7 @@ def sweep(f, values, *, t1=None, method="auto", rtol=1e-6, atol=None, threads=0)
                                   ("method", POINTER, c.c_char_p(choice("method", method))),
                                   ("options", POINTER, run.options.address),
                                   ("stop", POINTER, c.addressof(interrupt.flag)),
-                                  ("threads", INT, int(threads))):
+                                  ("threads", INT, threads.__index__())):
             e.set(name, kind, value)
         with interrupt:
             code = lib.steif_ensemble(context.pointer, count, calls[0], calls[1], e.address)

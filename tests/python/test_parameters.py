@@ -158,6 +158,22 @@ class Sweep(unittest.TestCase):
                             method="radau:s=3")
             np.testing.assert_array_equal(r.y[:, i], s.y[:, -1])
 
+    def test_multipliers_are_recomputed(self):
+        # The tension at 2 by the equation of the angle; radau:s=3 itself has two digits of it, sweep and solve show it
+        # recomputed from the position.
+        path, truth = os.path.join(MODELS, "pendulum.steif"), 17.9076820729608
+        swept = steif.sweep(path, {"g": [9.81]}, method="radau:s=3")
+        steps, at = (steif.solve(path, method="radau:s=3", t_eval=times) for times in (None, [1.0, 2.0]))
+        for found in (swept.y[:, 0], steps.y[:, -1], at.y[:, -1]):
+            self.assertLess(abs(found[swept.names.index("tension")] - truth), 1e-5)
+        np.testing.assert_array_equal(swept.y[:, 0], steps.y[:, -1])
+
+    def test_threads_are_whole(self):
+        for wrong in (2.7, True, "2"):
+            with self.assertRaisesRegex(ValueError, "threads is .* whole number"):
+                steif.sweep("rober", {"k1": [0.04]}, t1=1, threads=wrong)
+        self.assertEqual(steif.sweep("rober", {"k1": [0.04]}, t1=1, threads=np.int64(2)).status[0], 0)
+
     def test_what_fails_is_told(self):
         r = steif.sweep("rober", {"k1": [0.04, math.nan]}, t1=1)
         self.assertEqual(r.status[0], 0)

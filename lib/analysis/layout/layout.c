@@ -33,7 +33,7 @@ static const struct {
   AT(options, h0), AT(options, h_max), AT(options, t1), AT(options, max_steps),
   AT(options, observe), AT(options, observer), AT(options, on_event), AT(options, jump), AT(options, stop),
 
-  AT(options, sensitivities), AT(options, active_count), AT(options, active),
+  AT(options, recompute), AT(options, sensitivities), AT(options, active_count), AT(options, active),
 
   SIZE(parameters), AT(parameters, count), AT(parameters, value), AT(parameters, name),
   SIZE(measurements), AT(measurements, count), AT(measurements, t), AT(measurements, value),
