@@ -56,6 +56,7 @@ if(TARGET steif_program)
              -DPYTHON=$<$<BOOL:${PYTHON3}>:${PYTHON3}>)
   house_test(sweeps -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/sweeps
              -DMODELS=${PROJECT_SOURCE_DIR}/examples/models)
+  house_test(sweep_files -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/sweep_files)
   house_test(energy -DPROGRAM=$<TARGET_FILE:steif_program> -DFOLDER=${PROJECT_BINARY_DIR}/energy)
   house_test(experiments -DPROGRAM=$<TARGET_FILE:steif_program>
              -DFOLDER=${PROJECT_BINARY_DIR}/experiments)

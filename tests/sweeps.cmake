@@ -96,6 +96,64 @@ expect(1 sweep vdpol auto --p mu=-1,-2 --t1 1 ERR "2 of 2 members failed")
 expect(0 sweep heat auto --p n=10,20 --collect digits)
 expect(0 sweep heat auto --p n=10,20 OUT "20 unknowns where the columns are for 10")
 
+expect(0 sweep heat auto --p n=4:9:3 --t1 0.1 --json)
+begins("parameter n=6.5 of 'heat' must be a whole number" rows 1 message)
+begins("9 unknowns where the columns are for 4" rows 2 message)
+# Columns are those of the first member that can be made.
+expect(0 sweep heat auto --p n=0,4,4 --t1 0.1 --json)
+member("1" failed)
+begins("0.2268" rows 2 y1)
+
+# Ranges mean the decimals of their ends: decades, powers of two and tenths are the nearest doubles.
+foreach(row "1e200:1e-200:5:log|9.9999999999999997e+199;1e+100;1.0;1e-100;9.9999999999999998e-201"
+            "1e-3:1e3:7:log|0.001;0.01;0.10000000000000001;1.0;10.0;100.0;1000.0"
+            "1e7:1e1:4:log|10000000.0;100000.0;1000.0;10.0" "2:32:5:log|2.0;4.0;8.0;16.0;32.0"
+            "1e307:1e308:4|9.9999999999999999e+306;3.9999999999999999e+307;7.0000000000000003e+307;1e+308"
+            "-1e308:1e308:3|-1e+308;0.0;1e+308" "0.1:0.7:7|0.10000000000000001;0.20000000000000001;0.29999999999999999;0.40000000000000002;0.5;0.59999999999999998;0.69999999999999996")
+  string(REPLACE "|" ";" row "${row}")
+  list(POP_FRONT row range)
+  execute_process(COMMAND ${PROGRAM} sweep rober auto --p k1=${range} --t1 1 --json OUTPUT_VARIABLE out ERROR_QUIET)
+  set(k 0)
+  foreach(expected IN LISTS row)
+    member("${expected}" rows ${k} k1)
+    math(EXPR k "${k} + 1")
+  endforeach()
+endforeach()
+
+# The multiplier of a pendulum by the equation of its angle: radau:s=3 has two digits of it, and it is shown recomputed.
+expect(0 sweep ${MODELS}/pendulum.steif radau:s=3 --p g=9.81 --json)
+begins("17.9076" rows 0 tension)
+expect(0 sweep ${MODELS}/pendulum.steif radau:s=3 --p g=9.81 --at 2 --json)
+begins("17.9076" rows 0 tension)
+
+# --set takes what --p can vary, and names that are headings already get a mark.
+expect(0 sweep rober auto --p k1=0.1 --p k2=1e4,2e4 --t1 1 --json)
+string(JSON y GET "${out}" rows 1 y1)
+expect(0 sweep rober auto --set k1=0.1 --p k2=1e4,2e4 --t1 1 --json)
+member("${y}" rows 1 y1)
+expect(0 solve rober auto --set k1=0.1,k2=2e4 --t1 1 --json)
+member("${y}" y 0)
+expect(2 solve rober auto --set k1=0.1,kk=1 --t1 1 ERR "no parameter 'kk'")
+expect(2 solve rober auto --set k1=0.1,form=none --t1 1 ERR "STEIF_")
+file(WRITE ${FOLDER}/names.steif "param status = 1, member = 2, steps = 3\nstate message = 1\n"
+                                 "message' = -status*member/steps*message\ntime 0 to 1\n")
+set(words sweep names.steif auto --p status=1,2 --p member=2 --p steps=3)
+foreach(row "y;member,p:status,p:member,steps,status,t,y:message,message"
+            "stats;member,p:status,p:member,p:steps,status,t,steps,rejected,nfe,nje,nlu,nsolve,message")
+  list(POP_FRONT row collect)
+  expect(0 ${words} --collect ${collect} --csv names.csv)
+  file(STRINGS ${FOLDER}/names.csv lines LIMIT_COUNT 1)
+  if(NOT lines STREQUAL row)
+    message(SEND_ERROR "sweep: the header is ${lines}, not ${row}")
+  endif()
+endforeach()
+expect(0 ${words} --json)
+member("2.0" rows 1 p:status)
+member("ok" rows 1 status)
+begins("0.26359" rows 1 y:message)
+
+expect(2 sweep rober auto --p k1=1,2 --t1 2 --at 1.5,0.5 ERR "--at has 0.5 after 1.5")
+expect(2 sweep rober auto --p k1=1:2 --random 3 --seed 1000000001 ERR "whole number from 0 to 1000000000")
 expect(2 sweep rober auto ERR "--p NAME=FROM:TO:COUNT")
 expect(2 sweep rober auto --p k1=1:2 ERR "k1=1:2.* and must be NAME=FROM:TO:COUNT")
 expect(2 sweep rober auto --p k1=0:1:0 ERR "k1=0:1:0.* has no members")

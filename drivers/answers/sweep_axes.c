@@ -1,6 +1,7 @@
 /* sweep_axes.c: ranges of parameters, and the parameters of a member.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sweep.h"
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,10 +14,12 @@ static int wrong(const struct call *call, const char *text, bool random)
   return bad_usage(call, "--p is \"%s\" and must be %s", text, random ? at_random : ranges);
 }
 
-static bool number(const char **at, double *value)
+/* Also with the digits that a double leaves out. */
+static bool number(const char **at, double *value, long double *longer)
 {
   char *end;
   *value = strtod(*at, &end);
+  *longer = strtold(*at, NULL);
   const bool good = end != *at && isfinite(*value);
   *at = end;
   return good;
@@ -25,12 +28,13 @@ static bool number(const char **at, double *value)
 static int read_list(const struct call *call, const char *text, const char *at, bool random,
                      struct axis *a)
 {
+  long double longer;
   a->list = true;
   do {
     if (a->count == AXIS_VALUES)
       return bad_usage(call, "--p %s lists more than %d values; give a range", a->name,
                        AXIS_VALUES);
-    if (!number(&at, &a->value[a->count++])) return wrong(call, text, random);
+    if (!number(&at, &a->value[a->count++], &longer)) return wrong(call, text, random);
   } while (*at++ == ',');
   return at[-1] ? wrong(call, text, random) : EXIT_OK;
 }
@@ -62,7 +66,8 @@ static int read_axis(const struct call *call, const char *text, bool random, str
   if (!length || !text[length] || length >= sizeof a->name) return wrong(call, text, random);
   memcpy(a->name, text, length);
   if (!strchr(at, ':')) return read_list(call, text, at, random, a);
-  if (!number(&at, &a->from) || *at++ != ':' || !number(&at, &a->to))
+  if (!number(&at, &a->from, &a->decimal[0]) || *at++ != ':' ||
+      !number(&at, &a->to, &a->decimal[1]))
     return wrong(call, text, random);
   return read_rest(call, text, at, random, a);
 }
@@ -103,11 +108,30 @@ int axes_read(const struct call *call, struct axes *a)
   return count_members(call, a);
 }
 
-/* Point j of 0 .. m; the ends are met exactly, and decimal fractions as far as doubles have them. */
+/* Exponents of ten of points between the ends: exact where these are decades apart. Nothing overflows, whatever a long
+ * double is. */
+static double between_logs(const struct axis *a, double j, double m)
+{
+  const long double from = a->decimal[0], to = a->decimal[1];
+  long double decades = log10l(to) - log10l(from);
+  const long double nearest = roundl(decades);
+  if (fabsl(decades - nearest) <= 4 * LDBL_EPSILON * (fabsl(log10l(to)) + fabsl(log10l(from))))
+    decades = nearest;
+  const long double exponent = decades * (long double)j / (long double)m;
+  const long double ratio = powl(10, exponent), half = powl(10, exponent / 2);
+  return (double)(ratio > LDBL_MIN && ratio < LDBL_MAX ? from * ratio : from * half * half);
+}
+
+/* Point j of 0 .. m. The ends are met exactly, and mean the decimals that were written: between them these are kept with
+ * the digits of a long double, so that decimal fractions and decades come out as their nearest doubles. */
 static double between(const struct axis *a, double j, double m)
 {
   if (j == 0 || j == m) return j == 0 ? a->from : a->to;
-  return a->log ? a->from * pow(a->to / a->from, j / m) : ((m - j) * a->from + j * a->to) / m;
+  if (a->log) return between_logs(a, j, m);
+  const bool huge = fmax(fabs(a->from), fabs(a->to)) > 1e280;
+  const long double scale = huge ? 0x1p-64L : 1;
+  return (double)(((m - j) * (scale * a->decimal[0]) + j * (scale * a->decimal[1])) / m /
+                  scale);
 }
 
 static double drawn(const struct axes *a, int k, long long i)

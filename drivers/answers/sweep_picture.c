@@ -117,8 +117,7 @@ static bool find_curves(const struct sweep *s, struct sweep_picture *p)
   return true;
 }
 
-int sweep_picture_save(struct sweep *s,
-                       const char *(*column)(const struct sweep *s, size_t j, char *room))
+int sweep_picture_save(struct sweep *s)
 {
   struct sweep_picture *p = s->picture;
   char title[160], label[PANELS][COLUMN];
@@ -127,7 +126,7 @@ int sweep_picture_save(struct sweep *s,
   if (!p) return EXIT_OK;
   if (!find_curves(s, p)) return no_memory(s->call, "the picture", "leave --plot out");
   for (size_t k = 0; k < p->panels; k++)
-    panel[k] = (steif_plot){.y_label = column(s, k, label[k]),
+    panel[k] = (steif_plot){.y_label = sweep_column(s, k, label[k]),
                             .log_x = !s->on_the_way && last->log,
                             .count = p->curves.count,
                             .curve = p->curves.curve + k * p->curves.count};

@@ -49,8 +49,8 @@ const char *option_objection(const struct option *o, const char *text)
   switch (o->kind) {
   case REAL: return is_real(text, false) ? NULL : "a finite number";
   case POSITIVE: return is_real(text, true) ? NULL : "a finite number above 0";
-  case NATURAL: return is_whole(text, 0) ? NULL : "a whole number from 0";
-  case COUNT: return is_whole(text, 1) ? NULL : "a whole number from 1";
+  case NATURAL: return is_whole(text, 0) ? NULL : "a whole number from 0 to 1000000000";
+  case COUNT: return is_whole(text, 1) ? NULL : "a whole number from 1 to 1000000000";
   case REALS:
     return are_reals(text, true) ? NULL : "numbers above 0 separated by commas, at most 32";
   case TIMES: return are_reals(text, false) ? NULL : "times separated by commas, at most 32";

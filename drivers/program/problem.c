@@ -70,6 +70,45 @@ static int with_values(struct call *call, const char *word, char *text, size_t r
   return used < room ? EXIT_OK : bad_usage(call, "--set is longer than %zu characters", room);
 }
 
+int numbers_set(const struct call *call, int room, char name[][STEIF_SPEC_KEY], double *value,
+                int *words)
+{
+  int count = 0;
+  const char *at;
+  *words = 0;
+  for (int i = 0; (at = repeated_of(call, "--set", i)); i++)
+    while (*at && count < room) {
+      const size_t length = strcspn(at, "="), all = strcspn(at, ",");
+      char *end = NULL;
+      if (length < all && length < STEIF_SPEC_KEY) value[count] = strtod(at + length + 1, &end);
+      if (end > at + length + 1 && end == at + all)
+        snprintf(name[count++], STEIF_SPEC_KEY, "%.*s", (int)length, at);
+      else
+        ++*words;
+      at += all + (at[all] == ',');
+    }
+  return count;
+}
+
+/* Numbers that the equations read need not stand after the colon: --set finds these, too. */
+static int find_set(struct call *call, const char *word, const char *text, steif_problem *p)
+{
+  enum { SETS = 64 };
+  char name[SETS][STEIF_SPEC_KEY];
+  const char *names[SETS];
+  double value[SETS];
+  int words;
+  const int code = steif_problem_find(call->ctx, text, p),
+            count = numbers_set(call, SETS, name, value, &words);
+  if (code != STEIF_UNKNOWN_NAME || !count || words) return code;
+  steif_problem plain;
+  if (steif_problem_find(call->ctx, word, &plain)) return steif_status(call->ctx);
+  for (int k = 0; k < count; k++) names[k] = name[k];
+  const int varied = steif_problem_vary(call->ctx, &plain, count, names, value, p);
+  steif_problem_clear(call->ctx, &plain);
+  return varied;
+}
+
 /* --storage: matrices that the callbacks of the problem do not fill, or whose places nobody knows. */
 static int storage_fits(struct call *call, const steif_problem *p)
 {
@@ -106,7 +145,7 @@ int find_problem(struct call *call, const char *word, steif_problem *p)
   char text[4096];
   const int wrong = with_values(call, word, text, sizeof text);
   if (wrong) return wrong;
-  if (steif_problem_find(call->ctx, text, p) != STEIF_OK) return no_problem(call, word);
+  if (find_set(call, word, text, p) != STEIF_OK) return no_problem(call, word);
   const int unfit = storage_fits(call, p);
   if (unfit) {
     steif_problem_clear(call->ctx, p);

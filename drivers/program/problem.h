@@ -8,6 +8,9 @@
 /* The problem of a word with the parameters of --set, compiled where --compile asks for it: what then
  * stands in the way is said, and the interpreter runs it. EXIT_OK or an exit code after a sentence. */
 int find_problem(struct call *call, const char *word, steif_problem *p);
+/* NAME=NUMBER of --set, at most `room` of them: how many. *words: how many have other values. */
+int numbers_set(const struct call *call, int room, char name[][STEIF_SPEC_KEY], double *value,
+                int *words);
 
 /* What `work` returns for the problem of the first word, or an exit code after a sentence. */
 int with_problem(struct call *call, int (*work)(struct call *call, const steif_problem *p));
