@@ -154,3 +154,14 @@ list(JOIN some "\n" text)
 file(WRITE ${FOLDER}/part.csv "${text}\n")
 expect(1 ${words} --resume part.csv ERR "3 of 3 members failed. the first of them: time 3 of member 0")
 alike(part.csv three.csv "numbers in sentences")
+
+# On a terminal a line tells how many members are done, from the start on, and the time left.
+find_program(SCRIPT script)
+if(SCRIPT AND CMAKE_HOST_SYSTEM_NAME STREQUAL "Linux")
+  file(WRITE ${FOLDER}/slow.steif "param k = 1\nstate y = 1\ny' = -y + sin(1000*k*t)\ntime 0 to 1000\n")
+  execute_process(COMMAND ${SCRIPT} -qec "${PROGRAM} sweep slow.steif --p k=1:2:6 --threads 1 --csv slow.csv" shown
+                  WORKING_DIRECTORY ${FOLDER} OUTPUT_VARIABLE out RESULT_VARIABLE code)
+  if(NOT code EQUAL 0 OR NOT out MATCHES "K0 of 6 members.*K[1-5] of 6 members, about [0-9]+ s left.*fingerprint")
+    message(SEND_ERROR "sweep on a terminal: ${code}, ${out}")
+  endif()
+endif()

@@ -37,14 +37,13 @@ int old_compare(struct sweep *s, long long k, const struct member_record *r)
     const bool both = row < r->rows && row < m->lines;
     if (row < r->rows && sweep_line(s, m->number, r, row) >= s->room) return 1;
     if (both && !strcmp(s->line, o->line[m->first + row])) continue;
-    say(
-      s->call,
-      "\"%s\": member %lld comes out as \"%.300s\" here, and stands there as \"%.300s\": its "
-      "rows "
-      "are of other options, another problem or another version; --resume goes with the words "
-      "and options of the sweep that wrote the file [STEIF_BAD_INPUT]",
-      m->path, m->number, row < r->rows ? s->line : "",
-      row < m->lines ? o->line[m->first + row] : "");
+    say(s->call,
+        "\"%s\": member %lld comes out as \"%.300s\" here, and stands there as \"%.300s\": its "
+        "rows are of other options, another problem, version or machine; --resume goes with "
+        "the words "
+        "and options of the sweep that wrote the file [STEIF_BAD_INPUT]",
+        m->path, m->number, row < r->rows ? s->line : "",
+        row < m->lines ? o->line[m->first + row] : "");
     return 1;
   }
   return 0;

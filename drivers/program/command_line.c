@@ -12,7 +12,7 @@ const struct option common_options[] = {
   {"--npz", OUTPUT, "FILE", "the matrices and lists as arrays for numpy.load", NULL},
   {"--h5", OUTPUT, "FILE", "the same as an HDF5 file, where libhdf5 is installed", NULL},
   {"--mtx", WORD, "PREFIX", "each of them as a Matrix Market file PREFIXname.mtx", NULL},
-  {"--quiet", FLAG, NULL, "no progress line", NULL},
+  {"--quiet", FLAG, NULL, "no progress line, which terminals get", NULL},
   {"--help", FLAG, NULL, "this text", NULL},
   OPTIONS_END,
 };

@@ -188,6 +188,9 @@ static void references_belong_to_parameters(void)
     CHECK(steif_model_set(s.ctx, &s.p, "k", 3) == STEIF_OK);
     CHECK((s.p.reference != NULL) == (i == 1));
     if (s.p.reference) CLOSE(s.p.reference->value[0], 2 * exp(-3), 1e-15);
+    CHECK(steif_model_set(s.ctx, &s.p, "k", 1) == STEIF_OK); /* as in the file */
+    CU_ASSERT_FATAL(s.p.reference != NULL);
+    CLOSE(s.p.reference->value[0], 2 * exp(-1), 1e-15);
     fixture_close(&s);
   }
 }

@@ -216,10 +216,24 @@ static int listed(stf_model *m, int32_t statement, double *value, sunindextype *
   return m->syntax.sources.errors ? stf_complaints(&m->syntax.sources) : code;
 }
 
-/* Numbers are those of the parameters that the file has; formulas may follow others. */
-static bool of_other_parameters(const stf_model *m, int32_t statement)
+/* Is a parameter given that has another value in the file? */
+static int other_parameters(stf_model *m, bool *other)
 {
-  if (!m->settings.count) return false;
+  *other = false;
+  for (size_t i = 0; i < m->settings.count && !*other; i++) {
+    const stf_setting *given = STF_AT(m->settings, stf_setting, i);
+    const int word = stf_word_known(&m->syntax.words, given->name, strlen(given->name));
+    const stf_symbol *s = word < 0 ? NULL : stf_symbol_of(m, word);
+    double own = given->value;
+    if (s) STEIF_TRY(stf_number_of(m, &stf_statement_at(m, s->statement)->value, &own));
+    *other = own != given->value;
+  }
+  return STEIF_OK;
+}
+
+/* Numbers are those of the parameters that the file has; formulas may follow others. */
+static bool has_numbers(const stf_model *m, int32_t statement)
+{
   for (size_t i = (size_t)statement + 1; i < m->syntax.statements.count; i++) {
     const stf_statement *s = stf_statement_at(m, (int32_t)i);
     if (s->parent != statement) break;
@@ -233,8 +247,10 @@ static int reference(stf_model *m, steif_problem *p)
   for (size_t i = 0; i < m->syntax.statements.count; i++) {
     const stf_statement *s = stf_statement_at(m, (int32_t)i);
     double digits = 0;
+    bool other;
     if (s->kind != STF_SAY_REFERENCE) continue;
-    if (of_other_parameters(m, (int32_t)i)) return STEIF_OK;
+    STEIF_TRY(other_parameters(m, &other));
+    if (other && has_numbers(m, (int32_t)i)) return STEIF_OK;
     steif_reference *r = &m->reference;
     STEIF_TRY(stf_number_of(m, &s->value, &r->t));
     if (s->other.to > s->other.from) STEIF_TRY(stf_number_of(m, &s->other, &digits));
