@@ -30,6 +30,7 @@ static int integrate(const request *r, steif_context *ctx, steif_problem *p, N_V
   if (r->t1 > 0) p->t1 = r->t1;
   o.like = like;
   run_over_ranks(ctx, p, like, r->linear, r->method[0], &o, NULL, NULL, &run);
+  if (r->rank == 0 && *steif_mpi_start(p)) object(r, "%s", steif_mpi_start(p));
   if (!run.code && r->rank == 0) present(r, p, &run);
   return run.code;
 }

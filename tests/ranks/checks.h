@@ -16,6 +16,7 @@ int same(steif_context *ctx);
 
 void test_differences(void);
 void test_hard_systems(void);
+void test_index_two(void);
 void test_one_rank_short(void);
 
 #endif

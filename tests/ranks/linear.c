@@ -347,6 +347,8 @@ static void runs(void)
   compare("ladder:n=40,case=cons", "mumps", "bdf", 0);
   compare("jordan:k=2,case=N-cons", "mumps", "radau:s=3", 0); /* dense; ranks without rows */
   same_as_in_one_process("ladder:n=40,case=cons", "radau:s=3");
+  same_as_in_one_process("ladder:n=40", "radau:s=3"); /* an inconsistent start */
+  test_index_two();
 }
 
 static void shortage(const char *name, const char *spec, int differences)

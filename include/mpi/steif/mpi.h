@@ -98,10 +98,13 @@ STEIF_EXPORT int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vect
  * lines or planes to a rank, unknowns of a point together. Any other is a linear system E x' + F x = f with constant
  * E and F ("ladder:n=1000,case=cons"; E.steif models too), for "mumps": every rank builds all of it, keeps its own
  * rows, numbered by levels of the graph of F so that ranks have few neighbours, and evaluates all of f.
- * *like is a vector of own rows. NULL with the sentence set, STEIF_UNSUPPORTED: another form. The problem must
+ * As in one process, an inconsistent start is moved to x(0+), and the index of the unknowns found, by rank 0 for all.
+ * Index 3, and breaks of f where the index is 2, are STEIF_UNSUPPORTED. *like is a vector of own rows. NULL with the sentence set, STEIF_UNSUPPORTED: another form. The problem must
  * outlive what uses it. */
 STEIF_EXPORT steif_problem *steif_mpi_problem_new(steif_context *ctx, const char *spec,
                                                   MPI_Comm comm, N_Vector *like);
+/* What was done about the start of such a problem, "" when nothing was. */
+STEIF_EXPORT const char *steif_mpi_start(const steif_problem *problem);
 /* Frees the vector too. */
 STEIF_EXPORT void steif_mpi_problem_free(steif_context *ctx, steif_problem **problem,
                                          N_Vector *like);

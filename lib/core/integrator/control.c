@@ -34,12 +34,13 @@ int stf_weigh(const steif_solver *s)
   return STEIF_OK;
 }
 
-/* Weights of the norm in a step of length h: a component of index k counts h^(k-1) times less. */
+/* Weights of the norm in a step of length h: a component of index k counts h^(k-1) times less, unless stages over ranks
+ * have it as it is shown. */
 static int weigh_levels(steif_solver *s, sunrealtype h)
 {
   stf_step *step = &s->step;
   STEIF_TRY(stf_weigh(s));
-  if (!s->problem->index) return STEIF_OK;
+  if (!s->problem->index || (step->table && stf_spread(step->weights))) return STEIF_OK;
   sunindextype rows;
   sunrealtype *w = stf_own_rows(step->weights, &rows);
   for (sunindextype i = 0; w && i < rows; i++)

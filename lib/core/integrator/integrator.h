@@ -126,6 +126,7 @@ int stf_look_at_mass(steif_solver *s, int *form, N_Vector y, N_Vector yp);
 int stf_start_repaired(stf_repair *repair);
 /* The start of a DAE, for methods of ours with adaptive steps. */
 int stf_look_at_start(steif_solver *s, int form);
+int stf_look_at_orders(steif_solver *s);
 
 /* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. `rows`: of absolute tolerances. */
 int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o,

@@ -236,7 +236,7 @@ static int begin_step(steif_solver *s)
   s->shown = step->y;
   if (step->h_equal > 0) STEIF_TRY(stf_rest_open(s, &s->constant, s->t1));
   if (!step->adaptive) return STEIF_OK;
-  STEIF_TRY(stf_agreed_gate(s));
+  STEIF_TRY(stf_look_at_orders(s));
   s->h_next = stf_first_step(s);
   return stf_rounding_open(s);
 }

@@ -11,14 +11,16 @@
 typedef struct parallel_problem parallel_problem;
 struct parallel_problem {
   steif_problem problem;
-  sunindextype rows; /* own ones */
+  sunindextype rows;  /* own ones */
+  char message[1200]; /* what was done about the start */
   void (*release)(steif_context *ctx, parallel_problem *p);
 };
 
 bool grid_named(const char *name);
 /* *out is there as soon as there is memory to release, also on failure. */
 int grid_build(steif_context *ctx, const char *text, MPI_Comm comm, parallel_problem **out);
-int slice_build(steif_context *ctx, const char *text, MPI_Comm comm, parallel_problem **out);
+/* `one`: a vector over the ranks, to agree by, which is done where only some of them fail on the way. */
+int slice_build(steif_context *ctx, const char *text, N_Vector one, parallel_problem **out);
 
 /* Places 0 to n - 1 for the unknowns of matrices with this pattern by columns, such that neighbours in the graph of
  * M + M^T are near: levels around an unknown at the edge, as by E. Cuthill and J. McKee, Proc. 24th Nat. Conf. ACM,

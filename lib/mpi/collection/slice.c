@@ -2,6 +2,7 @@
  * the whole system and keeps its own rows of E and F, numbered along the graph; f is evaluated whole by all.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "parallel_problem.h"
+#include "slice_start.h"
 #include <nvector/nvector_serial.h>
 #include <steif/data.h>
 #include <string.h>
@@ -111,23 +112,22 @@ static int keep(steif_context *ctx, slice *s, band *b, const sunindextype *place
   return STEIF_OK;
 }
 
-static int own_numbers(steif_context *ctx, slice *s, const sunindextype *place)
+static int own_numbers(steif_context *ctx, slice *s, const sunindextype *place,
+                       const slice_start *all)
 {
   const steif_problem *p = &s->whole;
   const size_t rows = (size_t)s->rows + 1;
   s->own = steif_allocate(ctx, rows, sizeof *s->own);
   s->start = steif_allocate(ctx, rows, sizeof *s->start);
   if (p->yp0) s->slope = steif_allocate(ctx, rows, sizeof *s->slope);
-  if (p->index) s->index = steif_allocate(ctx, rows, sizeof *s->index);
-  if (!s->own || !s->start || (p->yp0 && !s->slope) || (p->index && !s->index))
-    return STEIF_NO_MEMORY;
+  s->index = steif_allocate(ctx, rows, sizeof *s->index);
+  if (!s->own || !s->start || (p->yp0 && !s->slope) || !s->index) return STEIF_NO_MEMORY;
   for (sunindextype i = 0; i < s->n; i++) {
     const sunindextype k = place[i] - s->first;
     if (k < 0 || k >= s->rows) continue;
     s->own[k] = i;
-    if (p->y0) s->start[k] = p->y0[i];
+    s->start[k] = all->y[i], s->index[k] = all->index[i];
     if (p->yp0) s->slope[k] = p->yp0[i];
-    if (p->index) s->index[k] = p->index[i];
   }
   return STEIF_OK;
 }
@@ -161,7 +161,7 @@ static int numbered(steif_context *ctx, const slice *s, SUNMatrix M, sunindextyp
   return STEIF_OK;
 }
 
-static int cut(steif_context *ctx, slice *s)
+static int cut(steif_context *ctx, slice *s, const slice_start *all)
 {
   SUNMatrix e = room(ctx, s, s->whole.nnz_E > 0 ? s->whole.nnz_E : s->whole.nnz);
   SUNMatrix a = room(ctx, s, s->whole.nnz);
@@ -170,7 +170,7 @@ static int cut(steif_context *ctx, slice *s)
   if (!code) code = filled(ctx, s, s->whole.E, e);
   if (!code) code = filled(ctx, s, s->whole.A, a);
   if (!code) code = numbered(ctx, s, a, place);
-  if (!code) code = own_numbers(ctx, s, place);
+  if (!code) code = own_numbers(ctx, s, place, all);
   if (!code) code = keep(ctx, s, &s->E, place, e);
   if (!code) code = keep(ctx, s, &s->A, place, a);
   steif_release(ctx, place);
@@ -181,7 +181,7 @@ static int cut(steif_context *ctx, slice *s)
 
 /* -- building --------------------------------------------------------------------------------- */
 
-static void describe(slice *s)
+static void describe(slice *s, int index)
 {
   const steif_problem *p = &s->whole;
   s->public.problem = (steif_problem){.name = p->name,
@@ -192,7 +192,7 @@ static void describe(slice *s)
                                       .y0 = s->start,
                                       .yp0 = s->slope,
                                       .index = s->index,
-                                      .dae_index = p->dae_index,
+                                      .dae_index = index,
                                       .E = E,
                                       .A = A,
                                       .g = g,
@@ -223,12 +223,7 @@ static int check(steif_context *ctx, const char *text, const steif_problem *p)
   if (!form) return steif_status(ctx);
   if (form == STEIF_DESCRIPTOR && p->E && p->A && p->g && !p->events &&
       (p->storage == STEIF_SPARSE || p->storage == STEIF_DENSE)) {
-    if (p->dae_index <= 2) return STEIF_OK;
-    return steif_fail(
-      ctx, STEIF_UNSUPPORTED,
-      "'%s' has index %d: over ranks linear systems are solved by iteration, which is not "
-      "accurate enough for more than 2; solve it in one process",
-      text, p->dae_index);
+    return STEIF_OK;
   }
   return steif_fail(
     ctx, STEIF_UNSUPPORTED,
@@ -238,23 +233,59 @@ static int check(steif_context *ctx, const char *text, const steif_problem *p)
     text);
 }
 
-int slice_build(steif_context *ctx, const char *text, MPI_Comm comm, parallel_problem **out)
+static int check_index(steif_context *ctx, const char *text, const slice *s, int index)
 {
-  int rank, size;
-  MPI_Comm_rank(comm, &rank), MPI_Comm_size(comm, &size);
-  slice *s = steif_allocate(ctx, 1, sizeof *s);
-  if (!s) return STEIF_NO_MEMORY;
-  *out = &s->public;
-  s->public.release = release;
+  if (index > 2)
+    return steif_fail(
+      ctx, STEIF_UNSUPPORTED,
+      "'%s' has index %d: over ranks linear systems are solved by iteration, which is not "
+      "accurate enough for more than 2; solve it in one process",
+      text, index);
+  if (index == 2 && s->whole.break_count > 0)
+    return steif_fail(
+      ctx, STEIF_UNSUPPORTED,
+      "'%s' has index 2 and f a break at t = %g, where unknowns may jump, which is not looked "
+      "at over ranks; solve it in one process",
+      text, s->whole.breaks[0]);
+  return STEIF_OK;
+}
+
+static int build(steif_context *ctx, const char *text, slice *s)
+{
   if (steif_problem_find(ctx, text, &s->whole)) return steif_status(ctx);
   if (check(ctx, text, &s->whole)) return steif_status(ctx);
   s->n = s->whole.n;
-  s->first = s->n * rank / size, s->rows = s->n * (rank + 1) / size - s->first;
-  s->public.rows = s->rows;
   s->wide = N_VNew_Serial(s->n, steif_sundials(ctx));
   if (!s->wide) return steif_fail(ctx, STEIF_NO_MEMORY, "no memory for '%s'", text);
   N_VConst(0, s->wide);
-  const int code = cut(ctx, s);
-  if (!code) describe(s);
+  return STEIF_OK;
+}
+
+static int start_and_rows(steif_context *ctx, const char *text, N_Vector one, slice *s,
+                          slice_start *all)
+{
+  int code = slice_start_find(ctx, &s->whole, one, all);
+  if (!code) code = check_index(ctx, text, s, all->most);
+  if (!code) code = cut(ctx, s, all);
+  memcpy(s->public.message, all->message, sizeof s->public.message);
+  if (!code) describe(s, all->most);
+  return code;
+}
+
+int slice_build(steif_context *ctx, const char *text, N_Vector one, parallel_problem **out)
+{
+  int rank, size;
+  slice_start all = {.most = 0};
+  MPI_Comm_rank(NV_COMM_P(one), &rank), MPI_Comm_size(NV_COMM_P(one), &size);
+  slice *s = steif_allocate(ctx, 1, sizeof *s);
+  int code = steif_agree(ctx, one, s ? build(ctx, text, s) : STEIF_NO_MEMORY);
+  if (!s) return code;
+  *out = &s->public;
+  s->public.release = release;
+  if (code) return code;
+  s->first = s->n * rank / size, s->rows = s->n * (rank + 1) / size - s->first;
+  s->public.rows = s->rows;
+  code = start_and_rows(ctx, text, one, s, &all);
+  slice_start_clear(ctx, &all);
   return code;
 }

@@ -98,6 +98,30 @@ int stf_look_at_start(steif_solver *s, int form)
   return STEIF_OK;
 }
 
+/* Unknowns of index 2 that are spread over ranks are shown as the method has them, and nothing computes them anew: those
+ * of stages of low order beside others, and of methods that are not stiffly accurate, have a few digits only (Hairer and
+ * Wanner, Solving ODEs II, VII.4), which the estimates of their errors do not see. */
+int stf_look_at_orders(steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const N_Vector like = s->options.like;
+  const steif_table *T = s->step.table;
+  const bool good =
+    !T || T->s == 1 ||
+    (T->claims & STEIF_STIFFLY_ACCURATE && (T->stage_order >= T->s || T->stage_order > 2));
+  bool any = !p->index && p->dae_index > 1;
+  STEIF_TRY(stf_agreed_gate(s));
+  if (!like || !stf_spread(like) || good) return STEIF_OK;
+  for (sunindextype i = 0; p->index && i < s->step.system.space.rows; i++)
+    any |= p->index[i] > 1;
+  stf_agree_any(like, 1, &any);
+  STEIF_CHECK(!any, s->ctx, STEIF_UNSUPPORTED,
+              "'%s' has unknowns of index 2 to a few digits only, and over ranks they are not "
+              "computed anew: take radau or bdf",
+              s->method);
+  return STEIF_OK;
+}
+
 const steif_repair *steif_initial_used(const steif_solver *s)
 {
   return s ? &s->repair.report : NULL;
