@@ -87,7 +87,32 @@ static void specs(void)
   steif_context_free(&ctx);
 }
 
+/* A name that the varied problem has not is told as by steif_problem_find; of several the wrong one is named. */
+static void other_forms(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem p, q;
+  const char *const both[] = {"mu", "eps"}, *const turned[] = {"eps", "mu"};
+  const char *const wrong[] = {"mu", "mu2"}, *const last[] = {"mu2", "mu"};
+  const double value[] = {10, 1};
+  CHECK(steif_problem_find(ctx, "vdpol", &p) == STEIF_OK);
+  CHECK(steif_problem_vary(ctx, &p, 2, both, value, &q) == STEIF_BAD_INPUT);
+  CHECK(strstr(steif_message(ctx), "not both") && !q.name && !q.user);
+  CHECK(steif_problem_vary(ctx, &p, 2, turned, value, &q) == STEIF_BAD_INPUT);
+  CHECK(strstr(steif_message(ctx), "not both"));
+  CHECK(steif_problem_vary(ctx, &p, 2, wrong, value, &q) == STEIF_UNKNOWN_NAME);
+  CHECK(strstr(steif_message(ctx), "no parameter 'mu2'") && !q.name && !q.user);
+  CHECK(steif_problem_vary(ctx, &p, 2, last, value, &q) == STEIF_UNKNOWN_NAME);
+  CHECK(strstr(steif_message(ctx), "no parameter 'mu2'"));
+  CHECK(steif_problem_vary(ctx, &p, 1, both, value, &q) == STEIF_OK);
+  CHECK(q.parameters->count == 1 && q.parameters->value[0] == 10 && q.t1 == 50);
+  steif_problem_clear(ctx, &q);
+  steif_problem_clear(ctx, &p);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_varied[] = {{"models, all values at once", models},
                                  {"numbers of problems, which leave no reference", numbers},
                                  {"parameters of specs", specs},
+                                 {"names that the varied problem has not", other_forms},
                                  CU_TEST_INFO_NULL};

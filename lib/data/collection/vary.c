@@ -5,6 +5,7 @@
 #include <math.h>
 #include <steif/parameters.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The number of a name among the parameters; -1: it is none of them. */
@@ -55,6 +56,52 @@ static int find_again(steif_context *ctx, const steif_spec *spec, steif_problem 
   return code;
 }
 
+/* The first of the names that are no parameters of `like` that its spec does not take: each of them alone. */
+static int no_parameter(steif_context *ctx, const steif_problem *like, int count,
+                        const char *const *name, const sunrealtype *value)
+{
+  int code = STEIF_OK;
+  for (int i = 0; i < count && code != STEIF_UNKNOWN_NAME; i++) {
+    steif_spec spec;
+    steif_problem alone;
+    if (place_of(like, name[i]) >= 0) continue;
+    STEIF_TRY(steif_spec_parse(ctx, like->name, &spec));
+    code = set_word(ctx, &spec, name[i], value[i]);
+    if (!code) code = find_again(ctx, &spec, &alone);
+    if (!code) steif_problem_clear(ctx, &alone);
+    if (code == STEIF_UNKNOWN_NAME && like->parameters)
+      steif_parameter_find(ctx, like, name[i]); /* these are meant: the nearest of them */
+  }
+  return code;
+}
+
+/* Are these words in the spec, with their values? */
+static bool says(const steif_spec *spec, const char *name, sunrealtype value)
+{
+  const char *word = stf_spec_word(spec, name);
+  return word && strtod(word, NULL) == value;
+}
+
+/* Names that *out has not are words of the spec, which takes them or says why not: a parameter that `like` has may
+ * be missing where another word of the spec has changed the form. */
+static int find_with_all(steif_context *ctx, steif_spec *spec, int count,
+                         const char *const *name, const sunrealtype *value, steif_problem *out)
+{
+  for (bool more = true; more;) {
+    more = false;
+    STEIF_TRY(find_again(ctx, spec, out));
+    for (int i = 0; i < count; i++) {
+      if (place_of(out, name[i]) >= 0 || says(spec, name[i], value[i])) continue;
+      const int code = set_word(ctx, spec, name[i], value[i]);
+      if (code) steif_problem_clear(ctx, out);
+      STEIF_TRY(code);
+      more = true;
+    }
+    if (more) steif_problem_clear(ctx, out);
+  }
+  return STEIF_OK;
+}
+
 /* What was published belongs to the values that the problem comes with. */
 static int set_values(steif_context *ctx, steif_problem *p, int count, const char *const *name,
                       const sunrealtype *value)
@@ -80,12 +127,14 @@ static int vary_spec(steif_context *ctx, const steif_problem *like, int count,
                   like->name, name[i]);
       STEIF_TRY(set_word(ctx, &spec, name[i], value[i]));
     }
-  const int code = find_again(ctx, &spec, out);
-  for (int i = 0; code == STEIF_UNKNOWN_NAME && like->parameters && i < count; i++)
-    if (steif_parameter_find(ctx, like, name[i]) < 0)
-      break; /* these are meant: the nearest of them */
-  if (code) return code;
-  return set_values(ctx, out, count, name, value);
+  int code = find_with_all(ctx, &spec, count, name, value, out);
+  if (code == STEIF_UNKNOWN_NAME) {
+    const int why = no_parameter(ctx, like, count, name, value);
+    return why ? why : find_with_all(ctx, &spec, count, name, value, out);
+  }
+  if (!code) code = set_values(ctx, out, count, name, value);
+  if (code) steif_problem_clear(ctx, out);
+  return code;
 }
 
 int steif_problem_vary(steif_context *ctx, const steif_problem *like, int count,
