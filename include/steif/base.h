@@ -56,7 +56,8 @@ enum steif_code {
 
 typedef struct steif_context steif_context;
 
-/* What a context may be given; {0} or NULL means the C allocator and all cores. */
+/* What a context may be given; {0} or NULL means the C allocator and all cores. allocate and release are called by
+ * several threads at once where contexts of several threads have them, as those of steif_ensemble. */
 typedef struct steif_setup {
   void *(*allocate)(size_t bytes, void *user); /* must return NULL on failure, never abort */
   void (*release)(void *block, void *user);    /* accepts NULL */

@@ -15,10 +15,15 @@
  *   int code = steif_ensemble(ctx, 40000, member, done, &e);
  *
  * Members are numbered 0 .. count - 1. Each worker is a thread with a context, a problem and a solver of its
- * own; contexts are made with setup.threads = 1. A worker takes chunks of consecutive members,
- * max(1, min(64, count / (32 workers))) at a time. What becomes of a member depends on its number only, not on the
- * worker: the records have the same bits for any number of workers, and `row` gets them in the order of the
- * numbers while the others run. No more than a window of some chunks is kept.
+ * own; contexts are made with setup.threads = 1, and with allocate, release and user of the setup of ctx: an
+ * allocator of the caller is used by all workers at once, and has to bear that. A worker takes chunks of consecutive
+ * members, max(1, min(64, count / (32 workers))) at a time, and fewer where they would take more than 0.1 s. What
+ * becomes of a member depends on its number only, not on the worker: the records have the same bits for any number
+ * of workers, and `row` gets them in the order of the numbers while the others run.
+ *
+ * Records wait for those before them in a window: 4 of these chunks for each worker or, where that is more, as many
+ * records as fit into 16 MiB. Where it is full the workers wait for the member at its head. A process that is killed
+ * loses the records that wait: put long members last, or give them max_seconds.
  *
  * A member that fails does not stop the others: `done` gets its code, the context the sentence. One that runs away
  * is ended by options.max_seconds, its own clock.
@@ -33,8 +38,8 @@
 extern "C" {
 #endif
 
-/* Prepare member i: change *problem and *options, or replace *problem by one of steif_problem_find,
- * steif_problem_vary or steif_model_parse in this context, which is cleared afterwards. Both arrive as they were
+/* Prepare member i: change *problem, but for `build` and `destroy`, and *options, or replace *problem by one of
+ * steif_problem_find, steif_problem_vary or steif_model_parse in this context, which is cleared afterwards. Both arrive as they were
  * before the first member; only what pointers lead to keeps the changes of earlier members of this worker: set
  * all of that every time. Called by several threads at once, with contexts of their own. A code other than 0 is the
  * member's own failure, `done` hears of it. */
@@ -69,7 +74,8 @@ typedef struct steif_ensemble_options {
    * finished ones still reach `row`, with gaps in the numbers. */
   const volatile int *stop;
   /* For workers elsewhere that share the members, as ranks: the first of the next `chunk` numbers that nobody
-   * has taken, ascending from call to call; beyond count: there are none. Called by one thread at a time.
+   * has taken, ascending from call to call; beyond count: there are none. chunk differs from call to call. Called by
+   * one thread at a time.
    * NULL: 0, chunk, 2 chunk ... */
   long long (*take)(long long chunk, void *queue);
   void *queue;
@@ -81,9 +87,10 @@ typedef struct steif_ensemble_options {
   void *reserved[6];  /* 0 */
 } steif_ensemble_options;
 
-/* STEIF_OK: every member was run, whatever came of it. STEIF_STOPPED: stop was set. STEIF_BAD_INPUT: no members,
- * no callback, points without `at`; a time outside a member's interval is that member's failure; codes of opening the problem; the code of `done` or `at`, STEIF_CALLBACK for `row`. Threads that
- * cannot be had leave their share to the others. */
+/* STEIF_OK: every member was run, whatever came of it. STEIF_STOPPED: stop was set. STEIF_BAD_INPUT: no context,
+ * no members, no callback, points without `at`; a time outside a member's interval is that member's failure; codes of
+ * opening the problem; the code of `done` or `at`, STEIF_CALLBACK for `row`. Threads that cannot be had leave their
+ * share to the others. */
 STEIF_EXPORT int steif_ensemble(steif_context *ctx, long long count, steif_member member,
                                 steif_member_done done, const steif_ensemble_options *options);
 

@@ -152,6 +152,24 @@ static void members_bring_problems(void)
   }
 }
 
+/* A member may change every member of its problem, its name as well. */
+static int rename_it(steif_context *ctx, long long i, steif_problem *p, steif_options *o,
+                     void *user)
+{
+  p->name = "mine";
+  return set_rates(ctx, i, p, o, user);
+}
+
+static void members_may_be_renamed(void)
+{
+  static collected named, plain;
+  named = plain = (collected){0};
+  CHECK(sweep(2, "rober", MEMBERS, set_rates, &plain) == STEIF_OK);
+  CHECK(sweep(2, "rober", MEMBERS, rename_it, &named) == STEIF_OK);
+  for (int i = 0; i < MEMBERS; i++)
+    CHECK(!memcmp(named.of[i].y, plain.of[i].y, sizeof plain.of[i].y));
+}
+
 static void stops_keep_what_is_finished(void)
 {
   static collected all, some;
@@ -193,6 +211,7 @@ static void bad_input(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   steif_ensemble_options e = {.problem = "rober"};
+  CHECK(steif_ensemble(NULL, 1, set_rates, keep, &e) == STEIF_BAD_INPUT);
   CHECK(steif_ensemble(ctx, 0, set_rates, keep, &e) == STEIF_BAD_INPUT);
   CHECK(strstr(steif_message(ctx), "0 members"));
   CHECK(steif_ensemble(ctx, 1, NULL, keep, &e) == STEIF_BAD_INPUT);
@@ -206,45 +225,64 @@ static void bad_input(void)
   steif_context_free(&ctx);
 }
 
-/* Every allocation of the ensemble's own context fails once. */
+/* An allocator for several threads, whose allocation number `left` fails. */
 typedef struct purse {
-  int left, out;
+  atomic_int left, out, calls;
 } purse;
 
 static void *grant(size_t bytes, void *user)
 {
   purse *p = user;
-  void *block = p->left-- == 0 ? NULL : malloc(bytes);
-  p->out += block != NULL;
+  void *block = atomic_fetch_sub(&p->left, 1) == 0 ? NULL : malloc(bytes);
+  atomic_fetch_add(&p->out, block != NULL);
+  atomic_fetch_add(&p->calls, 1);
   return block;
 }
 
 static void give_back(void *block, void *user)
 {
-  ((purse *)user)->out -= block != NULL;
+  atomic_fetch_sub(&((purse *)user)->out, block != NULL);
   free(block);
 }
 
+static int few_members(purse *p, int fails, collected *c)
+{
+  p->left = -1;
+  steif_context *ctx = steif_context_new(
+    &(steif_setup){.allocate = grant, .release = give_back, .user = p, .threads = 2});
+  const int before = p->out;
+  const steif_ensemble_options e = {
+    .problem = "rober", .record = sizeof(row), .row = take_row, .user = c};
+  p->left = fails;
+  *c = (collected){0};
+  const int code = steif_ensemble(ctx, 8, set_rates, keep, &e);
+  CHECK(p->out == before);
+  steif_context_free(&ctx);
+  CHECK(p->out == 0);
+  return code;
+}
+
+/* What workers allocate is of the caller's allocator: one that fails is a member's failure, or the end of the
+ * ensemble where its own memory is short. */
 static void short_memory(void)
 {
-  static collected c;
-  int code = STEIF_NO_MEMORY, turns = 0;
-  for (int k = 0; code; k++, turns++) {
-    purse p = {.left = -1};
-    steif_context *ctx = steif_context_new(
-      &(steif_setup){.allocate = grant, .release = give_back, .user = &p, .threads = 2});
-    const int before = p.out;
-    const steif_ensemble_options e = {
-      .problem = "rober", .record = sizeof(row), .row = take_row, .user = &c};
-    p.left = k;
-    c = (collected){0};
-    code = steif_ensemble(ctx, 8, set_rates, keep, &e);
+  static collected c, good;
+  purse all = {0};
+  CHECK(few_members(&all, -1, &good) == STEIF_OK && good.rows == 8);
+  CHECK(all.calls > 200);
+  int ended = 0, failed = 0;
+  for (int k = 0; k < all.calls; k += 1 + k / 8) {
+    purse p = {0};
+    const int code = few_members(&p, k, &c);
     CHECK(code == STEIF_OK || code == STEIF_NO_MEMORY);
-    CHECK(p.out == before && (code || c.rows == 8));
-    steif_context_free(&ctx);
-    CHECK(p.out == 0);
+    ended += code == STEIF_NO_MEMORY;
+    CHECK(code || c.rows == 8);
+    for (int i = 0; !code && i < 8; i++) {
+      failed += c.of[i].code != 0;
+      CHECK(c.of[i].code == STEIF_NO_MEMORY || !memcmp(&c.of[i], &good.of[i], sizeof(row)));
+    }
   }
-  CHECK(turns > 2);
+  CHECK(ended > 2 && failed > 2);
 }
 
 /* Two ensembles as two ranks share one counter: together they run each member once, with the same bits. */
@@ -315,6 +353,8 @@ static void numbers_are_uniform(void)
     neighbour += u * (steif_ensemble_uniform(5, i + 1) - 0.5);
     seeds += u * (steif_ensemble_uniform(6, i) - 0.5);
   }
+  /* The largest of all 2^53 numbers: 1 - 2^-54 is no number of this precision. */
+  CHECK(steif_ensemble_uniform(1080776227074132637ULL, 0) == 1 - 0x1p-53);
   CHECK(fabs(sum / N) < 5 * sqrt(1. / 12 / N));
   CHECK(fabs(square / N - 1. / 12) < 5 * sqrt(1. / 180 / N));
   CHECK(fabs(neighbour / N) < 5. / 12 / sqrt(N) && fabs(seeds / N) < 5. / 12 / sqrt(N));
@@ -325,6 +365,7 @@ CU_TestInfo tests_of_ensembles[] = {
   {"members are what they are alone", as_alone},
   {"failures are rows", failures_are_rows},
   {"members may bring problems of their own", members_bring_problems},
+  {"members may be renamed", members_may_be_renamed},
   {"a stop keeps finished members", stops_keep_what_is_finished},
   {"done can end it", callbacks_can_end_it},
   {"row can end it", rows_can_be_refused},

@@ -4,6 +4,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <steif/collection.h>
+#include <time.h>
 
 enum { WORKERS = 64 };
 
@@ -16,10 +17,24 @@ typedef struct worker {
   pthread_t thread;
 } worker;
 
-/* A problem that the member has put in the place of ours has a name of its own. */
+/* Stands in `build` of the problem that a member gets: what has another one there was put in its place, whatever else
+ * the member has changed. */
+static int lent(steif_context *ctx, const steif_spec *spec, steif_problem *self)
+{
+  (void)spec;
+  return STEIF_FAIL(ctx, STEIF_UNSUPPORTED, "problem '%s' is made already", self->name);
+}
+
+static steif_problem lend(const steif_problem *like)
+{
+  steif_problem p = *like;
+  if (p.build) p.build = lent;
+  return p;
+}
+
 static void clear_own(steif_context *ctx, const steif_problem *like, steif_problem *p)
 {
-  if (p->build && p->name != like->name) steif_problem_clear(ctx, p);
+  if (p->build && p->build != lent && p->name != like->name) steif_problem_clear(ctx, p);
 }
 
 static void end_by(stf_queue *q, int code, const char *callback, long long i)
@@ -77,7 +92,7 @@ static void run_member(worker *w, long long i, long long place)
   stf_queue *q = w->queue;
   void *record = stf_queue_slot(q, place, i);
   if (!record) return;
-  steif_problem p = w->like;
+  steif_problem p = lend(&w->like);
   steif_solver *s = NULL;
   const int code = integrate(w, i, &p, &s, record);
   const bool given_up =
@@ -89,19 +104,30 @@ static void run_member(worker *w, long long i, long long place)
   stf_queue_ready(q, place, !given_up && !told);
 }
 
+static double now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
 static void *work(void *argument)
 {
   worker *w = argument;
-  for (stf_share share; (share = stf_queue_take(w->queue)).count > 0;)
+  long long chunk = 1;
+  for (stf_share share; (share = stf_queue_take(w->queue, chunk)).count > 0;) {
+    const double before = now();
     for (long long k = 0; k < share.count && !stf_queue_ended(w->queue); k++)
       run_member(w, share.first + k, share.place + k);
+    chunk = stf_queue_fit(w->queue, share.count, now() - before);
+  }
   return NULL;
 }
 
 static int worker_open(steif_context *ctx, worker *w)
 {
   const steif_ensemble_options *e = w->queue->e;
-  const steif_setup alone = {.threads = 1};
+  const steif_setup alone = stf_setup_alone(ctx);
   w->ctx = steif_context_new(&alone);
   if (!w->ctx) return STEIF_FAIL(ctx, STEIF_NO_MEMORY, "no memory for the context of a worker");
   if (e->like) w->like = *e->like;
@@ -139,6 +165,7 @@ static int run_all(steif_context *ctx, stf_queue *q, worker *w, int threads)
 int steif_ensemble(steif_context *ctx, long long count, steif_member member,
                    steif_member_done done, const steif_ensemble_options *e)
 {
+  if (!ctx) return STEIF_BAD_INPUT;
   STEIF_CHECK(member && done && e, ctx, STEIF_BAD_INPUT,
               "an ensemble needs callbacks for its members and what they give, and options");
   STEIF_CHECK(count > 0, ctx, STEIF_BAD_INPUT, "an ensemble has %lld members; 1 is the least",
@@ -172,5 +199,6 @@ sunrealtype steif_ensemble_uniform(unsigned long long seed, unsigned long long c
 {
   const uint64_t gamma = UINT64_C(0x9e3779b97f4a7c15);
   const uint64_t z = scramble(scramble(seed + gamma) + (counter + 1) * gamma);
-  return ((sunrealtype)(z >> 11) + 0.5) / 9007199254740992.0;
+  const sunrealtype u = ((sunrealtype)(z >> 11) + 0.5) / 9007199254740992.0;
+  return u < 1 ? u : 1 - 1 / 9007199254740992.0; /* the largest of them rounds to 1 */
 }

@@ -4,14 +4,26 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LARGEST_CHUNK = 64, SHARES = 32, CHUNKS_KEPT = 4 };
+enum { LARGEST_CHUNK = 64, SHARES = 32, CHUNKS_KEPT = 4, WINDOW = 16 << 20 };
+static const double chunk_seconds = 0.1;
+
+/* Places of the window: some chunks of every worker, and as many as fit into WINDOW bytes, so that a slow member at the
+ * head does not stop the others. */
+static long long room_of(const stf_queue *q, int threads)
+{
+  const size_t record = q->e->record;
+  const long long least = CHUNKS_KEPT * q->chunk * threads;
+  const long long fit = record < WINDOW ? WINDOW / (long long)(record + sizeof *q->place) : 0;
+  const long long room = fit > least ? fit : least;
+  return room < q->count ? room : q->count;
+}
 
 int stf_queue_open(steif_context *ctx, stf_queue *q, int threads)
 {
   const int workers = q->e->take && q->e->workers > threads ? q->e->workers : threads;
   const long long fair = q->count / ((long long)SHARES * workers);
   q->chunk = fair < 1 ? 1 : fair > LARGEST_CHUNK ? LARGEST_CHUNK : fair;
-  q->room = CHUNKS_KEPT * q->chunk * threads;
+  q->room = room_of(q, threads);
   q->place = stf_allocate(ctx, (size_t)q->room, sizeof *q->place);
   q->record = stf_allocate(ctx, (size_t)q->room, q->e->record ? q->e->record : 1);
   if (!q->place || !q->record) {
@@ -47,14 +59,22 @@ static bool ended(stf_queue *q)
   return q->code;
 }
 
-stf_share stf_queue_take(stf_queue *q)
+long long stf_queue_fit(const stf_queue *q, long long members, double seconds)
+{
+  const double fit = chunk_seconds * (double)members;
+  return fit >= seconds * (double)q->chunk ? q->chunk
+         : fit > seconds                   ? (long long)(fit / seconds)
+                                           : 1;
+}
+
+stf_share stf_queue_take(stf_queue *q, long long chunk)
 {
   stf_share share = {0};
   pthread_mutex_lock(&q->lock);
   if (!ended(q)) {
-    share.first = q->e->take ? q->e->take(q->chunk, q->e->queue) : q->next;
+    share.first = q->e->take ? q->e->take(chunk, q->e->queue) : q->next;
     const long long left = q->count - share.first;
-    share.count = left < 0 ? 0 : left < q->chunk ? left : q->chunk;
+    share.count = left < 0 ? 0 : left < chunk ? left : chunk;
     share.place = q->taken;
     q->next = share.first + share.count;
     q->taken += share.count;

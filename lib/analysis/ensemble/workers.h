@@ -20,7 +20,7 @@ typedef struct stf_queue {
   const steif_ensemble_options *e;
   steif_member member;
   steif_member_done done;
-  long long count, chunk, next;
+  long long count, chunk, next; /* chunk: the largest */
   long long taken, delivered; /* places */
   long long room;
   stf_place *place;
@@ -39,7 +39,10 @@ typedef struct stf_share {
 
 int stf_queue_open(steif_context *ctx, stf_queue *q, int threads);
 void stf_queue_close(steif_context *ctx, stf_queue *q);
-stf_share stf_queue_take(stf_queue *q);
+stf_share stf_queue_take(stf_queue *q, long long chunk);
+/* How many members are the next chunk of a worker whose last `members` have taken these seconds: q->chunk, and fewer
+ * where they take long. */
+long long stf_queue_fit(const stf_queue *q, long long members, double seconds);
 /* The record of a place, zeroed; waits for a slot. NULL: the ensemble has ended. */
 void *stf_queue_slot(stf_queue *q, long long place, long long index);
 /* The member of a place has been run, or given up; what can be delivered is. */

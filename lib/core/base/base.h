@@ -50,6 +50,8 @@ int stf_threads(const steif_context *ctx);
 struct steif_team;
 const struct steif_team *stf_team(const steif_context *ctx, long long *number);
 void stf_context_lead(steif_context *ctx, const struct steif_team *team);
+/* For a context of another thread: memory from where that of this one is from, and one thread. */
+steif_setup stf_setup_alone(const steif_context *ctx);
 
 /* A pool owns blocks and vectors that live and die together. Claims return NULL with the message
  * set; stf_pool_free accepts NULL and half-built pools. */

@@ -115,6 +115,13 @@ void stf_context_lead(steif_context *ctx, const struct steif_team *team)
 
 int stf_threads(const steif_context *ctx) { return ctx->setup.threads; }
 
+steif_setup stf_setup_alone(const steif_context *ctx)
+{
+  steif_setup s = ctx->setup;
+  s.threads = 1;
+  return s;
+}
+
 long stf_failures(const steif_context *ctx) { return ctx->failures; }
 
 bool stf_silence(steif_context *ctx, bool silent)
