@@ -140,6 +140,16 @@ void stf_start_inertia(const stf_view *v, sunrealtype *weight)
   }
 }
 
+/* Where test S certifies the structure the others have no say in the start. */
+static int find_evidence(stf_point *s, stf_evidence *e, steif_diagnosis *d)
+{
+  *e = (stf_evidence){.point = s};
+  STEIF_TRY(stf_evidence_structure(e));
+  if (stf_evidence_certified(e)) return STEIF_OK;
+  stf_evidence_free(e);
+  return stf_diagnose(s, e, d);
+}
+
 /* request NULL: weights by inertia. */
 static int find(stf_point *s, const steif_request *request, steif_start *start)
 {
@@ -148,7 +158,7 @@ static int find(stf_point *s, const steif_request *request, steif_start *start)
   steif_request inertia = {0};
   sunrealtype *weight = stf_pool_array(s->pool, s->n, sizeof *weight);
   if (!weight) return STEIF_NO_MEMORY;
-  int code = stf_diagnose(s, &evidence, &d);
+  int code = find_evidence(s, &evidence, &d);
   if (!code && !request) {
     stf_start_inertia(&evidence.view, weight);
     inertia.weight = weight;

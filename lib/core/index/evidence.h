@@ -67,10 +67,12 @@ int stf_evidence_offsets(stf_evidence *evidence);
 int stf_evidence_growth(stf_evidence *evidence);
 /* the system Jacobian alone at each; */
 int stf_evidence_regular(stf_evidence *evidence);
-/* one point more, on all constraints, if the structure is certified; */
-int stf_evidence_consistent(stf_evidence *evidence);
+/* one point more, on all constraints, if the structure is certified, with test G or without; */
+int stf_evidence_consistent(stf_evidence *evidence, bool growth);
 /* test D, where the others do not agree or it is cheap. */
 int stf_evidence_arrays(stf_evidence *evidence);
+/* Test S alone, at all these points: what a start needs whose structure is certified. */
+int stf_evidence_structure(stf_evidence *evidence);
 /* Is the system Jacobian regular at all points? */
 bool stf_evidence_certified(const stf_evidence *evidence);
 /* The reciprocal condition of the system Jacobian that certifies it at this point; the smallest of all points. */

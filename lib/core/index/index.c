@@ -1,5 +1,6 @@
 /* index.c: the index of a problem at a point: all of the diagnosis on one page.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "component_numbers.h"
 #include "evidence.h"
 
 const char *steif_confidence_name(enum steif_confidence confidence)
@@ -46,7 +47,7 @@ int stf_diagnose(stf_point *point, stf_evidence *e, steif_diagnosis *d)
   STEIF_TRY(stf_evidence_growth(e));
   const bool enough = e->points >= 3 || point->system.linear;
   if (!point->brief || !enough || !stf_evidence_agrees(e)) {
-    STEIF_TRY(stf_evidence_consistent(e));
+    STEIF_TRY(stf_evidence_consistent(e, true));
     STEIF_TRY(stf_evidence_arrays(e));
   }
   const stf_summary summary = stf_summarise(e);
@@ -55,15 +56,14 @@ int stf_diagnose(stf_point *point, stf_evidence *e, steif_diagnosis *d)
   return STEIF_OK;
 }
 
-int steif_diagnose(steif_context *ctx, const steif_problem *problem, const steif_point *where,
-                   steif_diagnosis *d)
+static int diagnose(steif_context *ctx, const steif_problem *problem, const steif_point *where,
+                    bool brief, steif_diagnosis *d)
 {
-  STF_NAMED(problem);
   stf_point point;
   stf_evidence evidence;
-  STEIF_CHECK(d, ctx, STEIF_BAD_INPUT, "a place for the diagnosis is needed, got NULL");
   *d = (steif_diagnosis){.index = -1};
   STEIF_TRY(stf_point_open(ctx, problem, where, &point));
+  point.brief = brief;
   const int code = stf_diagnose(&point, &evidence, d);
   stf_evidence_free(&evidence);
   stf_point_close(&point);
@@ -72,4 +72,18 @@ int steif_diagnose(steif_context *ctx, const steif_problem *problem, const steif
   else
     steif_forget(ctx); /* of the points where callbacks failed */
   return code;
+}
+
+int stf_index_of_components(steif_context *ctx, const steif_problem *problem,
+                            steif_diagnosis *d)
+{
+  return diagnose(ctx, problem, NULL, true, d);
+}
+
+int steif_diagnose(steif_context *ctx, const steif_problem *problem, const steif_point *where,
+                   steif_diagnosis *d)
+{
+  STF_NAMED(problem);
+  STEIF_CHECK(d, ctx, STEIF_BAD_INPUT, "a place for the diagnosis is needed, got NULL");
+  return diagnose(ctx, problem, where, false, d);
 }

@@ -139,6 +139,14 @@ int stf_evidence_growth(stf_evidence *e)
   return STEIF_OK;
 }
 
+int stf_evidence_structure(stf_evidence *e)
+{
+  STEIF_TRY(stf_evidence_points(e));
+  STEIF_TRY(stf_evidence_offsets(e));
+  STEIF_TRY(stf_evidence_regular(e));
+  return stf_evidence_consistent(e, false);
+}
+
 sunrealtype stf_evidence_regular_rcond(const stf_point *s)
 {
   return s->analytic ? STF_REGULAR_EXACT : STF_REGULAR_RCOND;
@@ -159,7 +167,7 @@ bool stf_evidence_certified(const stf_evidence *e)
 
 /* Of constant matrices all points are alike; where the structure is not certified there are no stages.
  * A point that brings new entries would need another structure. */
-int stf_evidence_consistent(stf_evidence *e)
+int stf_evidence_consistent(stf_evidence *e, bool growth)
 {
   const stf_point *s = e->point;
   const int before = e->points;
@@ -167,7 +175,8 @@ int stf_evidence_consistent(stf_evidence *e)
   const bool small = s->n <= STEIF_DIAGNOSE_LARGEST;
   if (!small || s->system.linear || !stf_evidence_certified(e)) return STEIF_OK;
   STEIF_TRY(add_consistent(e));
-  if (e->points > before && e->view.column[s->n] == entries) return measure(e, before);
+  if (e->points > before && e->view.column[s->n] == entries)
+    return growth ? measure(e, before) : measure_jacobian(e, before);
   e->points = before;
   return STEIF_OK;
 }

@@ -1,5 +1,6 @@
 /* fulfilled_start.c: start values that fulfil the equations, and the index of
  * the components. SPDX-License-Identifier: BSD-3-Clause */
+#include "component_numbers.h"
 #include "model.h"
 #include <math.h>
 #include <steif/consistent.h>
@@ -91,7 +92,7 @@ static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *att
 static int index_of_components(stf_model *m, steif_problem *p)
 {
   steif_diagnosis d = {0};
-  int code = steif_diagnose(m->ctx, p, NULL, &d);
+  int code = stf_index_of_components(m->ctx, p, &d);
   p->dae_index = -1;
   if (!code && d.index >= 0) {
     int *index = stf_pool_array(m->pool, (size_t)m->n, sizeof *index);
