@@ -29,7 +29,9 @@ STEIF_EXPORT void steif_problem_clear(steif_context *ctx, steif_problem *problem
  * depends on these values only. Of a model, parameters of its text, all at once; else numbers of
  * problem.parameters, or parameters of the spec, "mu" of vdpol:mu=30. Values of problem.parameters leave neither
  * reference nor exact solution: these belong to the published ones. On failure *out is zero;
- * STEIF_UNKNOWN_NAME: the problem has no such parameter. */
+ * STEIF_UNKNOWN_NAME: the problem has no such parameter; STEIF_BAD_INPUT: values that are out of range, and names that
+ * exclude each other, as mu and eps of vdpol. Of a model the start that fulfils the equations is found for these
+ * values, with the bits of a problem that is read with them. */
 STEIF_EXPORT int steif_problem_vary(steif_context *ctx, const steif_problem *like, int count,
                                     const char *const *name, const sunrealtype *value,
                                     steif_problem *out);

@@ -2,8 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "suite.h"
 
-extern CU_TestInfo tests_of_ensembles[], tests_of_points[], tests_of_varied[],
-  tests_of_queue[];
+extern CU_TestInfo tests_of_ensembles[], tests_of_points[], tests_of_varied[], tests_of_queue[];
 
 SUITE_MAIN({.pName = "ensembles", .pTests = tests_of_ensembles},
            {.pName = "points", .pTests = tests_of_points},

@@ -111,8 +111,54 @@ static void other_forms(void)
   steif_context_free(&ctx);
 }
 
+/* Index 3 with guesses; index 1 whose structure is singular. */
+static const char rod[] =
+  "param g = 9.81, l = 1, m = 1\nstate y = 0.6, vy = 0.5, x ~ 1, vx ~ 0, f\nx' = vx\ny' = vy\n"
+  "m*vx' = -f*x\nm*vy' = -f*y - m*g\n0 = x^2 + y^2 - l^2\ntime 0 to 1\n";
+static const char amplifier[] =
+  "param c = 1e-3, r = 10\nstate u = 0, v ~ 3\nc*(u' - v') = u/r + sin(t)\n"
+  "c*(v' - u') = exp(v)/r - 2\ntime 0 to 1\n";
+
+/* A varied problem starts with the bits of one that is read with these values. */
+static void starts(const char *text, const char *name, const char *spec, double value,
+                   steif_problem *q, steif_context *ctx)
+{
+  steif_problem p, fresh;
+  steif_spec parameters;
+  CHECK(steif_spec_parse(ctx, spec, &parameters) == STEIF_OK);
+  CHECK(steif_model_parse(ctx, text, "t", NULL, &p) == STEIF_OK);
+  CHECK(steif_model_parse(ctx, text, "t", &parameters, &fresh) == STEIF_OK);
+  CHECK(steif_problem_vary(ctx, &p, 1, &name, &value, q) == STEIF_OK);
+  const size_t bytes = (size_t)p.n * sizeof *p.y0;
+  CHECK(!memcmp(q->y0, fresh.y0, bytes) && memcmp(q->y0, p.y0, bytes));
+  CHECK(q->yp0 && fresh.yp0 && !memcmp(q->yp0, fresh.yp0, bytes));
+  CHECK(q->dae_index == fresh.dae_index && q->index && fresh.index);
+  CHECK(!memcmp(q->index, fresh.index, (size_t)p.n * sizeof *q->index));
+  steif_problem_clear(ctx, &p);
+  steif_problem_clear(ctx, &fresh);
+}
+
+static void same_starts(void)
+{
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem q;
+  starts(rod, "l", "t:l=1.25", 1.25, &q, ctx);
+  const double x = sqrt(1.25 * 1.25 - 0.36), vx = -0.3 / x;
+  CLOSE(q.y0[2], x, 1e-15);
+  CLOSE(q.y0[3], vx, 1e-14);
+  CLOSE(q.y0[4], (vx * vx + 0.25 - 9.81 * 0.6) / (1.25 * 1.25), 1e-14);
+  CHECK(q.dae_index == 3);
+  steif_problem_clear(ctx, &q);
+  starts(amplifier, "r", "t:r=20", 20, &q, ctx);
+  CLOSE(q.y0[1], log(40), 1e-14);
+  CHECK(q.dae_index == 1);
+  steif_problem_clear(ctx, &q);
+  steif_context_free(&ctx);
+}
+
 CU_TestInfo tests_of_varied[] = {{"models, all values at once", models},
                                  {"numbers of problems, which leave no reference", numbers},
                                  {"parameters of specs", specs},
                                  {"names that the varied problem has not", other_forms},
+                                 {"the same starts as problems that are read", same_starts},
                                  CU_TEST_INFO_NULL};

@@ -21,7 +21,7 @@ typedef struct stf_queue {
   steif_member member;
   steif_member_done done;
   long long count, chunk, next; /* chunk: the largest */
-  long long taken, delivered; /* places */
+  long long taken, delivered;   /* places */
   long long room;
   stf_place *place;
   char *record;

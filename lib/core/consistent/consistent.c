@@ -2,6 +2,7 @@
  * the whole derivative array, in passes over the numbers of the unknowns.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "array_start.h"
+#include "exact_start.h"
 #include <math.h>
 #include <string.h>
 
@@ -140,34 +141,71 @@ void stf_start_inertia(const stf_view *v, sunrealtype *weight)
   }
 }
 
-/* Where test S certifies the structure the others have no say in the start. */
-static int find_evidence(stf_point *s, stf_evidence *e, steif_diagnosis *d)
-{
-  *e = (stf_evidence){.point = s};
-  STEIF_TRY(stf_evidence_structure(e));
-  if (stf_evidence_certified(e)) return STEIF_OK;
-  stf_evidence_free(e);
-  return stf_diagnose(s, e, d);
-}
-
 /* request NULL: weights by inertia. */
-static int find(stf_point *s, const steif_request *request, steif_start *start)
+static int start_from(stf_point *s, stf_evidence *e, const steif_diagnosis *d,
+                      const steif_request *request, steif_start *start)
 {
-  stf_evidence evidence;
-  steif_diagnosis d = {.index = -1};
   steif_request inertia = {0};
-  sunrealtype *weight = stf_pool_array(s->pool, s->n, sizeof *weight);
-  if (!weight) return STEIF_NO_MEMORY;
-  int code = find_evidence(s, &evidence, &d);
-  if (!code && !request) {
-    stf_start_inertia(&evidence.view, weight);
+  if (!request) {
+    sunrealtype *weight = stf_pool_array(s->pool, s->n, sizeof *weight);
+    if (!weight) return STEIF_NO_MEMORY;
+    stf_start_inertia(&e->view, weight);
     inertia.weight = weight;
     request = &inertia;
   }
-  if (!code) code = stf_start_from(&evidence, &d, request, start);
+  return stf_start_from(e, d, request, start);
+}
+
+/* By all tests of the index, of which there is no report. */
+static int find_diagnosed(stf_point *s, const steif_request *request, steif_start *start)
+{
+  stf_evidence evidence;
+  steif_diagnosis d = {.index = -1};
+  s->brief = true;
+  int code = stf_diagnose(s, &evidence, &d);
+  if (!code) code = start_from(s, &evidence, &d, request, start);
   stf_evidence_free(&evidence);
   steif_diagnosis_clear(&d);
   return code;
+}
+
+/* By stages where test S certifies the structure, at the start that is found too: the other tests have no say in it. */
+static int find_certified(stf_point *s, const steif_request *request, steif_start *start,
+                          bool *certified, bool *found)
+{
+  stf_evidence evidence = {.point = s};
+  const steif_diagnosis none = {.index = -1};
+  int code = stf_evidence_structure(&evidence);
+  *certified = !code && stf_evidence_certified(&evidence);
+  if (*certified) {
+    code = start_from(s, &evidence, &none, request, start);
+    if (!code) code = stf_evidence_certified_at(&evidence, start, found);
+    if (code || !*found) steif_start_clear(start);
+  }
+  stf_evidence_free(&evidence);
+  return code;
+}
+
+static bool may_move(const stf_point *s, const steif_request *r)
+{
+  for (size_t j = 0; j < s->n; j++)
+    if (!r || !r->attribute || r->attribute[j] != STEIF_FIXED) return true;
+  return false;
+}
+
+/* Exact derivatives may stay at a singular point, as z = 0 of z^2 = 1, which differences leave by their rounding. */
+static int find(stf_point *s, const steif_request *request, steif_start *start)
+{
+  bool certified = false, found = false;
+  int code = find_certified(s, request, start, &certified, &found);
+  if ((found && !code) || code == STEIF_NO_MEMORY) return code;
+  steif_forget(s->ctx);
+  if (certified) s->taylor = NULL;
+  code = find_diagnosed(s, request, start);
+  if (!code || code == STEIF_NO_MEMORY || !s->taylor || !may_move(s, request)) return code;
+  s->taylor = NULL;
+  steif_forget(s->ctx);
+  return find_diagnosed(s, request, start);
 }
 
 int stf_start_project(steif_context *ctx, const steif_problem *problem, const steif_point *at,
@@ -225,19 +263,27 @@ static int check_request(steif_context *ctx, const steif_problem *p, const steif
   return STEIF_OK;
 }
 
-int steif_consistent(steif_context *ctx, const steif_problem *problem,
-                     const steif_point *inquiry, const steif_request *request,
-                     steif_start *start)
+int stf_consistent_along(steif_context *ctx, const steif_problem *problem,
+                         const steif_point *inquiry, const steif_request *request,
+                         stf_taylor_of taylor, steif_start *start)
 {
-  STF_NAMED(problem);
   stf_point point;
-  STEIF_CHECK(start, ctx, STEIF_BAD_INPUT, "a place for the start is needed, got NULL");
   *start = (steif_start){0};
   STEIF_TRY(stf_point_open(ctx, problem, inquiry, &point));
+  point.taylor = taylor;
   int code = check_request(ctx, problem, request);
   static const steif_request none = {0};
   if (!code) code = find(&point, request ? request : &none, start);
   stf_point_close(&point);
   if (!code) steif_forget(ctx);
   return code;
+}
+
+int steif_consistent(steif_context *ctx, const steif_problem *problem,
+                     const steif_point *inquiry, const steif_request *request,
+                     steif_start *start)
+{
+  STF_NAMED(problem);
+  STEIF_CHECK(start, ctx, STEIF_BAD_INPUT, "a place for the start is needed, got NULL");
+  return stf_consistent_along(ctx, problem, inquiry, request, NULL, start);
 }

@@ -67,12 +67,15 @@ int stf_evidence_offsets(stf_evidence *evidence);
 int stf_evidence_growth(stf_evidence *evidence);
 /* the system Jacobian alone at each; */
 int stf_evidence_regular(stf_evidence *evidence);
-/* one point more, on all constraints, if the structure is certified, with test G or without; */
-int stf_evidence_consistent(stf_evidence *evidence, bool growth);
+/* one point more, on all constraints, if the structure is certified; */
+int stf_evidence_consistent(stf_evidence *evidence);
 /* test D, where the others do not agree or it is cheap. */
 int stf_evidence_arrays(stf_evidence *evidence);
-/* Test S alone, at all these points: what a start needs whose structure is certified. */
+/* Test S alone, at the first points: what a start needs whose structure is certified; and is it certified at the start
+ * that was found, too? */
 int stf_evidence_structure(stf_evidence *evidence);
+int stf_evidence_certified_at(stf_evidence *evidence, const steif_start *start,
+                              bool *certified);
 /* Is the system Jacobian regular at all points? */
 bool stf_evidence_certified(const stf_evidence *evidence);
 /* The reciprocal condition of the system Jacobian that certifies it at this point; the smallest of all points. */

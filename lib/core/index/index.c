@@ -47,7 +47,7 @@ int stf_diagnose(stf_point *point, stf_evidence *e, steif_diagnosis *d)
   STEIF_TRY(stf_evidence_growth(e));
   const bool enough = e->points >= 3 || point->system.linear;
   if (!point->brief || !enough || !stf_evidence_agrees(e)) {
-    STEIF_TRY(stf_evidence_consistent(e, true));
+    STEIF_TRY(stf_evidence_consistent(e));
     STEIF_TRY(stf_evidence_arrays(e));
   }
   const stf_summary summary = stf_summarise(e);

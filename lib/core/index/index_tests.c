@@ -143,8 +143,23 @@ int stf_evidence_structure(stf_evidence *e)
 {
   STEIF_TRY(stf_evidence_points(e));
   STEIF_TRY(stf_evidence_offsets(e));
-  STEIF_TRY(stf_evidence_regular(e));
-  return stf_evidence_consistent(e, false);
+  return stf_evidence_regular(e);
+}
+
+int stf_evidence_certified_at(stf_evidence *e, const steif_start *start, bool *certified)
+{
+  stf_point *s = e->point;
+  const int k = e->points;
+  const sunindextype entries = e->view.column[s->n];
+  *certified = true;
+  if (s->n > STEIF_DIAGNOSE_LARGEST || s->system.linear) return STEIF_OK;
+  STEIF_TRY(open_point(e, k));
+  e->at[k].y = start->y, e->at[k].yp = start->yp;
+  const int code = stf_view_take(s, s->t, start->y, start->yp, &e->view);
+  if (code || e->view.column[s->n] != entries) return code == STEIF_NO_MEMORY ? code : STEIF_OK;
+  STEIF_TRY(measure_jacobian(e, k));
+  *certified = e->at[k].rcond >= stf_evidence_regular_rcond(s);
+  return STEIF_OK;
 }
 
 sunrealtype stf_evidence_regular_rcond(const stf_point *s)
@@ -167,7 +182,7 @@ bool stf_evidence_certified(const stf_evidence *e)
 
 /* Of constant matrices all points are alike; where the structure is not certified there are no stages.
  * A point that brings new entries would need another structure. */
-int stf_evidence_consistent(stf_evidence *e, bool growth)
+int stf_evidence_consistent(stf_evidence *e)
 {
   const stf_point *s = e->point;
   const int before = e->points;
@@ -175,8 +190,7 @@ int stf_evidence_consistent(stf_evidence *e, bool growth)
   const bool small = s->n <= STEIF_DIAGNOSE_LARGEST;
   if (!small || s->system.linear || !stf_evidence_certified(e)) return STEIF_OK;
   STEIF_TRY(add_consistent(e));
-  if (e->points > before && e->view.column[s->n] == entries)
-    return growth ? measure(e, before) : measure_jacobian(e, before);
+  if (e->points > before && e->view.column[s->n] == entries) return measure(e, before);
   e->points = before;
   return STEIF_OK;
 }

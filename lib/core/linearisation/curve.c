@@ -62,7 +62,7 @@ int stf_curve_residual(stf_point *s, const stf_curve *c, const stf_chebyshev *ru
     stf_curve_at(c, n, sigma, y, yp);
     STEIF_TRY(stf_point_residual(s, c->t + sigma * c->tau, y, yp, values + i * n));
   }
-  for (size_t q = 0; q <= (size_t)rule->order; q++, factor /= delta)
+  for (size_t q = 0; out && q <= (size_t)rule->order; q++, factor /= delta)
     combine(n, m, rule->weight + q * m, values, factor, out + q * n);
   for (size_t j = 0; tail && j < n; j++) {
     sunrealtype last[2] = {0, 0};

@@ -29,7 +29,7 @@ typedef struct stf_curve {
 } stf_curve;
 void stf_curve_at(const stf_curve *curve, size_t n, sunrealtype sigma, sunrealtype *y,
                   sunrealtype *yp);
-/* Coefficients F_0 .. F_order (rows of out) over nodes delta * node; tail (n, or NULL):
+/* Coefficients F_0 .. F_order (rows of out, or NULL) over nodes delta * node; tail (n, or NULL):
  * size of the last two Chebyshev coefficients. `values`: m n. */
 int stf_curve_residual(stf_point *point, const stf_curve *curve, const stf_chebyshev *rule,
                        sunrealtype delta, sunrealtype *values, sunrealtype *out,

@@ -8,6 +8,10 @@
 #include "problem.h"
 #include <steif/consistent.h>
 
+/* F_0 .. F_order, rows of n, of F along y(t + s) = y_0 + y_1 s + ... + y_{order+1} s^{order+1}; > 0: there is no series. */
+typedef int (*stf_taylor_of)(steif_context *ctx, const steif_problem *problem, sunrealtype t,
+                             int order, const sunrealtype *y, sunrealtype *F);
+
 /* A problem to look at. Reals are host arrays of n values throughout. */
 typedef struct stf_point {
   steif_context *ctx;
@@ -20,6 +24,7 @@ typedef struct stf_point {
   bool quick; /* views of any n as the time loop sees E and A, not by differences of order 4 */
   bool every; /* views hold all entries that are not 0 */
   bool brief; /* the index is wanted, no report: tests that agree are enough */
+  stf_taylor_of taylor; /* NULL: derivatives along curves are differences */
   int views; /* quick ones taken; after the first, system->E and A are those of another point */
   N_Vector y, yp, r;
   sunrealtype t, *y0, *yp0;  /* the point */

@@ -92,6 +92,40 @@ static void compare(stf_total_derivatives *l, const sunrealtype *scale, const in
   }
 }
 
+/* l->rows by Taylor coefficients; sigma is s/tau. */
+static int series(stf_total_derivatives *l, const stf_curve *c)
+{
+  const stf_point *s = l->point;
+  const size_t n = s->n, orders = (size_t)l->order + 1;
+  sunrealtype *y = l->values, power = 1;
+  for (size_t p = 0; p <= orders; p++, power *= c->tau)
+    for (size_t j = p * n; j < (p + 1) * n; j++) y[j] = c->z[j] / power;
+  STEIF_TRY(s->taylor(s->ctx, &s->problem, c->t, l->order, y, l->rows));
+  power = 1;
+  for (size_t p = 0; p < orders; p++, power *= c->tau)
+    for (size_t j = p * n; j < (p + 1) * n; j++) l->rows[j] *= power;
+  return STEIF_OK;
+}
+
+/* Are there Taylor coefficients here, of the F that the callback has? A condition may be kept as it was before. */
+static int look_at_series(stf_total_derivatives *l, const stf_curve *c,
+                          const sunrealtype *scale)
+{
+  static const sunrealtype rounding = 1e-10;
+  stf_point *s = l->point;
+  sunrealtype *y = s->scratch, *yp = y + s->n, *F = l->values;
+  l->exact = false;
+  if (!s->taylor || c->count < l->order + 2 || l->order + 2 > NODES) return STEIF_OK;
+  int code = series(l, c);
+  stf_curve_at(c, s->n, 0, y, yp);
+  if (!code) code = stf_point_residual(s, c->t, y, yp, F);
+  if (code) return code < 0 ? code : STEIF_OK;
+  l->exact = true;
+  for (size_t i = 0; i < s->n; i++)
+    l->exact = l->exact && fabs(F[i] - l->rows[i]) <= rounding * fmax(scale[i], fabs(F[i]));
+  return STEIF_OK;
+}
+
 int stf_total_derivatives_choose(stf_total_derivatives *l, const stf_curve *c,
                                  const sunrealtype *scale, const int *order)
 {
@@ -99,12 +133,13 @@ int stf_total_derivatives_choose(stf_total_derivatives *l, const stf_curve *c,
   sunrealtype now[STF_DEEPEST + 2];
   bool found = false;
   if (l->order == 0) return STEIF_OK;
+  STEIF_TRY(look_at_series(l, c, scale));
+  if (l->exact) return STEIF_OK;
   const sunrealtype longest = 100 / (l->slowest * c->tau);
   const sunrealtype shortest = 1e-5 / (fastest_change(l) * c->tau);
   for (int p = 1; p <= l->order; p++) l->delta[p] = 0, best[p] = (choice){INFINITY, false};
   for (sunrealtype delta = longest; delta >= shortest; delta *= 0.6) {
-    const int code =
-      stf_curve_residual(l->point, c, &l->rule, delta, l->values, l->rows, l->tail);
+    const int code = stf_curve_residual(l->point, c, &l->rule, delta, l->values, NULL, l->tail);
     if (code < 0) return code;
     if (code) continue;
     found = true;
@@ -132,6 +167,11 @@ int stf_total_derivatives_evaluate(stf_total_derivatives *l, const stf_curve *c,
   sunrealtype *y = l->point->scratch, *yp = y + n;
   stf_curve_at(c, n, 0, y, yp);
   STEIF_TRY(stf_point_residual(l->point, c->t, y, yp, out));
+  if (l->exact) {
+    STEIF_TRY(series(l, c));
+    memcpy(out + n, l->rows + n, (size_t)l->order * n * sizeof *out);
+    return STEIF_OK;
+  }
   for (int p = 1; p <= l->order; p++) {
     if (!(l->delta[p] > 0)) continue; /* no equation has this order */
     STEIF_TRY(approach(l, c, p));

@@ -12,6 +12,7 @@ typedef struct stf_total_derivatives {
   stf_point *point;
   stf_chebyshev rule;
   int order;
+  bool exact;                         /* by point->taylor */
   sunrealtype delta[STF_DEEPEST + 2]; /* of orders 1 .. order, in sigma */
   sunrealtype fastest, slowest;
   sunrealtype *values, *rows, *tail;

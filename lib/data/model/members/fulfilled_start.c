@@ -1,9 +1,10 @@
 /* fulfilled_start.c: start values that fulfil the equations, and the index of
  * the components. SPDX-License-Identifier: BSD-3-Clause */
 #include "component_numbers.h"
+#include "exact_start.h"
 #include "model.h"
 #include <math.h>
-#include <steif/consistent.h>
+#include <steif/model.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -61,7 +62,7 @@ static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *att
   const steif_request request = {.attribute = attribute};
   steif_start start = {0};
   p->yp0 = m->slope;
-  int code = steif_consistent(m->ctx, p, NULL, &request, &start);
+  int code = stf_consistent_along(m->ctx, p, NULL, &request, steif_model_taylor, &start);
   const bool found = !code;
   if (!found) p->yp0 = m->yp0;
   if (found) {
