@@ -61,7 +61,7 @@ typedef struct stf_circle {
   sunrealtype radius;
   sunrealtype log_det;           /* mean of log |det(s E + F)| over the circle */
   const struct steif_team *team; /* that shares the batches; NULL: none */
-  long long team_number;
+  long long team_number, passes; /* passes that others took part in */
   int known, answer; /* to processes 1 .. known; the code of the last that answered */
 } stf_circle;
 

@@ -18,7 +18,7 @@ enum stf_order_kind {
 typedef struct stf_order {
   size_t size; /* of this and of an outcome: the same build */
   enum stf_order_kind kind;
-  long long circle; /* its number */
+  long long circle, pass; /* their numbers */
   sunindextype n, entries[2];
   int points, refinements, batches, careful, count;
   int given, scaled, powers;        /* the right-hand side: the constant, powers, scale */
@@ -28,7 +28,9 @@ typedef struct stf_order {
   sunrealtype radius, at;           /* those of this pass */
 } stf_order;
 
+/* To which order: nothing that an interrupted pass has left is taken for another. */
 typedef struct stf_answer {
+  long long circle, pass;
   int code;
   char text[600];
 } stf_answer;

@@ -62,6 +62,7 @@ static stf_order order_of(const stf_circle *c, enum stf_order_kind kind)
   o.size = STF_ORDER_SIZE, o.kind = kind, o.circle = (intptr_t)c, o.n = s->n;
   o.points = c->points, o.refinements = c->refinements;
   o.batches = c->batches, o.careful = c->careful;
+  o.pass = c->passes;
   o.pivots = c->pivots, o.visit = c->from_visit;
   o.from_radius = c->from_radius, o.from_at = c->from_at;
   o.radius = c->radius, o.at = s->size;
@@ -107,6 +108,7 @@ int stf_circle_hand_out(const stf_pass *now, int batches, bool factor)
   stf_circle *c = now->c;
   if (!c->team) return STEIF_OK;
   STEIF_TRY(introduce(c, batches));
+  c->passes++;
   stf_order o = order_of(c, factor ? STF_ORDER_FACTOR : STF_ORDER_SOLVE);
   o.given = now->g != NULL;
   o.scaled = now->g && now->g->scale;
@@ -140,7 +142,8 @@ static int take_answer(stf_circle *c, int p)
 {
   stf_answer a = {.code = STEIF_OK};
   c->answer = STEIF_IO;
-  if (!get(c, p, &a, sizeof a)) return lost(c, p);
+  if (!get(c, p, &a, sizeof a) || a.circle != (intptr_t)c || a.pass != c->passes)
+    return lost(c, p);
   c->answer = a.code;
   a.text[sizeof a.text - 1] = 0;
   return a.code ? stf_fail(c->scaled.ctx, a.code, "process %d: %s", p, a.text) : STEIF_OK;

@@ -203,7 +203,10 @@ static int pass(server *s, const stf_order *o)
       !get(s, at, o->given ? row : 0) || !get(s, at ? at + n : NULL, row * (size_t)o->powers) ||
       !get(s, o->scaled && at ? at + n * (size_t)(o->powers + 1) : NULL, o->scaled ? row : 0))
     return lost(s);
-  stf_answer a = {.code = work(s, v, o, visit, o->given && at ? &g : NULL)};
+  stf_answer a;
+  memset(&a, 0, sizeof a); /* its gaps are sent, too */
+  a.circle = o->circle, a.pass = o->pass;
+  a.code = work(s, v, o, visit, o->given && at ? &g : NULL);
   if (a.code) snprintf(a.text, sizeof a.text, "%s", steif_message(s->ctx));
   steif_forget(s->ctx);
   if (!put(s, &a, sizeof a)) return lost(s);
