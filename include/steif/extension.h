@@ -28,6 +28,11 @@ STEIF_EXPORT int steif_fail(steif_context *ctx, int code, const char *format, ..
  * `code`. The vector must have the operation nvdotprodmultiallreduce. */
 STEIF_EXPORT int steif_agree(steif_context *ctx, N_Vector like, int code);
 
+/* A problem whose callbacks call those of another one has a user of its own, `user`; options.ewt, which the caller gives
+ * beside it, is called with `own` in its place. STEIF_NO_MEMORY. steif_stand_down ends that, before `user` goes. */
+STEIF_EXPORT int steif_stand_in(steif_context *ctx, const void *user, void *own);
+STEIF_EXPORT void steif_stand_down(steif_context *ctx, const void *user);
+
 #ifdef __cplusplus
 }
 #endif

@@ -2,13 +2,15 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "own_rows.h"
 #include <math.h>
+#include <steif/quadrature.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
 struct steif_mpi {
-  steif_problem problem;  /* with our callbacks ... */
-  const steif_problem *p; /* ... around these */
+  steif_problem problem;      /* with our callbacks ... */
+  const steif_problem *p;     /* ... around these */
+  steif_quadrature integrals; /* called with the caller's user */
   rows rows;
   const back_end *with;
   void *state;
@@ -27,23 +29,31 @@ int own_rows_initialised(steif_context *ctx)
                     on ? "steif before MPI_Finalize" : "MPI_Init first");
 }
 
+/* What keeps a rank from its vector, or some other rank: the sentence is the same on all that have a context. */
+static int vector_check(steif_context *ctx, MPI_Comm comm, sunindextype rows_here,
+                        long long *total)
+{
+  int rank;
+  long long own = rows_here < 0 ? 0 : rows_here, wrong[2];
+  MPI_Comm_rank(comm, &rank);
+  MPI_Allreduce(&own, total, 1, MPI_LONG_LONG, MPI_SUM, comm);
+  wrong[0] = rows_here < 0 ? rank + 1 : 0, wrong[1] = ctx ? 0 : rank + 1;
+  MPI_Allreduce(MPI_IN_PLACE, wrong, 2, MPI_LONG_LONG, MPI_MAX, comm);
+  if (wrong[1])
+    return steif_fail(ctx, STEIF_NO_MEMORY, "rank %lld has no context", wrong[1] - 1);
+  if (wrong[0])
+    return steif_fail(ctx, STEIF_BAD_INPUT, "rank %lld asks for less than 0 rows",
+                      wrong[0] - 1);
+  if (*total == 0)
+    return steif_fail(ctx, STEIF_BAD_INPUT, "none of the ranks has a row (0)");
+  return STEIF_OK;
+}
+
 N_Vector steif_mpi_vector(steif_context *ctx, MPI_Comm comm, sunindextype rows_here)
 {
-  if (!ctx || own_rows_initialised(ctx)) return NULL;
-  int rank;
-  long long all[2] = {rows_here < 0 ? 0 : rows_here, 0}, wrong[2];
-  MPI_Comm_rank(comm, &rank);
-  MPI_Allreduce(&all[0], &all[1], 1, MPI_LONG_LONG, MPI_SUM, comm);
-  wrong[0] = rows_here < 0 ? rank + 1 : 0;
-  MPI_Allreduce(&wrong[0], &wrong[1], 1, MPI_LONG_LONG, MPI_MAX, comm);
-  if (wrong[1] || all[1] == 0) {
-    steif_fail(ctx, STEIF_BAD_INPUT,
-               wrong[1] ? "rank %lld asks for less than 0 rows"
-                        : "none of the ranks has a row (%lld)",
-               wrong[1] - (wrong[1] > 0));
-    return NULL;
-  }
-  N_Vector v = N_VNew_Parallel(comm, rows_here, (sunindextype)all[1], steif_sundials(ctx));
+  long long total;
+  if (own_rows_initialised(ctx) || vector_check(ctx, comm, rows_here, &total)) return NULL;
+  N_Vector v = N_VNew_Parallel(comm, rows_here, (sunindextype)total, steif_sundials(ctx));
   int made = v != NULL;
   MPI_Allreduce(MPI_IN_PLACE, &made, 1, MPI_INT, MPI_MIN, comm);
   if (made) {
@@ -51,7 +61,7 @@ N_Vector steif_mpi_vector(steif_context *ctx, MPI_Comm comm, sunindextype rows_h
     return v;
   }
   if (v) N_VDestroy(v);
-  steif_fail(ctx, STEIF_NO_MEMORY, "no memory for a vector of %lld rows over ranks", all[1]);
+  steif_fail(ctx, STEIF_NO_MEMORY, "no memory for a vector of %lld rows over ranks", total);
   return NULL;
 }
 
@@ -133,8 +143,9 @@ static int restore(const void *bytes, size_t count, void *user)
 static int fill(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp)
 {
   if (m->constant && m->filled) return STEIF_OK;
-  MPI_TRY(rows_fill(&m->rows, m->p, t, y, yp));
-  m->filled = true;
+  const int code = rows_fill(&m->rows, m->p, t, y, yp);
+  m->filled = code ? m->filled && rows_united(&m->rows) : true;
+  if (code) return code;
   return m->with->changed(m->state);
 }
 
@@ -258,7 +269,12 @@ static void pass_on(steif_mpi *m)
 #undef PASS
   q->user = m, q->storage = STEIF_KRYLOV, q->pattern = NULL;
   q->jac = NULL, q->idajac = NULL, q->E = q->A = q->L = NULL;
-  q->parameters = NULL, q->quadrature = NULL, q->build = NULL, q->destroy = NULL;
+  q->parameters = NULL, q->build = NULL, q->destroy = NULL;
+  if (p->quadrature) {
+    m->integrals = *p->quadrature;
+    if (!m->integrals.user) m->integrals.user = p->user;
+    q->quadrature = &m->integrals;
+  }
   q->precsetup = setup, q->precsolve = solve;
   q->Etv = q->Atv = NULL, q->precsolve_transposed = NULL;
   q->precsolve_pair = m->with->complex ? solve_pair : NULL;
@@ -305,7 +321,9 @@ static int prepare(steif_mpi *m, const char *text)
   MPI_TRY(steif_agree(ctx, like, code));
   MPI_TRY(rows_open(&m->rows, ctx, m->p, like));
   m->constant = m->p->linear || (!m->p->f && !m->p->F);
-  MPI_TRY(steif_agree(ctx, like, m->with->open(&m->rows, &spec, &m->state)));
+  code = m->with->open(&m->rows, &spec, &m->state);
+  if (!code) code = steif_stand_in(ctx, m, m->p->user);
+  MPI_TRY(steif_agree(ctx, like, code));
   pass_on(m);
   return STEIF_OK;
 }
@@ -341,6 +359,7 @@ void steif_mpi_free(steif_mpi **handle)
   steif_context *ctx = m->rows.ctx;
   if (m->state) m->with->close(m->state);
   rows_close(&m->rows);
+  steif_stand_down(ctx, m);
   steif_release(ctx, m);
   *handle = NULL;
 }

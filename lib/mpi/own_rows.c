@@ -158,7 +158,10 @@ static void forget(rows *r)
   r->seen_pointer = r->seen_column = r->row_at = r->column = r->local = r->at_A = r->at_E =
     NULL;
   r->e = r->a = NULL;
+  r->entries = r->room = 0;
 }
+
+bool rows_united(const rows *r) { return r->row_at != NULL; }
 
 static int claim(rows *r)
 {
@@ -229,15 +232,19 @@ static int remember(rows *r)
   return unite(r);
 }
 
+/* A union that lacks something on one rank is none on all of them. */
 static int renew_pattern(rows *r)
 {
   int changed = !same_pattern(r);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, r->own.comm);
   if (!changed) return STEIF_OK;
-  MPI_TRY(steif_agree(r->ctx, r->like, remember(r)));
-  MPI_TRY(halo_open(r));
-  r->revision++;
-  return STEIF_OK;
+  int code = steif_agree(r->ctx, r->like, remember(r));
+  if (!code) code = halo_open(r);
+  if (code)
+    forget(r);
+  else
+    r->revision++;
+  return code;
 }
 
 /* The colours once, then the values, which are to be finite. */

@@ -57,6 +57,8 @@ sunindextype rows_owner(const owners *o, sunindextype row);
 int rows_open(rows *r, steif_context *ctx, const steif_problem *p, N_Vector like);
 /* Values at (t, y, yp); E once. */
 int rows_fill(rows *r, const steif_problem *p, sunrealtype t, N_Vector y, N_Vector yp);
+/* Is there a union of patterns, with values? Not after a fill that failed while it was made. */
+bool rows_united(const rows *r);
 void rows_close(rows *r);
 
 int halo_open(rows *r);

@@ -29,7 +29,7 @@ static int expected(int which, const char *method, const rod *r)
   case BAND:
   case SPARSE:
   case SENSITIVE: return STEIF_UNSUPPORTED;
-  case EVENT: return r->size > 1 ? STEIF_CALLBACK : STEIF_OK;
+  case EVENT: return r->size > 1 ? STEIF_BAD_INPUT : STEIF_OK;
   default: return STEIF_OK;
   }
 }

@@ -46,5 +46,6 @@ void test_runs(MPI_Comm comm);
 void test_reductions(MPI_Comm comm);
 void test_memory(MPI_Comm comm);
 void test_parts(MPI_Comm comm);
+void test_same(MPI_Comm comm);
 
 #endif

@@ -57,20 +57,56 @@ static int own_rank(void)
   return -1;
 }
 
+/* The lowest of `count` ranks that stand; returns how many remain, *told the number that it was told. */
+static sunrealtype lowest(N_Vector like, sunrealtype count, bool *stands, int *told)
+{
+  const uint64_t last = (uint64_t)1 << 31;
+  const int own = own_rank();
+  count = elect(like, last - (uint64_t)(own + 1), count, stands);
+  sunrealtype of_all = *stands ? own : 0;
+  sum(like, 1, &of_all);
+  *told = (int)(of_all / count);
+  return count;
+}
+
+/* The number in the communicator of the rank that the launcher gave the number `told`: how many come before it,
+ * and how many rows they have. */
+static int number_of(N_Vector like, int told, sunindextype rows, long long *first)
+{
+  const bool before = told >= 0 && own_rank() < told;
+  sunrealtype of_all[] = {before, before ? (sunrealtype)rows : 0};
+  sum(like, 2, of_all);
+  *first = (long long)of_all[1];
+  return told < 0 ? -1 : (int)of_all[0];
+}
+
 /* Some rank has failed: which, and with what. */
 static int returned_by(N_Vector like, int returned, sunrealtype failed, long *id, int *rank)
 {
   bool stands = returned != 0;
+  int told;
+  long long first;
   const uint64_t size = returned < 0 ? -(uint64_t)returned : (uint64_t)returned;
   sunrealtype count = elect(like, (uint64_t)(returned < 0) << 52 | size, failed, &stands);
-  const uint64_t last = (uint64_t)1 << 31;
-  const int own = own_rank();
-  count = elect(like, last - (uint64_t)(own + 1), count, &stands); /* the lowest */
-  sunrealtype of_all[] = {stands ? returned : 0, stands ? (sunrealtype)*id : 0,
-                          stands ? own : 0};
-  sum(like, 3, of_all);
-  *id = (long)(of_all[1] / count), *rank = (int)(of_all[2] / count);
+  count = lowest(like, count, &stands, &told);
+  sunrealtype of_all[] = {stands ? returned : 0, stands ? (sunrealtype)*id : 0};
+  sum(like, 2, of_all);
+  *id = (long)(of_all[1] / count), *rank = number_of(like, told, 0, &first);
   return (int)(of_all[0] / count);
+}
+
+bool stf_agree_lowest(N_Vector like, bool fault, sunindextype rows, int *rank, long long *first)
+{
+  bool stands = fault;
+  int told;
+  sunrealtype count = fault;
+  *rank = -1, *first = 0;
+  if (alone(like)) return fault;
+  sum(like, 1, &count);
+  if (count == 0) return false;
+  lowest(like, count, &stands, &told);
+  *rank = number_of(like, told, rows, first);
+  return stands;
 }
 
 int stf_agree_returned(N_Vector like, int returned)
@@ -99,6 +135,19 @@ int stf_deferred_gate(N_Vector like, stf_deferred *d)
   if (!d->opening || alone(like)) return 0;
   if (!d->gone) stf_agree_any(like, 1, &d->gone);
   return d->gone ? -1 : 0;
+}
+
+int stf_sum_gate(steif_context *ctx)
+{
+  stf_deferred *opening = stf_context_opening(ctx);
+  if (!opening || !stf_deferred_gate(opening->like, opening)) return STEIF_OK;
+  return STEIF_FAIL(ctx, STEIF_NO_MEMORY, "another rank could not make its solver");
+}
+
+int stf_clone_gate(steif_context *ctx, N_Vector like)
+{
+  const bool local = N_VGetVectorID(like) == SUNDIALS_NVEC_PARALLEL || !stf_spread(like);
+  return local ? STEIF_OK : stf_sum_gate(ctx);
 }
 
 int stf_deferred_leave(steif_context *ctx, N_Vector like, stf_deferred *d, int code)
@@ -195,4 +244,12 @@ bool stf_agree_same(N_Vector like, const void *bytes, size_t count)
     same = same && ranks * (uint64_t)s[2 + 2 * k] == first * first;
   }
   return same;
+}
+
+long stf_agree_different(N_Vector like, size_t count, const unsigned long long *number)
+{
+  if (stf_agree_same(like, number, count * sizeof *number)) return -1;
+  for (size_t i = 0; i < count; i++)
+    if (!stf_agree_same(like, &number[i], sizeof *number)) return (long)i;
+  return -1;
 }

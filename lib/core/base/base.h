@@ -53,6 +53,13 @@ void stf_context_lead(steif_context *ctx, const struct steif_team *team);
 /* For a context of another thread: memory from where that of this one is from, and one thread. */
 steif_setup stf_setup_alone(const steif_context *ctx);
 
+/* What ranks have to tell each other while a solver is made (agree.h), NULL: none is; returns the one before. */
+struct stf_deferred *stf_context_open(steif_context *ctx, struct stf_deferred *opening);
+struct stf_deferred *stf_context_opening(const steif_context *ctx);
+/* Users of problems that stand in for others (steif_stand_in), and whom this one stands in for, itself: for none. */
+struct stf_stand_in **stf_context_stand_ins(steif_context *ctx);
+void *stf_own_user(steif_context *ctx, void *user);
+
 /* A pool owns blocks and vectors that live and die together. Claims return NULL with the message
  * set; stf_pool_free accepts NULL and half-built pools. */
 typedef struct stf_pool stf_pool;

@@ -21,6 +21,8 @@ struct steif_context {
   const struct steif_team *team;
   long long teams; /* that have led or gone */
   long failures;   /* told by stf_fail */
+  struct stf_deferred *opening;
+  struct stf_stand_in *stand_ins;
   char message[MESSAGE];
 };
 
@@ -112,6 +114,17 @@ void stf_context_lead(steif_context *ctx, const struct steif_team *team)
   ctx->team = team;
   ctx->teams++;
 }
+
+struct stf_deferred *stf_context_open(steif_context *ctx, struct stf_deferred *opening)
+{
+  struct stf_deferred *before = ctx->opening;
+  ctx->opening = opening;
+  return before;
+}
+
+struct stf_deferred *stf_context_opening(const steif_context *ctx) { return ctx->opening; }
+
+struct stf_stand_in **stf_context_stand_ins(steif_context *ctx) { return &ctx->stand_ins; }
 
 int stf_threads(const steif_context *ctx) { return ctx->setup.threads; }
 

@@ -29,3 +29,37 @@ int steif_agree(steif_context *ctx, N_Vector like, int code)
 {
   return stf_agree(ctx, like, code);
 }
+
+typedef struct stf_stand_in {
+  struct stf_stand_in *next;
+  const void *user;
+  void *own;
+} stf_stand_in;
+
+int steif_stand_in(steif_context *ctx, const void *user, void *own)
+{
+  if (!ctx) return STEIF_BAD_INPUT;
+  stf_stand_in **head = stf_context_stand_ins(ctx), *one = stf_allocate(ctx, 1, sizeof *one);
+  if (!one) return STEIF_NO_MEMORY;
+  *one = (stf_stand_in){*head, user, own};
+  *head = one;
+  return STEIF_OK;
+}
+
+void steif_stand_down(steif_context *ctx, const void *user)
+{
+  if (!ctx) return;
+  for (stf_stand_in **at = stf_context_stand_ins(ctx), *one; (one = *at);)
+    if (one->user == user) {
+      *at = one->next;
+      stf_release(ctx, one);
+    } else
+      at = &one->next;
+}
+
+void *stf_own_user(steif_context *ctx, void *user)
+{
+  for (const stf_stand_in *one = *stf_context_stand_ins(ctx); one; one = one->next)
+    if (one->user == user) return one->own;
+  return user;
+}

@@ -1,6 +1,6 @@
 /* pool.c: blocks, vectors and owned objects that live until one free.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "base.h"
+#include "agree.h"
 #include <nvector/nvector_serial.h>
 #include <stdint.h>
 #include <string.h>
@@ -102,6 +102,7 @@ N_Vector stf_pool_vector(stf_pool *pool, N_Vector like)
     sunrealtype *data = stf_pool_array(pool, (size_t)NV_LENGTH_S(like), sizeof *data);
     return data ? stf_pool_view(pool, like, data) : NULL;
   }
+  if (stf_clone_gate(pool->ctx, like)) return NULL;
   N_Vector v = like->ops->nvclone(like); /* N_VClone writes through a null result */
   if (v) v->sunctx = like->sunctx;
   if (!v) {

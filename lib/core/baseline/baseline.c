@@ -132,6 +132,7 @@ SUNLinearSolver stf_baseline_solver(stf_baseline *base, SUNMatrix M)
   SUNContext sun = steif_sundials(run->ctx);
   SUNLinearSolver solver = NULL;
   const int side = base->preconditioned ? SUN_PREC_LEFT : SUN_PREC_NONE;
+  if (stf_clone_gate(run->ctx, run->y)) return NULL;
   switch (base->storage) {
   case STEIF_DENSE: solver = SUNLinSol_Dense(run->y, M, sun); break;
   case STEIF_BAND: solver = SUNLinSol_Band(run->y, M, sun); break;

@@ -120,6 +120,7 @@ int stf_start_slopes(stf_baseline *base)
                 base->fault.verdict, base->fault.verdict ? "" : " with NaN or infinity");
     return STEIF_OK;
   }
+  STEIF_TRY(stf_sum_gate(run->ctx));
   if (!zero(run->yp)) return STEIF_OK;
   STEIF_TRY(stf_start_mass(base));
   return base->E ? mass_slopes(base) : STEIF_OK;

@@ -135,11 +135,11 @@ static int check_solution(const stf_baseline *base)
   if (run->deferred && stf_deferred_gate(run->like, run->deferred))
     return STEIF_FAIL(run->ctx, STEIF_NO_MEMORY, "another rank could not make its solver");
   if (stf_baseline_finite(run->y)) return STEIF_OK;
-  const sunindextype at = stf_not_finite(run->y);
+  char room[STEIF_SPEC_WORD];
   return STEIF_FAIL(run->ctx, STEIF_NOT_FINITE,
-                    "%s returned component %lld of y that is not finite at t = %.12g after %ld "
+                    "%s returned component %s of y that is not finite at t = %.12g after %ld "
                     "steps and called it success; look for overflow in f",
-                    base->package, (long long)at + 1, run->t, run->stats.steps);
+                    base->package, stf_number_not_finite(run->y, room), run->t, run->stats.steps);
 }
 
 int stf_baseline_verdict(stf_baseline *base, int flag, sunrealtype h, int order)

@@ -49,7 +49,7 @@ static int uncover(steif_solver *s, sunrealtype t1)
 int steif_solver_extend(steif_solver *s, sunrealtype t1)
 {
   if (!s) return STEIF_BAD_INPUT;
-  STEIF_TRY(check(s, t1));
+  STEIF_TRY(stf_agreed_begin(s, check(s, t1), "steif_solver_extend", t1));
   const bool beyond = stf_beyond(s);
   STEIF_TRY(set_grid(s, t1));
   if (beyond) STEIF_TRY(uncover(s, t1));

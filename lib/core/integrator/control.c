@@ -23,7 +23,7 @@ int stf_weigh(const steif_solver *s)
   else if (!o->ewt)
     stf_weights(space, o->rtol, o->atol, s->atols, step->y, step->weights);
   else {
-    const int returned = o->ewt(step->y, step->weights, s->given->user);
+    const int returned = o->ewt(step->y, step->weights, stf_ewt_user(s));
     STEIF_CHECK(returned == 0, s->ctx, STEIF_CALLBACK,
                 "ewt of problem '%s' returned %d at t = %.12g", s->problem->name, returned,
                 step->t);

@@ -132,13 +132,19 @@ int stf_look_at_orders(steif_solver *s);
 int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o,
                          sunindextype rows);
 
-/* agreed.c: problem and options checked, the same on all ranks; where vectors are spread over several ranks,
+/* ranks/agreed_calls.c: problem and options checked, the same on all ranks; where vectors are spread over several ranks,
  * they become copies whose callbacks return the same code on all of them. */
-int stf_agreed_open(steif_solver *s, int *form);
+int stf_agreed_open(steif_solver *s, const char *method, int *form);
 /* While it is made: before sums that follow allocations, of which one may have failed somewhere. */
 int stf_agreed_gate(steif_solver *s);
+/* The user of options.ewt. */
+void *stf_ewt_user(const steif_solver *s);
+/* A call of `what` that is given t, and which rank has found wrong with `code`: the same on all. */
+int stf_agreed_begin(steif_solver *s, int code, const char *what, sunrealtype t);
 /* The code of all ranks at the end of a call or step, with the rank that failed. */
 int stf_agreed_end(steif_solver *s, int code);
+/* That rank in the sentence, if it names none. */
+void stf_agreed_tell(steif_solver *s, int code);
 
 /* One accepted step of a method of ours, not beyond t_stop where step sizes are adaptive: breaks.c, which
  * looks at limits and breaks, and control.c, which decides on step sizes. */
@@ -227,7 +233,7 @@ int stf_quadrature_step(steif_solver *s);
 int stf_quadrature_to(steif_solver *s, sunrealtype t);
 /* The larger of *e and their errors in the attempt, in tolerances. */
 int stf_quadrature_test(steif_solver *s, sunrealtype h, sunrealtype *e);
-/* *i: an integrand that is another where y_j moves by a part of its size, -1: none. */
+/* *i: an integrand that is another where y_j moves by a part of its size, -1: none; j = -1: all of index 2 and 3. */
 int stf_quadrature_reads(steif_solver *s, sunrealtype t, N_Vector y, sunindextype j, int *i);
 /* unfit_integrands.c: STEIF_UNSUPPORTED where an integrand reads what the method knows badly, or at a jump of y at t what has
  * an impulse there. */

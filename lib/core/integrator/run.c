@@ -227,7 +227,7 @@ static int show(steif_solver *s, sunrealtype t)
 
 static int solve_to(steif_solver *s, sunrealtype t)
 {
-  STEIF_TRY(ready(s));
+  STEIF_TRY(stf_agreed_begin(s, ready(s), "steif_solve_to", t));
   STEIF_CHECK(isfinite(t) && t >= s->problem->t0 &&
                 t <= s->t1 * (1 + (s->t1 > 0 ? 1e-14 : -1e-14)),
               s->ctx, STEIF_BAD_INPUT,
@@ -287,16 +287,29 @@ int stf_dense(steif_solver *s, sunrealtype t, N_Vector y)
   return STEIF_OK;
 }
 
-int steif_dense(steif_solver *s, sunrealtype t, N_Vector y)
+static int inside(const steif_solver *s, sunrealtype t)
 {
-  if (!s) return STEIF_BAD_INPUT;
   const sunrealtype h = s->engine ? s->run.stats.h_last : s->step.h, from = stepped(s) - h;
   const sunrealtype slack = 1e-12 * (fabs(s->end) + h);
   STEIF_CHECK(s->engine || s->step.count > 0, s->ctx, STEIF_BAD_INPUT,
               "no step has been made yet");
   STEIF_CHECK(t >= from - slack && t <= s->end + slack, s->ctx, STEIF_BAD_INPUT,
               "t = %.17g lies outside the last step [%.17g, %.17g]", t, from, s->end);
-  return stf_dense(s, t, y);
+  return STEIF_OK;
+}
+
+/* All ranks must come where callbacks are called: those of ARKODE's interpolants are not known. */
+static bool dense_calls(const steif_solver *s)
+{
+  return s->engine ? s->engine == stf_engine_find("arkode") : !s->step.method->dense;
+}
+
+int steif_dense(steif_solver *s, sunrealtype t, N_Vector y)
+{
+  if (!s) return STEIF_BAD_INPUT;
+  int code = inside(s, t);
+  if (dense_calls(s)) code = stf_agreed_begin(s, code, "steif_dense", t);
+  return code ? code : stf_dense(s, t, y);
 }
 
 int steif_stages(steif_solver *s, int *count, const sunrealtype **c, const sunrealtype **b,

@@ -52,7 +52,7 @@ static int open_engine(steif_solver *s, int form, const steif_spec *spec, N_Vect
                      .problem = s->problem,
                      .form = form,
                      .options = &s->options,
-                     .user = s->given->user,
+                     .user = stf_ewt_user(s),
                      .mass_of_time = s->mass_of_time,
                      .like = y,
                      .deferred = s->agreed ? &s->deferred : NULL,
@@ -245,7 +245,7 @@ static int begin_step(steif_solver *s)
 static int check_ewt(steif_solver *s, N_Vector y)
 {
   if (!s->options.ewt) return STEIF_OK;
-  const int returned = s->options.ewt(y, s->dense, s->given->user);
+  const int returned = s->options.ewt(y, s->dense, stf_ewt_user(s));
   STEIF_CHECK(returned == 0 && N_VMin(s->dense) > 0, s->ctx, STEIF_CALLBACK,
               "ewt of problem '%s' returned %d with the smallest weight %g at the start: it "
               "returns 0 with 1 / (error allowed in y_i) > 0",
@@ -285,7 +285,7 @@ static int open(steif_solver *s, const char *method)
   steif_spec *spec = &s->parsed;
   N_Vector y = NULL, yp = NULL;
   int form = 0;
-  STEIF_TRY(stf_agreed_open(s, &form));
+  STEIF_TRY(stf_agreed_open(s, method, &form));
   STEIF_TRY(begin(s));
   s->t1 = s->t1_opened = s->options.t1;
   s->t_shown = s->end = s->problem->t0;
@@ -366,20 +366,22 @@ steif_solver *steif_solver_new_sized(size_t problem_bytes, size_t options_bytes,
                                      const char *method, const steif_options *options)
 {
   if (!ctx) return NULL;
-  if (!method) {
-    STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a method is needed, got NULL");
-    return NULL;
-  }
   steif_forget(ctx);
   N_Vector like = like_of(options, options_bytes);
   steif_solver *s = stf_allocate(ctx, 1, sizeof *s);
   stf_deferred none = {0};
-  int code = STEIF_NO_MEMORY;
   if (s) s->ctx = ctx, s->pool = stf_pool_new(ctx);
-  if (s && s->pool) code = take_given(s, problem, problem_bytes, options, options_bytes);
+  int code = s && s->pool ? take_given(s, problem, problem_bytes, options, options_bytes)
+                          : STEIF_NO_MEMORY;
+  if (!code && !method)
+    code = STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a method is needed, got NULL");
   if (code) stf_agree(ctx, like, code); /* the first that ranks do which have come further */
+  stf_deferred *const before = stf_context_open(ctx, s ? &s->deferred : NULL);
   if (!code) code = open(s, method);
-  if (stf_deferred_leave(ctx, like, s ? &s->deferred : &none, code)) steif_solver_free(&s);
+  stf_context_open(ctx, before);
+  code = stf_deferred_leave(ctx, like, s ? &s->deferred : &none, code);
+  if (s) stf_agreed_tell(s, code);
+  if (code) steif_solver_free(&s);
   return s;
 }
 

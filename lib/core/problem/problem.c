@@ -125,3 +125,20 @@ sunindextype stf_not_finite(N_Vector v)
     if (!isfinite(a[i])) return i;
   return -1;
 }
+
+const char *stf_number_not_finite(N_Vector v, char room[STEIF_SPEC_WORD])
+{
+  sunindextype rows, i = 0;
+  const sunrealtype *a = stf_own_rows(v, &rows);
+  if (!a) return "(not known which)";
+  while (i < rows && isfinite(a[i])) i++;
+  int rank = -1;
+  long long number = (long long)i + 1, first;
+  const bool mine = stf_agree_lowest(v, i < rows, rows, &rank, &first);
+  number = stf_agree_total(v, mine ? number : 0);
+  if (rank < 0)
+    snprintf(room, STEIF_SPEC_WORD, stf_spread(v) ? "%lld of a rank" : "%lld", number);
+  else
+    snprintf(room, STEIF_SPEC_WORD, "%lld (on rank %d)", first + number, rank);
+  return room;
+}

@@ -121,6 +121,9 @@ const steif_problem *stf_with_name(const steif_problem *problem, steif_problem *
 
 /* The 0-based component that is not finite, or -1. Needs a host array (else -1). */
 sunindextype stf_not_finite(N_Vector v);
+/* For a sentence, of a vector that is known not to be finite: its number from 1, over ranks the rank too; asked for on
+ * all of them. */
+const char *stf_number_not_finite(N_Vector v, char room[STEIF_SPEC_WORD]);
 
 /* operator.c: pencils known by products. Operators are applied at a point: remember it. */
 int stf_operator_point_open(stf_pool *pool, const stf_system *system,

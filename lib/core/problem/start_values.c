@@ -71,25 +71,27 @@ static int first_call(steif_context *ctx, const steif_problem *p, int form, bool
   STEIF_TRY(check_size(ctx, p, what, y, kept[0]));
   STEIF_TRY(check_size(ctx, p, what, out, kept[1]));
   stf_space space;
+  char room[STEIF_SPEC_WORD];
   stf_space_open(&space, out);
   STEIF_CHECK(
     stf_finite(&space, out), ctx, STEIF_NOT_FINITE,
-    "component %lld of %s of problem '%s' is not finite at the start, t = %g: correct "
+    "component %s of %s of problem '%s' is not finite at the start, t = %g: correct "
     "the start or the equations",
-    (long long)stf_not_finite(out) + 1, what, p->name, p->t0);
+    stf_number_not_finite(out, room), what, p->name, p->t0);
   return STEIF_OK;
 }
 
 int stf_system_start(steif_context *ctx, const steif_problem *p, int form,
                      const stf_space *space, N_Vector y, N_Vector yp, bool *known)
 {
+  char room[STEIF_SPEC_WORD];
   STEIF_TRY(stf_start_values(ctx, p, y, yp));
   STEIF_CHECK(stf_finite(space, y), ctx, STEIF_NOT_FINITE,
-              "start value %lld of problem '%s' is not finite",
-              (long long)stf_not_finite(y) + 1, p->name);
+              "start value %s of problem '%s' is not finite", stf_number_not_finite(y, room),
+              p->name);
   STEIF_CHECK(stf_finite(space, yp), ctx, STEIF_NOT_FINITE,
-              "slope %lld at the start of problem '%s' is not finite",
-              (long long)stf_not_finite(yp) + 1, p->name);
+              "slope %s at the start of problem '%s' is not finite",
+              stf_number_not_finite(yp, room), p->name);
   *known = p->yp0 || p->start || form == STEIF_ODE;
   if (form == STEIF_ODE) return first_call(ctx, p, form, true, y, yp, yp);
   stf_pool *pool = stf_pool_new(ctx);

@@ -116,6 +116,7 @@ static void free_iteration(void *iteration) { SUNNonlinSolFree(iteration); }
 static int open_iteration(cvode *s)
 {
   stf_run *run = s->base.run;
+  STEIF_TRY(stf_clone_gate(run->ctx, run->y));
   s->iteration = SUNNonlinSol_FixedPoint(run->y, 0, steif_sundials(run->ctx));
   STEIF_CHECK(s->iteration, run->ctx, STEIF_NO_MEMORY, "no memory for a fixed-point iteration");
   return stf_pool_adopt(run->pool, s->iteration, free_iteration);
@@ -139,6 +140,7 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
   STEIF_TRY(stf_baseline_open(b, run, s->call->package, flags));
   STEIF_TRY(stf_baseline_adaptive(b));
   STEIF_TRY(s->adams ? open_iteration(s) : open_newton(b));
+  STEIF_TRY(stf_clone_gate(run->ctx, run->y));
   stf_baseline_enter(b, run);
   s->memory = s->call->CVodeCreate(s->adams ? CV_ADAMS : CV_BDF, steif_sundials(run->ctx));
   return verdict(s, s->memory ? configure(s) : CV_MEM_FAIL);

@@ -75,7 +75,9 @@ void stf_event_name(const steif_problem *p, int i, size_t room, char *name)
 int stf_event_ask(steif_solver *s, sunrealtype t, N_Vector y, sunrealtype *g)
 {
   const steif_problem *p = s->problem;
+  const long failures = stf_failures(s->ctx);
   const int returned = p->event(t, y, g, p->user);
+  if (returned && stf_failures(s->ctx) > failures) return steif_status(s->ctx); /* told */
   STEIF_CHECK(returned == 0, s->ctx, STEIF_CALLBACK,
               "the event functions of problem '%s' returned %d at t = %.12g", p->name, returned,
               t);

@@ -91,7 +91,9 @@ int stf_quadrature_open(steif_solver *s)
 static int value(steif_solver *s, sunrealtype t, N_Vector y, sunrealtype *g)
 {
   const stf_quadratures *w = s->quadratures;
+  const long failures = stf_failures(s->ctx);
   const int returned = w->given->value(t, y, g, w->user);
+  if (returned && stf_failures(s->ctx) > failures) return steif_status(s->ctx); /* told */
   STEIF_CHECK(returned == 0, s->ctx, STEIF_CALLBACK,
               "the quadrature of problem '%s' returned %d at t = %.12g", s->problem->name,
               returned, t);
@@ -102,12 +104,23 @@ static int value(steif_solver *s, sunrealtype t, N_Vector y, sunrealtype *g)
   return STEIF_OK;
 }
 
+/* y_j moves by a part of its size; j < 0: all of index 2 and 3 that are here. */
+static void move(const steif_solver *s, N_Vector y, sunindextype j)
+{
+  sunindextype rows;
+  const sunrealtype *from = stf_own_rows(y, &rows);
+  sunrealtype *to = stf_own_rows(s->quadratures->moved, &rows);
+  N_VScale(1, y, s->quadratures->moved);
+  for (sunindextype i = j < 0 ? 0 : j; to && i < (j < 0 ? rows : j + 1); i++)
+    if (i == j || s->problem->index[i] > 1)
+      to[i] += 1.0 / 64 * (fabs(from[i]) + s->step.system.scale);
+}
+
 int stf_quadrature_reads(steif_solver *s, sunrealtype t, N_Vector y, sunindextype j, int *i)
 {
   stf_quadratures *w = s->quadratures;
   STEIF_TRY(value(s, t, y, w->g));
-  N_VScale(1, y, w->moved);
-  stf_array(w->moved)[j] += 1.0 / 64 * (fabs(stf_array(y)[j]) + s->step.system.scale);
+  move(s, y, j);
   STEIF_TRY(value(s, t, w->moved, w->other));
   for (*i = 0; *i < w->count && w->g[*i] == w->other[*i];) ++*i;
   if (*i == w->count) *i = -1;
@@ -134,7 +147,9 @@ static int slope(steif_solver *s, sunrealtype t, N_Vector y, N_Vector dy, int k,
   const stf_quadratures *w = s->quadratures;
   const steif_parameters *q = s->problem->parameters;
   if (w->given->slope) {
+    const long failures = stf_failures(s->ctx);
     const int returned = w->given->slope(t, y, dy, k, out, w->user);
+    if (returned && stf_failures(s->ctx) > failures) return steif_status(s->ctx);
     STEIF_CHECK(returned == 0, s->ctx, STEIF_CALLBACK,
                 "the slope of the quadrature of problem '%s' returned %d at t = %.12g",
                 s->problem->name, returned, t);
@@ -305,13 +320,20 @@ int stf_quadrature_after(steif_solver *s, sunrealtype t, N_Vector y, const sunre
 
 /* ---- what is shown ---------------------------------------------------------------------------- */
 
+static int inside(const steif_solver *s, sunrealtype t, const sunrealtype *out)
+{
+  const sunrealtype h = s->engine ? s->run.stats.h_last : s->step.h;
+  const sunrealtype slack = 1e-12 * (fabs(s->end) + h);
+  STEIF_CHECK(out && t >= s->quadratures->t - h - slack && t <= s->end + slack, s->ctx,
+              STEIF_BAD_INPUT, "t = %.17g lies outside the last step, which ends at %.17g", t,
+              s->end);
+  return STEIF_OK;
+}
+
 static int show(steif_solver *s, sunrealtype t, int column, sunrealtype *out)
 {
   stf_quadratures *w = s->quadratures;
-  const sunrealtype h = s->engine ? s->run.stats.h_last : s->step.h;
-  const sunrealtype slack = 1e-12 * (fabs(s->end) + h);
-  STEIF_CHECK(out && t >= w->t - h - slack && t <= s->end + slack, s->ctx, STEIF_BAD_INPUT,
-              "t = %.17g lies outside the last step, which ends at %.17g", t, s->end);
+  STEIF_TRY(stf_agreed_begin(s, inside(s, t, out), "steif_quadrature_values", t));
   memcpy(out, sum_of(w, column), (size_t)w->count * sizeof *out);
   return t == w->t ? STEIF_OK : along(s, t, column, out);
 }

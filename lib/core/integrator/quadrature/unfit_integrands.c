@@ -7,9 +7,18 @@ int stf_quadrature_orders(steif_solver *s)
 {
   const steif_problem *p = s->problem;
   char name[STEIF_SPEC_WORD];
+  int which;
   if (s->engine || !s->step.adaptive || !p->index || !stf_low_stages(s->step.table) ||
       s->step.system.form == STEIF_ODE)
     return STEIF_OK;
+  if (s->agreed) {
+    STEIF_TRY(stf_quadrature_reads(s, s->end, stf_last(s), -1, &which));
+    STEIF_CHECK(which < 0, s->ctx, STEIF_UNSUPPORTED,
+                "integrand %d of problem '%s' reads unknowns of index 2 or 3, which '%s' has to "
+                "a few digits only inside its steps: take radau or bdf",
+                which + 1, p->name, s->method);
+    return STEIF_OK;
+  }
   for (sunindextype j = 0; j < p->n; j++) {
     int i;
     if (p->index[j] < 2) continue;

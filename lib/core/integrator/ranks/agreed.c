@@ -6,19 +6,9 @@
  * by their values: these must be the same everywhere, or the call counts as failed. One sum more for each call,
  * and no rank that waits for one that has left.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "integrator.h"
+#include "agreed.h"
+#include <math.h>
 #include <stddef.h>
-#include <stdio.h>
-#include <string.h>
-
-typedef struct stf_agreed {
-  steif_problem problem;  /* with our callbacks ... */
-  const steif_problem *p; /* ... around these */
-  int (*ewt)(N_Vector y, N_Vector ewt, void *user);
-  N_Vector like;
-  steif_context *ctx;
-  stf_deferred *deferred;
-} stf_agreed;
 
 /* -- callbacks ----------------------------------------------------------------------------- */
 
@@ -137,41 +127,86 @@ static int event_slope(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 
 static int begin(sunrealtype t, void *user) { AGREED(begin, t, p->user); }
 
-/* Values that decide must be the same; the first failure of a run leaves the sentence. */
-static int values(const stf_agreed *a, int returned, const char *what, int count,
-                  const sunrealtype *value)
+/* A callback that has failed may have left a sentence on some rank: then all have it. */
+static int shared(const stf_agreed *a, long failures, int returned, int code)
 {
+  bool told = stf_failures(a->ctx) > failures, any = told;
+  long long first;
+  stf_agree_lowest(a->like, returned == code, 0, &a->deferred->rank, &first);
+  stf_agree_any(a->like, 1, &any);
+  if (any) stf_agree(a->ctx, a->like, told ? steif_status(a->ctx) : STEIF_OK);
+  return code;
+}
+
+/* Values that decide must be the same numbers. Not 0: there is a sentence, the same on all ranks, or all of them
+ * returned this. */
+static int values(const stf_agreed *a, long failures, int returned, const char *what,
+                  sunrealtype t, int count, const sunrealtype *value)
+{
+  int i = 0, rank;
+  long long first;
   const int code = stf_agree_returned(a->like, returned);
-  if (code) return code;
+  if (code) return shared(a, failures, returned, code);
   if (stf_agree_same(a->like, value, (size_t)count * sizeof *value)) return 0;
-  STEIF_FAIL(a->ctx, STEIF_BAD_INPUT,
-             "%s of problem '%s' has different values on different ranks: reduce it in the "
-             "callback",
-             what, a->p->name);
+  while (i < count && stf_agree_same(a->like, &value[i], sizeof *value)) i++;
+  if (i == count) i = 0; /* zeros of two signs */
+  const bool wrong = !isfinite(value[i]);
+  stf_agree_lowest(a->like, wrong, 0, &rank, &first);
+  bool any = wrong;
+  stf_agree_any(a->like, 1, &any);
+  if (any)
+    STEIF_FAIL(a->ctx, STEIF_NOT_FINITE,
+               "%s %d of problem '%s' is not finite on rank %d at t = %.12g, and is on others",
+               what, i + 1, a->p->name, rank, t);
+  else
+    STEIF_FAIL(a->ctx, STEIF_BAD_INPUT,
+               "%s %d of problem '%s' has different values on different ranks at t = %.12g: "
+               "reduce it in the callback",
+               what, i + 1, a->p->name, t);
   return -1;
 }
 
+#define VALUES(what, count, call)                                                              \
+  const stf_agreed *a = user;                                                                  \
+  const steif_problem *p = a->p;                                                               \
+  if (stf_deferred_gate(a->like, a->deferred)) return -1;                                      \
+  const long failures = stf_failures(a->ctx);                                                  \
+  const int returned = call;                                                                   \
+  return values(a, failures, returned, what, t, count, value)
+
 static int event(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 {
-  const stf_agreed *a = user;
-  if (stf_deferred_gate(a->like, a->deferred)) return -1;
-  return values(a, a->p->event(t, y, value, a->p->user), "the event function", a->p->events,
-                value);
+  VALUES("event function", p->events, p->event(t, y, value, p->user));
 }
 
 static int invariant(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
 {
-  const stf_agreed *a = user;
-  if (stf_deferred_gate(a->like, a->deferred)) return -1;
-  return values(a, a->p->invariant(t, y, value, a->p->user), "the invariant", a->p->invariants,
-                value);
+  VALUES("invariant", p->invariants, p->invariant(t, y, value, p->user));
+}
+
+static void *of_quadrature(const steif_problem *p)
+{
+  return p->quadrature->user ? p->quadrature->user : p->user;
+}
+
+static int integrand(sunrealtype t, N_Vector y, sunrealtype *value, void *user)
+{
+  VALUES("integrand", p->quadrature->count,
+         p->quadrature->value(t, y, value, of_quadrature(p)));
+}
+
+static int integrand_slope(sunrealtype t, N_Vector y, N_Vector dy, int k, sunrealtype *value,
+                           void *user)
+{
+  VALUES("the derivative of integrand", p->quadrature->count,
+         p->quadrature->slope(t, y, dy, k, value, of_quadrature(p)));
 }
 
 static int ewt(N_Vector y, N_Vector w, void *user)
 {
   const stf_agreed *a = user;
   if (stf_deferred_gate(a->like, a->deferred)) return -1;
-  return stf_agree_returned(a->like, a->ewt(y, w, a->p->user));
+  return stf_agree_returned(a->like, a->ewt(y, w, stf_own_user(a->ctx, a->p->user)));
 }
 
 #define NAMED(member)                                                                          \
@@ -179,7 +214,7 @@ static int ewt(N_Vector y, N_Vector w, void *user)
     offsetof(steif_problem, member), #member                                                   \
   }
 
-static const char *name_of(long id)
+const char *stf_agreed_name(long id)
 {
   static const struct {
     size_t offset;
@@ -197,7 +232,18 @@ static const char *name_of(long id)
 
 #define WRAP(callback) to->callback = p->callback ? callback : NULL
 
-static void wrap(stf_agreed *a)
+static void wrap_integrals(stf_agreed *a)
+{
+  const steif_quadrature *q = a->p->quadrature;
+  if (!q) return;
+  a->integrals = *q;
+  a->integrals.user = a;
+  if (q->value) a->integrals.value = integrand;
+  if (q->slope) a->integrals.slope = integrand_slope;
+  a->problem.quadrature = &a->integrals;
+}
+
+void stf_agreed_wrap(stf_agreed *a, steif_options *o)
 {
   const steif_problem *p = a->p;
   steif_problem *to = &a->problem;
@@ -209,173 +255,7 @@ static void wrap(stf_agreed *a)
     WRAP(begin), WRAP(event), WRAP(invariant);
   to->Etv = to->Atv = NULL,
   to->precsolve_transposed = NULL; /* of gradients, which serve no ranks */
-}
-
-/* -- the same input ---------------------------------------------------------------------------- */
-
-typedef struct member {
-  const char *name;
-  size_t offset, size;
-} member;
-
-#define OF(type, name)                                                                         \
-  {                                                                                            \
-#name, offsetof(type, name), sizeof((type *)NULL)->name                                    \
-  }
-
-static const member problems[] = {
-  OF(steif_problem, n),         OF(steif_problem, t0),          OF(steif_problem, t1),
-  OF(steif_problem, storage),   OF(steif_problem, dae_index),   OF(steif_problem, linear),
-  OF(steif_problem, events),    OF(steif_problem, break_count), OF(steif_problem, invariants),
-  OF(steif_problem, positions), OF(steif_problem, period),      OF(steif_problem, autonomous),
-};
-static const member options[] = {
-  OF(steif_options, rtol),
-  OF(steif_options, atol),
-  OF(steif_options, h),
-  OF(steif_options, h0),
-  OF(steif_options, h_max),
-  OF(steif_options, t1),
-  OF(steif_options, max_steps),
-  OF(steif_options, newton),
-  OF(steif_options, iterations),
-  OF(steif_options, storage),
-  OF(steif_options, force_storage),
-  OF(steif_options, mesh_size),
-  OF(steif_options, max_seconds),
-  OF(steif_options, consistent),
-  OF(steif_options, sensitivities),
-  OF(steif_options, initial),
-};
-
-static int same(const stf_agreed *a, size_t count, const member *m, const void *given)
-{
-  for (size_t i = 0; i < count; i++)
-    STEIF_CHECK(stf_agree_same(a->like, (const char *)given + m[i].offset, m[i].size), a->ctx,
-                STEIF_BAD_INPUT,
-                "ranks disagree in .%s of problem or options: give all the same", m[i].name);
-  return STEIF_OK;
-}
-
-/* Which callbacks there are decides what is called. */
-static int same_callbacks(const stf_agreed *a, const steif_options *o)
-{
-  const steif_problem *p = a->p;
-  const bool there[] = {
-    p->f,       p->F,         p->g,         p->jac,          p->idajac,
-    p->E,       p->A,         p->Ev,        p->Av,           p->L,
-    p->Lv,      p->precsetup, p->precsolve, p->start,        p->precsolve_pair,
-    p->exact,   p->event,     p->begin,     p->handle_event, p->kick,
-    p->drift,   p->y0,        p->yp0,       p->index,        p->constraint,
-    p->pattern, p->invariant, o->mesh,      o->atols,        o->ewt,
-    o->observe, o->on_event};
-  STEIF_CHECK(stf_agree_same(a->like, there, sizeof there), a->ctx, STEIF_BAD_INPUT,
-              "ranks disagree in which callbacks and arrays problem and options have");
-  const void *list[] = {o->mesh, p->breaks};
-  const size_t bytes[] = {(o->mesh ? o->mesh_size : 0) * sizeof *o->mesh,
-                          (size_t)p->break_count * sizeof *p->breaks};
-  for (int k = 0; k < 2; k++)
-    STEIF_CHECK(stf_agree_same(a->like, list[k], bytes[k]), a->ctx, STEIF_BAD_INPUT,
-                "ranks disagree in the times of %s: give all the same",
-                k ? "breaks" : "the mesh");
-  return STEIF_OK;
-}
-
-/* What needs all unknowns in one place. */
-static int refuse(const stf_agreed *a, const steif_options *o)
-{
-  const enum steif_storage storage = o->force_storage ? o->storage : a->p->storage;
-  const char *const what = storage != STEIF_KRYLOV ? "storage other than Krylov"
-                           : a->p->constraint      ? "constraint"
-                           : o->sensitivities      ? "sensitivities"
-                           : o->reinitialise       ? "reinitialise"
-                                                   : NULL;
-  STEIF_CHECK(
-    !what, a->ctx, STEIF_UNSUPPORTED,
-    "'%s' of problem '%s' needs all %lld unknowns in one place, and these vectors are "
-    "spread over ranks: use storage Krylov without it",
-    what, a->p->name, (long long)a->p->n);
-  return STEIF_OK;
-}
-
-/* Vectors of several parts do not say how many rows are here; they have no array either, so that none of the
- * caller's is looked at. */
-static bool knows_rows(N_Vector like) { return like->ops->nvgetlocallength != NULL; }
-
-static int check_all(const stf_agreed *a, const steif_options *o)
-{
-  STEIF_TRY(same(a, STF_COUNT(problems), problems, a->p));
-  STEIF_TRY(same(a, STF_COUNT(options), options, o));
-  STEIF_TRY(same_callbacks(a, o));
-  const bool known = knows_rows(a->like);
-  const long long rows = stf_agree_total(a->like, known ? stf_local_length(a->like) : a->p->n);
-  STEIF_CHECK(!known || rows == a->p->n, a->ctx, STEIF_BAD_INPUT,
-              "the ranks own %lld rows together, problem '%s' has %lld", rows, a->p->name,
-              (long long)a->p->n);
-  return refuse(a, o);
-}
-
-/* -- opening ----------------------------------------------------------------------------------- */
-
-static int check(steif_solver *s, sunindextype rows, int *form)
-{
-  N_Vector like = s->options.like;
-  *form = stf_problem_form(s->ctx, s->problem, rows);
-  if (!*form) return steif_status(s->ctx);
-  STEIF_TRY(stf_options_complete(s->ctx, s->problem, &s->options, rows));
-  STEIF_CHECK(!like || N_VGetLength(like) == s->problem->n, s->ctx, STEIF_BAD_INPUT,
-              "options.like has %lld components, problem '%s' has %lld",
-              (long long)N_VGetLength(like), s->problem->name, (long long)s->problem->n);
-  return STEIF_OK;
-}
-
-static int open(steif_solver *s, stf_agreed *a)
-{
-  if (!a) return STEIF_NO_MEMORY;
-  s->deferred = (stf_deferred){.name = name_of, .rank = -1, .sums = &s->agreements};
-  *a = (stf_agreed){
-    .p = s->problem, .like = s->options.like, .ctx = s->ctx, .deferred = &s->deferred};
-  return STEIF_OK;
-}
-
-int stf_agreed_open(steif_solver *s, int *form)
-{
-  N_Vector like = s->options.like;
-  const bool spread = like && stf_spread(like);
-  STEIF_TRY(stf_agree_check(s->ctx, like));
-  const sunindextype all = s->problem ? s->problem->n : 0;
-  const sunindextype here = spread && knows_rows(like) ? stf_local_length(like) : 0;
-  int code = check(s, spread ? here : all, form);
-  if (!spread) return code;
-  s->agreed = stf_pool_array(s->pool, 1, sizeof *s->agreed);
-  if (!code) code = open(s, s->agreed);
-  STEIF_TRY(stf_agree(s->ctx, like, code));
-  STEIF_TRY(check_all(s->agreed, &s->options));
-  wrap(s->agreed);
-  s->agreed->ewt = s->options.ewt;
-  if (s->options.ewt) s->options.ewt = ewt;
-  s->problem = &s->agreed->problem;
-  s->deferred.opening = true;
-  return STEIF_OK;
-}
-
-int stf_agreed_gate(steif_solver *s)
-{
-  if (!s->agreed || !stf_deferred_gate(s->options.like, &s->deferred)) return STEIF_OK;
-  return STEIF_FAIL(s->ctx, STEIF_NO_MEMORY, "another rank could not make its solver");
-}
-
-int stf_agreed_end(steif_solver *s, int code)
-{
-  char text[STF_MESSAGE];
-  if (!s || !s->agreed) return code;
-  const int agreed = stf_agree(s->ctx, s->options.like, code);
-  s->agreements++;
-  if (agreed != STEIF_CALLBACK || s->deferred.rank < 0) return agreed;
-  stf_message_copy(s->ctx, text);
-  const size_t used = strlen(text);
-  snprintf(text + used, sizeof text - used, " (on rank %d first)", s->deferred.rank);
-  stf_message_take(s->ctx, steif_status(s->ctx), text);
-  s->deferred.rank = -1;
-  return agreed;
+  wrap_integrals(a);
+  a->ewt = o->ewt;
+  if (o->ewt) o->ewt = ewt;
 }
