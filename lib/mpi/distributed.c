@@ -44,8 +44,7 @@ static int vector_check(steif_context *ctx, MPI_Comm comm, sunindextype rows_her
   if (wrong[0])
     return steif_fail(ctx, STEIF_BAD_INPUT, "rank %lld asks for less than 0 rows",
                       wrong[0] - 1);
-  if (*total == 0)
-    return steif_fail(ctx, STEIF_BAD_INPUT, "none of the ranks has a row (0)");
+  if (*total == 0) return steif_fail(ctx, STEIF_BAD_INPUT, "none of the ranks has a row (0)");
   return STEIF_OK;
 }
 

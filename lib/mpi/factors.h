@@ -21,6 +21,8 @@ typedef struct factors_setting {
 /* Answers of MUMPS that decide: INFOG(1), INFOG(2), INFO(2) and so on. */
 typedef struct factors_answer {
   int code, detail, null_pivots, memory, rows; /* rows of the solution on this rank */
+  int estimate;                                /* MB of the rank that takes most */
+  bool here;                                   /* the error is that of this rank */
 } factors_answer;
 
 typedef struct factors_calls {

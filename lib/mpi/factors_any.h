@@ -12,7 +12,9 @@ static void answer(const STRUCTURE *m, factors_answer *out)
                           .detail = m->infog[1],
                           .null_pivots = m->infog[27],
                           .memory = m->info[21],
-                          .rows = m->info[22]};
+                          .rows = m->info[22],
+                          .estimate = m->infog[15],
+                          .here = m->info[0] == m->infog[0]};
 }
 
 static void *open_any(rows *r)

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mumps.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,6 +90,23 @@ static int claim(mumps *s, slot *t)
 
 /* -- what MUMPS answers ----------------------------------------------------------------------- */
 
+static int short_of_memory(const mumps *s, const factors_answer *a, const char *what)
+{
+  const owners *o = &s->r->own;
+  char limit[60] = "";
+  int rank = a->here ? o->rank : o->size;
+  MPI_Allreduce(MPI_IN_PLACE, &rank, 1, MPI_INT, MPI_MIN, o->comm);
+  if (s->set.memory) snprintf(limit, sizeof limit, " within memory=%d MB", s->set.memory);
+  return steif_fail(
+    s->r->ctx, STEIF_NO_MEMORY,
+    "MUMPS has not memory enough to %s%s on rank %d (it expects %d MB of the rank that takes "
+    "most; INFOG(1) = %d, INFOG(2) = %d): give more ranks%s",
+    what, limit, rank, a->estimate, a->code, a->detail,
+    !s->set.memory    ? ""
+    : a->code == -13 ? " or a smaller memory=MB, which is taken at once"
+                     : " or a larger memory=MB");
+}
+
 int mumps_told(const mumps *s, const factors_answer *a, const char *what, const slot *t)
 {
   steif_context *ctx = s->r->ctx;
@@ -102,22 +120,7 @@ int mumps_told(const mumps *s, const factors_answer *a, const char *what, const 
   bool memory = false;
   for (size_t i = 0; i < sizeof short_of / sizeof *short_of; i++)
     memory |= a->code == short_of[i];
-  if (memory && s->set.memory && a->code == -13)
-    return steif_fail(
-      ctx, STEIF_NO_MEMORY,
-      "the %d MB a rank of memory= are more than there are (INFOG(1) = -13): give "
-      "more ranks or a smaller memory=MB",
-      s->set.memory);
-  if (memory && s->set.memory)
-    return steif_fail(ctx, STEIF_NO_MEMORY,
-                      "MUMPS has not memory enough to %s within the %d MB a rank of memory= "
-                      "(INFOG(1) = %d, INFOG(2) = %d): give more ranks or a larger memory=MB",
-                      what, s->set.memory, a->code, a->detail);
-  if (memory)
-    return steif_fail(ctx, STEIF_NO_MEMORY,
-                      "MUMPS has not memory enough to %s (INFOG(1) = %d, INFOG(2) = %d): give "
-                      "more ranks",
-                      what, a->code, a->detail);
+  if (memory) return short_of_memory(s, a, what);
   if (a->code == -38)
     return steif_fail(ctx, STEIF_UNSUPPORTED,
                       "MUMPS was built without parallel ordering: install "

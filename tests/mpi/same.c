@@ -37,7 +37,8 @@ static int told(rod *r, given *g, const char *words, const char *what)
 {
   steif_solver *s = steif_solver_new(g->ctx, &g->p, g->method, &g->o);
   const int code = s ? STEIF_OK : steif_status(g->ctx);
-  const int as = !s && strstr(steif_message(g->ctx), words), same = same_answer(r, g->ctx, code);
+  const int as = !s && strstr(steif_message(g->ctx), words),
+            same = same_answer(r, g->ctx, code);
   if (!EVERYWHERE(r, as && same) && r->rank == 0)
     printf("  %s: %s\n", what, steif_message(g->ctx));
   steif_solver_free(&s);
@@ -167,8 +168,8 @@ static void lists(rod *r)
     if (k == 4) event[1].terminal = other;
     if (k == 5) q.count -= other, g.p.quadrature = &q;
     if (k == 6) g.o.mesh = mesh, g.o.mesh_size = (size_t)(3 - other);
-    static const char *const said[LISTS] = {"mesh",     "breaks",            "start",    "direction",
-                                            "terminal", "quadrature->count", "mesh_size"};
+    static const char *const said[LISTS] = {
+      "mesh", "breaks", "start", "direction", "terminal", "quadrature->count", "mesh_size"};
     told(r, &g, "ranks disagree", said[k]);
     EVERYWHERE(r, strstr(steif_message(g.ctx), said[k]) != NULL);
     close(&g);
@@ -200,8 +201,10 @@ static void values(rod *r, const char *method, int of, int wrong)
   char words[40];
   snprintf(words, sizeof words, "on rank %d", r->alone);
   EVERYWHERE(r, code == right);
-  EVERYWHERE(r, wrong != LOCAL_EVENT || strstr(text, "2 of problem 'rod' has different values"));
-  if ((wrong == NOT_A_NUMBER || wrong == FATAL) && !EVERYWHERE(r, !!strstr(text, words)) && !r->rank)
+  EVERYWHERE(r,
+             wrong != LOCAL_EVENT || strstr(text, "2 of problem 'rod' has different values"));
+  if ((wrong == NOT_A_NUMBER || wrong == FATAL) && !EVERYWHERE(r, !!strstr(text, words)) &&
+      !r->rank)
     printf("  %s, %d, %d: %s\n", method, of, wrong, text);
   if (of == INTEGRALS && wrong == NOTHING) {
     EVERYWHERE(r, steif_quadrature_values(s, g.p.t1, integral) == STEIF_OK);
@@ -288,8 +291,8 @@ static void first_component(rod *r)
   open(&g, r);
   r->wrong = NOT_A_NUMBER, r->alone = r->size - 1, r->calls = 40;
   const sunindextype last = r->n - r->owned[r->size - 1];
-  snprintf(words, sizeof words, "component %d (on rank %d) of f of problem 'rod'", (int)last + 1,
-           r->size - 1);
+  snprintf(words, sizeof words, "component %d (on rank %d) of f of problem 'rod'",
+           (int)last + 1, r->size - 1);
   told(r, &g, words, "the first call");
   r->wrong = NOTHING;
   close(&g);
@@ -304,7 +307,8 @@ void test_same(MPI_Comm comm)
     user_of_weights(&r, methods[k]);
     for (int of = EVENTS; of <= INTEGRALS; of++)
       for (int wrong = NOTHING; wrong <= LOCAL_EVENT; wrong++)
-        if (wrong == NOTHING || (r.size > 1 && (wrong == FATAL || wrong == NOT_A_NUMBER || wrong == LOCAL_EVENT)))
+        if (wrong == NOTHING ||
+            (r.size > 1 && (wrong == FATAL || wrong == NOT_A_NUMBER || wrong == LOCAL_EVENT)))
           values(&r, methods[k], of, wrong);
   }
   if (r.size > 1) {

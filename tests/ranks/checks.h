@@ -18,5 +18,6 @@ void test_differences(void);
 void test_hard_systems(void);
 void test_index_two(void);
 void test_one_rank_short(void);
+void test_passed_on(void);
 
 #endif

@@ -3,6 +3,7 @@
 #include "shortage.h"
 #include "checks.h"
 #include <stdlib.h>
+#include <steif/extension.h>
 #include <steif/mpi.h>
 
 typedef struct heap {
@@ -47,6 +48,13 @@ static int work(steif_context *ctx, const char *name, const char *spec, int diff
     N_Vector b[] = {N_VClone(like), N_VClone(like)}, x[] = {N_VClone(like), N_VClone(like)};
     N_VConst(1, b[0]), N_VConst(1, b[1]);
     code = q->precsetup(0, like, like, like, 2, q->user);
+    if (code == STEIF_NO_MEMORY) { /* there is enough the next time */
+      int again = q->Ev ? q->Ev(0, like, like, b[0], x[0], q->user) : 0;
+      if (!again) again = q->precsetup(0, like, like, like, 2, q->user);
+      if (!again) again = q->precsolve(0, like, like, like, b[0], x[0], 2, 0, q->user);
+      if (again) code = again - 100;
+      if (!again) steif_fail(ctx, code, "not the first time");
+    }
     if (!code) code = q->precsolve(0, like, like, like, b[0], x[0], 2, 0, q->user);
     if (!code && q->precsolve_pair)
       code = q->precsolve_pair(0, like, like, like, b, x, 1, 2, 0, q->user);

@@ -169,7 +169,7 @@ int stf_deferred_add(N_Vector like, stf_deferred *d, int returned, long id)
   return stf_deferred_settle(like, d, &name);
 }
 
-/* Ranks that win have the same text, up to collisions of 52 bits: the text that all get is the mean. */
+/* Ranks that win have the same text, up to collisions of 51 bits: the text that all get is the mean. */
 static void take_text(N_Vector like, char *text, size_t size, bool mine, sunrealtype count)
 {
   sunrealtype letter[MOST];
@@ -199,8 +199,10 @@ int stf_agree_flags(steif_context *ctx, N_Vector like, int code, int count_flags
   char text[STF_MESSAGE] = "";
   bool stands = code != 0;
   if (stands) stf_message_copy(ctx, text);
-  const uint64_t name = stf_checksum(text, sizeof text) >> 12;
-  const sunrealtype count = elect(like, (uint64_t)(code < 0) << 52 | name, failed, &stands);
+  const bool own = stands && steif_status(ctx) != STEIF_CALLBACK; /* a reason, not a number */
+  const uint64_t name = stf_checksum(text, sizeof text) >> 13;
+  const uint64_t key = (uint64_t)(code < 0) << 52 | (uint64_t)own << 51 | name;
+  const sunrealtype count = elect(like, key, failed, &stands);
   sunrealtype numbers[] = {stands ? code : 0, stands ? steif_status(ctx) : 0};
   sum(like, 2, numbers);
   take_text(like, text, sizeof text, stands, count);

@@ -139,7 +139,8 @@ static int check_solution(const stf_baseline *base)
   return STEIF_FAIL(run->ctx, STEIF_NOT_FINITE,
                     "%s returned component %s of y that is not finite at t = %.12g after %ld "
                     "steps and called it success; look for overflow in f",
-                    base->package, stf_number_not_finite(run->y, room), run->t, run->stats.steps);
+                    base->package, stf_number_not_finite(run->y, room), run->t,
+                    run->stats.steps);
 }
 
 int stf_baseline_verdict(stf_baseline *base, int flag, sunrealtype h, int order)

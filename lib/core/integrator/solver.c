@@ -75,19 +75,6 @@ static int constant_steps(steif_solver *s)
   return STEIF_OK;
 }
 
-/* Where h does not divide the interval the last step is shorter, or goes beyond it. */
-int stf_rest_open(steif_solver *s, const stf_constant *c, sunrealtype t1)
-{
-  if (!(c->rest > 0) || s->step.rest == STF_REST_SHORTER) return STEIF_OK;
-  STEIF_CHECK(s->step.rest == STF_REST_ACROSS, s->ctx, STEIF_BAD_INPUT,
-              "t1 = %.12g is not a whole number of steps of h = %.12g, and '%s' has neither a "
-              "step of another length nor dense output of its order: end at %.12g, or take "
-              "h = %.12g",
-              t1, c->h, s->method, c->end, (t1 - c->t0) / (double)(c->whole + 1));
-  if (!s->final) s->final = stf_pool_vector(s->pool, s->step.y);
-  return s->final ? STEIF_OK : STEIF_NO_MEMORY;
-}
-
 static void destroy_table(void *step)
 {
   stf_step *s = step;
@@ -373,8 +360,7 @@ steif_solver *steif_solver_new_sized(size_t problem_bytes, size_t options_bytes,
   if (s) s->ctx = ctx, s->pool = stf_pool_new(ctx);
   int code = s && s->pool ? take_given(s, problem, problem_bytes, options, options_bytes)
                           : STEIF_NO_MEMORY;
-  if (!code && !method)
-    code = STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a method is needed, got NULL");
+  if (!code && !method) code = STEIF_FAIL(ctx, STEIF_BAD_INPUT, "a method is needed, got NULL");
   if (code) stf_agree(ctx, like, code); /* the first that ranks do which have come further */
   stf_deferred *const before = stf_context_open(ctx, s ? &s->deferred : NULL);
   if (!code) code = open(s, method);

@@ -163,7 +163,6 @@ static bool serves(const steif_pencil *p, double shift)
          !pace_lost(&k->pace[1], k->changed);
 }
 
-/* A callback that has left a sentence in the context is told by it. */
 static int prepare_near(steif_pencil *p, double shift)
 {
   krylov *k = p->state;
@@ -267,9 +266,13 @@ static int not_finite(steif_pencil *p, stf_pair b)
     norm);
 }
 
-static int stopped(steif_pencil *p)
+/* A callback that has left a sentence in the context is told by it; `failures` there were before. */
+static int stopped(steif_pencil *p, long failures)
 {
   const krylov *k = p->state;
+  const bool told = stf_failures(p->ctx) > failures;
+  if (told && k->transposed) return k->answer;
+  if (told) return k->answer > 0 ? STEIF_RETRY : steif_status(p->ctx);
   return (k->answer > 0 ? stf_recover : stf_fail)(
     p->ctx, STEIF_CALLBACK, "%s of the operator returned %d at s = %.10g%+.10gi", k->culprit,
     k->answer, k->s.re, k->s.im);
@@ -294,9 +297,7 @@ static int run(steif_pencil *p, stf_pair x, stf_pair b)
   const long iterations = g->iterations - before;
   p->stats.iterations += iterations, p->counts.sums += g->sums_made - sums;
   if (b.im) p->counts.complex_solves++, p->counts.complex_iterations += iterations;
-  if (code == STF_GMRES_STOPPED && k->transposed && stf_failures(p->ctx) > failures)
-    return k->answer; /* which has a sentence */
-  if (code == STF_GMRES_STOPPED) return stopped(p);
+  if (code == STF_GMRES_STOPPED) return stopped(p, failures);
   if (code == STF_GMRES_NAN) return not_finite(p, b);
   if (preconditioned(p))
     pace_add(&k->pace[b.im != NULL], code == STF_GMRES_SHORT, iterations, g->last / g->first);
@@ -337,9 +338,11 @@ static int transposed(steif_pencil *p, int slot, int nrhs, N_Vector *re, N_Vecto
 static int product(steif_pencil *p, char which, N_Vector x, N_Vector out)
 {
   krylov *k = p->state;
+  const long failures = stf_failures(p->ctx);
   k->answer = 0;
   const int answer = which == 'E' ? times_E(p, x, &out) : times_A(p, x, out);
   if (!answer) return STEIF_OK;
+  if (stf_failures(p->ctx) > failures) return answer > 0 ? STEIF_RETRY : steif_status(p->ctx);
   return (answer > 0 ? stf_recover : stf_fail)(
     p->ctx, STEIF_CALLBACK, "%s of the operator returned %d in a product", k->culprit, answer);
 }

@@ -73,11 +73,10 @@ static int first_call(steif_context *ctx, const steif_problem *p, int form, bool
   stf_space space;
   char room[STEIF_SPEC_WORD];
   stf_space_open(&space, out);
-  STEIF_CHECK(
-    stf_finite(&space, out), ctx, STEIF_NOT_FINITE,
-    "component %s of %s of problem '%s' is not finite at the start, t = %g: correct "
-    "the start or the equations",
-    stf_number_not_finite(out, room), what, p->name, p->t0);
+  STEIF_CHECK(stf_finite(&space, out), ctx, STEIF_NOT_FINITE,
+              "component %s of %s of problem '%s' is not finite at the start, t = %g: correct "
+              "the start or the equations",
+              stf_number_not_finite(out, room), what, p->name, p->t0);
   return STEIF_OK;
 }
 

@@ -33,3 +33,16 @@ int stf_constant_steps(steif_context *ctx, sunrealtype h, sunrealtype t0, sunrea
   c->end = c->rest > 0 ? t0 + count * h : t1;
   return STEIF_OK;
 }
+
+/* Where h does not divide the interval the last step is shorter, or goes beyond it. */
+int stf_rest_open(steif_solver *s, const stf_constant *c, sunrealtype t1)
+{
+  if (!(c->rest > 0) || s->step.rest == STF_REST_SHORTER) return STEIF_OK;
+  STEIF_CHECK(s->step.rest == STF_REST_ACROSS, s->ctx, STEIF_BAD_INPUT,
+              "t1 = %.12g is not a whole number of steps of h = %.12g, and '%s' has neither a "
+              "step of another length nor dense output of its order: end at %.12g, or take "
+              "h = %.12g",
+              t1, c->h, s->method, c->end, (t1 - c->t0) / (double)(c->whole + 1));
+  if (!s->final) s->final = stf_pool_vector(s->pool, s->step.y);
+  return s->final ? STEIF_OK : STEIF_NO_MEMORY;
+}

@@ -13,10 +13,11 @@ int stf_quadrature_orders(steif_solver *s)
     return STEIF_OK;
   if (s->agreed) {
     STEIF_TRY(stf_quadrature_reads(s, s->end, stf_last(s), -1, &which));
-    STEIF_CHECK(which < 0, s->ctx, STEIF_UNSUPPORTED,
-                "integrand %d of problem '%s' reads unknowns of index 2 or 3, which '%s' has to "
-                "a few digits only inside its steps: take radau or bdf",
-                which + 1, p->name, s->method);
+    STEIF_CHECK(
+      which < 0, s->ctx, STEIF_UNSUPPORTED,
+      "integrand %d of problem '%s' reads unknowns of index 2 or 3, which '%s' has to "
+      "a few digits only inside its steps: take radau or bdf",
+      which + 1, p->name, s->method);
     return STEIF_OK;
   }
   for (sunindextype j = 0; j < p->n; j++) {
