@@ -22,7 +22,7 @@ typedef struct outcome {
 #define PARALLEL_OPTION(about)                                                                 \
   {"--parallel", FLAG, NULL, about, NULL}
 #define RANKS_OPTIONS                                                                          \
-  PARALLEL_OPTION("over ranks: mpirun -np N steif ... --parallel, problems built for that"),  \
+  PARALLEL_OPTION("over ranks, with mpirun -np N: --rtol --atol --h --t1 --linear --json alone"), \
     {"--linear", WORD, "NAME", "with --parallel: amg, mumps or krylov", "amg"}
 #define RUN_OPTIONS                                                                            \
   SET_OPTION,                                                                                  \

@@ -69,12 +69,15 @@ static int read_option(request *r, int argc, char **argv, int *i)
       if (k == 0) r->tolerances = 1;
       return read_numbers(r, word, next, numbers[k].value, &one);
     }
-  if (!strcmp(word, "--linear") && *next) return r->linear = argv[++*i], FINE;
-  return object(
-    r,
-    "no option %s here; there are --rtol%s, --atol, --h, --t1, --linear amg|mumps|krylov, "
-    "--json [STEIF_UNKNOWN_NAME]",
-    word, comparing ? "s" : "");
+  if (!strcmp(word, "--linear")) {
+    if (!*next || *next == '-')
+      return object(r, "--linear needs a solver: amg, mumps or krylov [STEIF_BAD_INPUT]");
+    return r->linear = argv[++*i], FINE;
+  }
+  return object(r,
+                "no option %s over ranks; there are --rtol%s, --atol, --h, --t1, "
+                "--linear amg|mumps|krylov, --json [STEIF_UNKNOWN_NAME]",
+                word, comparing ? "s" : "");
 }
 
 static int read_word(request *r, const char *word)
@@ -96,9 +99,10 @@ int request_read(request *r, int argc, char **argv)
     const int code = argv[i][0] == '-' ? read_option(r, argc, argv, &i) : read_word(r, argv[i]);
     if (code) return code;
   }
+  if (r->problem && !r->methods && strcmp(r->verb, "compare")) r->method[r->methods++] = "auto";
   if (r->methods) return FINE;
-  return object(r, "steif %s PROBLEM METHOD%s --parallel [STEIF_BAD_INPUT]", r->verb,
-                strcmp(r->verb, "compare") ? "" : " ...");
+  return object(r, "steif %s PROBLEM %s --parallel [STEIF_BAD_INPUT]", r->verb,
+                strcmp(r->verb, "compare") ? "[METHOD]" : "METHOD ...");
 }
 
 int exit_of_code(int code)

@@ -6,7 +6,8 @@
 
 static void present(const request *r, const steif_problem *p, const ranks_run *run)
 {
-  char known[64] = "null";
+  char known[64];
+  snprintf(known, sizeof known, "%s", r->json ? "null" : "-");
   if (isfinite(run->error)) snprintf(known, sizeof known, "%.3e", run->error);
   printf(
     r->json

@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 #include <steif/base.h>
+#include <steif/problem.h>
 #include <sundials/sundials_nvector.h>
 
 #ifdef __cplusplus
@@ -27,6 +28,13 @@ STEIF_EXPORT int steif_fail(steif_context *ctx, int code, const char *format, ..
  * the sentence of one that failed. All of them call it at the same place. A vector that is not spread, or NULL:
  * `code`. The vector must have the operation nvdotprodmultiallreduce. */
 STEIF_EXPORT int steif_agree(steif_context *ctx, N_Vector like, int code);
+
+/* STEIF_BAD_INPUT with "ranks disagree in `what`" on all ranks where these bytes are not the same on all of them (NULL:
+ * none); or the members of a problem that are to be the same, with their name. */
+STEIF_EXPORT int steif_same(steif_context *ctx, N_Vector like, const char *what,
+                            const void *bytes, size_t count);
+STEIF_EXPORT int steif_same_problem(steif_context *ctx, N_Vector like,
+                                    const steif_problem *problem);
 
 /* A problem whose callbacks call those of another one has a user of its own, `user`; options.ewt, which the caller gives
  * beside it, is called with `own` in its place. STEIF_NO_MEMORY. steif_stand_down ends that, before `user` goes. */

@@ -24,7 +24,8 @@
  * between the integral of a step and that of the polynomial through g at the start and all stages but the last stays below
  * rtol |q| + atol.
  *
- * Checkpoints, copies and restarts of such runs: STEIF_UNSUPPORTED. Serial vectors and those with a host array.
+ * Checkpoints, copies and restarts of such runs: STEIF_UNSUPPORTED. Serial vectors and those with a host
+ * array; over ranks the callback returns the same values on all of them, or the run ends with STEIF_BAD_INPUT.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_QUADRATURE_H

@@ -198,7 +198,8 @@ STEIF_EXPORT int steif_drift_now(steif_solver *s, int *count, sunrealtype *drift
  * the latter; computed so they are as good as the former: the multiplier of a pendulum by radau:s=3 has order 5
  * instead of 2. *drift: the largest movement of a component of index 1 (problem.index, or as found at the
  * start), *corrected: that of the others, both in tolerances, NULL: not wanted. y may be the vector shown. Codes
- * of steif_consistent (consistent.h); a diagnosis, and some thousand evaluations. */
+ * of steif_consistent (consistent.h); a diagnosis, and some thousand evaluations. STEIF_UNSUPPORTED: vectors over
+ * ranks. */
 STEIF_EXPORT int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift,
                                  sunrealtype *corrected);
 

@@ -3,7 +3,6 @@
 #include "own_rows.h"
 #include <math.h>
 #include <steif/quadrature.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -230,8 +229,12 @@ static int finite(const steif_mpi *m, char which, int halves, sunrealtype *const
 int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp, sunrealtype c_re,
                     sunrealtype c_im, int transposed, int count, N_Vector *b, N_Vector *x)
 {
+  if (!m) return STEIF_BAD_INPUT;
   steif_context *ctx = m->rows.ctx;
   sunrealtype **parts = NULL;
+  const sunrealtype asked[] = {t, c_re, c_im, transposed, count};
+  MPI_TRY(
+    steif_same(ctx, m->rows.like, "what steif_mpi_solve is asked for", asked, sizeof asked));
   if (m->with != &back_end_mumps)
     return steif_fail(ctx, STEIF_UNSUPPORTED,
                       "steif_mpi_solve needs the factors of \"mumps\", and there is \"%s\"",
@@ -289,30 +292,13 @@ static const back_end *find(const char *name)
   return NULL;
 }
 
-/* Ranks that were given different things: equal on all when the least and the greatest are. */
-static int same(steif_mpi *m, const char *spec)
-{
-  uint64_t hash = 14695981039346656037u; /* FNV-1a */
-  char text[256];
-  const steif_problem *p = m->p;
-  snprintf(text, sizeof text, "%s|%s|%lld|%.17g|%.17g|%d%d%d%d%d%d", p->name ? p->name : "",
-           spec ? spec : "", (long long)p->n, p->t0, p->t1, p->linear, !!p->E, !!p->A,
-           !!p->pattern, !!p->f, !!p->F);
-  for (const char *c = text; *c; c++) hash = (hash ^ (unsigned char)*c) * 1099511628211u;
-  uint64_t all[2] = {hash, ~hash};
-  MPI_Allreduce(MPI_IN_PLACE, all, 2, MPI_UINT64_T, MPI_MAX, NV_COMM_P(m->rows.like));
-  if (all[0] == ~all[1]) return STEIF_OK;
-  return steif_fail(m->rows.ctx, STEIF_BAD_INPUT,
-                    "ranks disagree about the problem or the solver: name, n, t0, t1, form and "
-                    "spec must be the same on all of them");
-}
-
 static int prepare(steif_mpi *m, const char *text)
 {
   steif_spec spec;
   steif_context *ctx = m->rows.ctx;
   N_Vector like = m->rows.like;
-  MPI_TRY(same(m, text));
+  MPI_TRY(steif_same(ctx, like, "the solver of linear systems", text, strlen(text)));
+  MPI_TRY(steif_same_problem(ctx, like, m->p));
   int code = steif_spec_parse(ctx, text, &spec);
   if (!code && !(m->with = find(spec.name)))
     code = steif_fail(ctx, STEIF_UNKNOWN_NAME,
@@ -331,13 +317,16 @@ steif_mpi *steif_mpi_open(steif_context *ctx, const steif_problem *problem, cons
                           N_Vector like)
 {
   if (!ctx || own_rows_initialised(ctx)) return NULL;
-  if (!problem || !spec || !like || N_VGetVectorID(like) != SUNDIALS_NVEC_PARALLEL) {
-    steif_fail(ctx, STEIF_BAD_INPUT,
-               "steif_mpi_open needs a problem, a spec and a vector of steif_mpi_vector");
-    return NULL;
-  }
-  steif_mpi *m = steif_allocate(ctx, 1, sizeof *m);
-  if (steif_agree(ctx, like, m ? STEIF_OK : STEIF_NO_MEMORY)) {
+  const bool spread = like && N_VGetVectorID(like) == SUNDIALS_NVEC_PARALLEL;
+  int code = STEIF_OK;
+  if (!problem || !spec || !spread)
+    code =
+      steif_fail(ctx, STEIF_BAD_INPUT,
+                 "steif_mpi_open needs a problem, a spec and a vector of steif_mpi_vector");
+  if (!spread) return NULL;
+  steif_mpi *m = code ? NULL : steif_allocate(ctx, 1, sizeof *m);
+  if (!m && !code) code = STEIF_NO_MEMORY;
+  if (steif_agree(ctx, like, code)) {
     steif_release(ctx, m);
     return NULL;
   }

@@ -298,6 +298,20 @@ static void first_component(rod *r)
   close(&g);
 }
 
+/* Numbers of ranks are those of the communicator. */
+static void part_of_all(MPI_Comm comm)
+{
+  int rank;
+  rod r;
+  MPI_Comm part;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_split(comm, rank > 0, rank, &part);
+  rod_open(&r, part, 40, 0);
+  if (r.size > 1) values(&r, "bdf", EVENTS, FATAL), wrong_rows(&r), first_component(&r);
+  rod_close(&r);
+  MPI_Comm_free(&part);
+}
+
 void test_same(MPI_Comm comm)
 {
   static const char *const methods[] = {"bdf", "radau:s=2", "cvode", "ida"};
@@ -322,5 +336,6 @@ void test_same(MPI_Comm comm)
     first_component(&r);
     times(&r, "bdf"), times(&r, "rk4"), times(&r, "cvode");
   }
+  part_of_all(comm);
   rod_close(&r);
 }

@@ -198,6 +198,12 @@ static void bad_input(void)
         ranks > 1 ? STEIF_BAD_INPUT : STEIF_OK);
 }
 
+static int product(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)x, (void)out, (void)user;
+  return -1;
+}
+
 /* Rows that do not add up to n, another n on one rank, less than no rows. */
 static void sizes(void)
 {
@@ -212,6 +218,10 @@ static void sizes(void)
   p.n = rank == 0 && ranks > 1 ? 41 : 40;
   steif_mpi *m = steif_mpi_open(ctx, &p, "mumps", like);
   ALL(ranks == 1 || (!m && steif_status(ctx) == STEIF_BAD_INPUT && same(ctx)));
+  steif_mpi_free(&m);
+  p.n = 40, p.Av = rank == 0 && ranks > 1 ? product : NULL;
+  m = steif_mpi_open(ctx, &p, "mumps", like);
+  ALL(ranks == 1 || (!m && strstr(steif_message(ctx), "ranks disagree in problem.Av")));
   steif_mpi_free(&m);
   N_VDestroy(like);
   steif_context_free(&ctx);

@@ -82,8 +82,29 @@ static void first_sentence(void)
   steif_context_free(&ctx);
 }
 
+/* What is asked for differs. */
+static void questions(void)
+{
+  N_Vector like;
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem *p = steif_mpi_problem_new(ctx, "heat2d:n=4", MPI_COMM_WORLD, &like);
+  N_Vector b[] = {N_VClone(like), N_VClone(like)};
+  steif_mpi *m = steif_mpi_open(ctx, p, "mumps", like);
+  const int code = steif_mpi_solve(m, 0, like, like, 1, rank == 0 && ranks > 1, 0, 1, b, b);
+  ALL(code == (ranks > 1 ? STEIF_BAD_INPUT : STEIF_OK) && same(ctx));
+  steif_mpi_free(&m);
+  N_VDestroy(b[0]), N_VDestroy(b[1]);
+  steif_mpi_problem_free(ctx, &p, &like);
+  p = steif_mpi_problem_new(ctx, rank ? "ladder:n=40,case=cons" : "heat2d:n=4", MPI_COMM_WORLD,
+                            &like);
+  ALL(ranks == 1 || (!p && !like && steif_status(ctx) == STEIF_BAD_INPUT && same(ctx)));
+  steif_mpi_problem_free(ctx, &p, &like);
+  steif_context_free(&ctx);
+}
+
 void test_passed_on(void)
 {
+  questions();
   integrals_and_weights("heat2d:n=6", "amg", "bdf");
   integrals_and_weights("heat2d:n=6", "mumps", "radau:s=2");
   integrals_and_weights("heat2d:n=6", "amg", "cvode");

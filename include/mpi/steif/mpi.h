@@ -2,8 +2,14 @@
  *
  * A rank owns consecutive rows of y, E and A, the first rank the first ones. The same calls solve the problem as in
  * one process: a vector of own rows, made by steif_mpi_vector, is options.like; callbacks read and write own rows,
- * exchange what they need of neighbours, and are called on all ranks at the same places. Numbers such as n, t1,
- * rtol are the same on all ranks; y0, atols, index and constraint are of own rows.
+ * exchange what they need of neighbours, and are called on all ranks at the same places. y0, yp0, atols and index are of
+ * own rows. All else that a run looks at is the same on all ranks: numbers, times, the method, events, parameters,
+ * which callbacks there are; STEIF_BAD_INPUT names the member in which ranks disagree. Event functions, invariants and
+ * integrands (quadrature.h) have the same values on all of them, so the callback sums up. steif_solve_to,
+ * steif_solver_extend and steif_quadrature_values are called by all ranks with the same t; steif_dense too, with the
+ * explicit methods whose dense output evaluates f, and arkode. Not over ranks: constraint, sensitivities,
+ * reinitialise, steif_recompute, checkpoints. A run needs a vector over ranks on all of them: one that is given another
+ * options.like does not know of the others.
  *
  * Linear systems (c E - A) x = b: steif_mpi_open makes of a problem with A (and E) by rows one that GMRES solves
  * with a preconditioner made of these rows:
@@ -77,7 +83,8 @@ STEIF_EXPORT sunindextype steif_mpi_first(N_Vector v);
  * STEIF_UNKNOWN_NAME: no such solver; STEIF_UNSUPPORTED: more rows than the integers of MUMPS or hypre hold. */
 STEIF_EXPORT steif_mpi *steif_mpi_open(steif_context *ctx, const steif_problem *problem,
                                        const char *spec, N_Vector like);
-/* What steif_solver_new is given instead of `problem`. Storage Krylov; callbacks are those of the problem. */
+/* What steif_solver_new is given instead of `problem`. Storage Krylov; callbacks are those of the problem, called with its
+ * user, as options.ewt is; .L, parameters and its preconditioner are left out. */
 STEIF_EXPORT const steif_problem *steif_mpi_problem(const steif_mpi *m);
 STEIF_EXPORT steif_mpi_stats steif_mpi_statistics(const steif_mpi *m);
 /* After the solvers that use it; NULL is accepted. On all ranks, before MPI_Finalize. */

@@ -1,6 +1,7 @@
 /* extension.c: memory, sentences and agreement for libraries beside this one.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "agree.h"
+#include "image.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <steif/extension.h>
@@ -28,6 +29,15 @@ int steif_fail(steif_context *ctx, int code, const char *format, ...)
 int steif_agree(steif_context *ctx, N_Vector like, int code)
 {
   return stf_agree(ctx, like, code);
+}
+
+int steif_same(steif_context *ctx, N_Vector like, const char *what, const void *bytes,
+               size_t count)
+{
+  const unsigned long long number = bytes ? stf_checksum(bytes, count) : 0;
+  STEIF_CHECK(stf_agree_same(like, &number, sizeof number), ctx, STEIF_BAD_INPUT,
+              "ranks disagree in %s: give all the same", what);
+  return STEIF_OK;
 }
 
 typedef struct stf_stand_in {

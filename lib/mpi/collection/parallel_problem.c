@@ -1,8 +1,7 @@
 /* parallel_problem.c: a problem of the collection over ranks, by its name.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "parallel_problem.h"
-#include "own_rows.h"
-#include <stdint.h>
+#include <string.h>
 
 void steif_mpi_problem_free(steif_context *ctx, steif_problem **problem, N_Vector *like)
 {
@@ -13,24 +12,9 @@ void steif_mpi_problem_free(steif_context *ctx, steif_problem **problem, N_Vecto
   *problem = NULL;
 }
 
-/* The same text everywhere: what is built, and how ranks agree on the way, hangs on it. */
-static int same_text(steif_context *ctx, const char *text, MPI_Comm comm)
-{
-  uint64_t hash = 14695981039346656037u; /* FNV-1a */
-  for (const char *c = text ? text : ""; *c; c++)
-    hash = (hash ^ (unsigned char)*c) * 1099511628211u;
-  uint64_t all[2] = {hash, ~hash};
-  MPI_Allreduce(MPI_IN_PLACE, all, 2, MPI_UINT64_T, MPI_MAX, comm);
-  if (all[0] == ~all[1]) return STEIF_OK;
-  return steif_fail(
-    ctx, STEIF_BAD_INPUT,
-    "ranks disagree about the problem: its name must be the same on all of them");
-}
-
 static int build(steif_context *ctx, const char *text, N_Vector one, parallel_problem **out)
 {
   steif_spec spec;
-  MPI_TRY(same_text(ctx, text, NV_COMM_P(one)));
   const bool named = text && !steif_spec_parse(ctx, text, &spec) && grid_named(spec.name);
   steif_forget(ctx);
   if (!text) return steif_fail(ctx, STEIF_BAD_INPUT, "the problem has no name; give one");
@@ -54,7 +38,8 @@ steif_problem *steif_mpi_problem_new(steif_context *ctx, const char *spec, MPI_C
   }
   N_Vector one = steif_mpi_vector(ctx, comm, 1); /* to agree by */
   if (!one) return NULL;
-  const int code = steif_agree(ctx, one, build(ctx, spec, one, &p));
+  int code = steif_same(ctx, one, "the problem", spec, spec ? strlen(spec) : 0);
+  if (!code) code = steif_agree(ctx, one, build(ctx, spec, one, &p));
   N_VDestroy(one);
   steif_problem *problem = p ? &p->problem : NULL;
   *like = code ? NULL : steif_mpi_vector(ctx, comm, p->rows);

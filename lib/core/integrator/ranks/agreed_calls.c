@@ -6,14 +6,16 @@
 /* -- opening ----------------------------------------------------------------------------------- */
 
 /* What needs all unknowns in one place. */
-static int refuse(const stf_agreed *a, const steif_options *o)
+static int refuse(const stf_agreed *a, const steif_options *o, int form)
 {
   const enum steif_storage storage = o->force_storage ? o->storage : a->p->storage;
   const char *const what = storage != STEIF_KRYLOV ? "storage other than Krylov"
                            : a->p->constraint      ? "constraint"
                            : o->sensitivities      ? "sensitivities"
                            : o->reinitialise       ? "reinitialise"
-                                                   : NULL;
+                           : form != STEIF_ODE && o->initial == STEIF_CHECK
+                             ? "initial = STEIF_CHECK"
+                             : NULL;
   STEIF_CHECK(
     !what, a->ctx, STEIF_UNSUPPORTED,
     "'%s' of problem '%s' needs all %lld unknowns in one place, and these vectors are "
@@ -85,7 +87,7 @@ int stf_agreed_open(steif_solver *s, const char *method, int *form)
   const sunindextype rows = knows_rows(like) ? stf_local_length(like) : 0;
   STEIF_TRY(agree_on_rows(s, check(s, rows, form), rows));
   STEIF_TRY(add_up(s->agreed));
-  STEIF_TRY(refuse(s->agreed, &s->options));
+  STEIF_TRY(refuse(s->agreed, &s->options, *form));
   stf_agreed_wrap(s->agreed, &s->options);
   s->problem = &s->agreed->problem;
   s->deferred.opening = true;

@@ -5,6 +5,7 @@
  * the presence is to be the same. What no run reads (about, reference, build, destroy) may differ.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "agreed.h"
+#include <steif/extension.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -136,11 +137,6 @@ static void add(collected *c, const char *name, const void *bytes, size_t count)
   c->number[c->count++] = bytes ? stf_checksum(bytes, count) : 0;
 }
 
-static void add_text(collected *c, const char *name, const char *text)
-{
-  add(c, name, text, text ? strlen(text) : 0);
-}
-
 static void add_times(collected *c, const char *name, const sunrealtype *t, long long count)
 {
   if (t && count > 0) add(c, name, t, (size_t)count * sizeof *t);
@@ -199,30 +195,36 @@ static void add_parameters(collected *c, const steif_parameters *q)
   add_times(c, "parameters->value", q->value, q->count);
 }
 
-int stf_same_input(steif_context *ctx, N_Vector like, const steif_problem *problem,
-                   const char *method, const steif_options *o)
+int steif_same_problem(steif_context *ctx, N_Vector like, const steif_problem *problem)
 {
   static const steif_problem none;
   const steif_problem *p = problem ? problem : &none;
-  collected given = {.of = "the "}, of_p = {.of = "problem."}, of_o = {.of = "options."};
-  _Static_assert(STF_COUNT(of_problem) <= ROOM && STF_COUNT(of_options) <= ROOM, "room");
   const bool there = problem != NULL;
-  add(&given, "problem: NULL on some of them", &there, sizeof there);
-  add_text(&given, "method", method);
-  STEIF_TRY(compare(ctx, like, &given));
+  collected of_p = {.of = "problem."};
+  _Static_assert(STF_COUNT(of_problem) <= ROOM && STF_COUNT(of_options) <= ROOM, "room");
+  STEIF_TRY(steif_same(ctx, like, "whether there is a problem at all", &there, sizeof there));
   add_members(&of_p, STF_COUNT(of_problem), of_problem, p);
   STEIF_TRY(compare(ctx, like, &of_p));
-  add_members(&of_o, STF_COUNT(of_options), of_options, o);
-  STEIF_TRY(compare(ctx, like, &of_o));
-  of_p.count = of_o.count = 0;
+  of_p.count = 0;
   add_times(&of_p, "event_times", p->event_times, p->event_time_count);
   add_times(&of_p, "breaks", p->breaks, p->break_count);
   add_events(&of_p, p);
   add_quadrature(&of_p, p->quadrature);
   add_parameters(&of_p, p->parameters);
-  STEIF_TRY(compare(ctx, like, &of_p));
+  return compare(ctx, like, &of_p);
+}
+
+int stf_same_input(steif_context *ctx, N_Vector like, const steif_problem *problem,
+                   const char *method, const steif_options *o)
+{
+  collected of_o = {.of = "options."};
+  STEIF_TRY(steif_same(ctx, like, "the method", method, strlen(method)));
+  STEIF_TRY(steif_same_problem(ctx, like, problem));
+  add_members(&of_o, STF_COUNT(of_options), of_options, o);
+  STEIF_TRY(compare(ctx, like, &of_o));
+  of_o.count = 0;
   add_times(&of_o, "mesh", o->mesh, (long long)o->mesh_size);
-  add_text(&of_o, "start", o->start);
+  add(&of_o, "start", o->start, o->start ? strlen(o->start) : 0);
   if (o->active && o->active_count > 0)
     add(&of_o, "active", o->active, (size_t)o->active_count * sizeof *o->active);
   return compare(ctx, like, &of_o);
