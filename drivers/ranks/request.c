@@ -72,7 +72,8 @@ static int read_option(request *r, int argc, char **argv, int *i)
   if (!strcmp(word, "--linear")) {
     if (!*next || *next == '-')
       return object(r, "--linear needs a solver: amg, mumps or krylov [STEIF_BAD_INPUT]");
-    return r->linear = argv[++*i], FINE;
+    r->linear = argv[++*i];
+    return FINE;
   }
   return object(r,
                 "no option %s over ranks; there are --rtol%s, --atol, --h, --t1, "

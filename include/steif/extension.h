@@ -7,12 +7,13 @@
 
 #include <stddef.h>
 #include <steif/base.h>
-#include <steif/problem.h>
 #include <sundials/sundials_nvector.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+struct steif_problem; /* problem.h */
 
 /* count * size bytes, zeroed, from the allocator of the context, or NULL with the sentence set. */
 STEIF_EXPORT void *steif_allocate(steif_context *ctx, size_t count, size_t size);
@@ -34,7 +35,7 @@ STEIF_EXPORT int steif_agree(steif_context *ctx, N_Vector like, int code);
 STEIF_EXPORT int steif_same(steif_context *ctx, N_Vector like, const char *what,
                             const void *bytes, size_t count);
 STEIF_EXPORT int steif_same_problem(steif_context *ctx, N_Vector like,
-                                    const steif_problem *problem);
+                                    const struct steif_problem *problem);
 
 /* A problem whose callbacks call those of another one has a user of its own, `user`; options.ewt, which the caller gives
  * beside it, is called with `own` in its place. STEIF_NO_MEMORY. steif_stand_down ends that, before `user` goes. */

@@ -68,10 +68,11 @@ int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift, sunrealtype
 {
   if (!s) return STEIF_BAD_INPUT;
   const size_t n = (size_t)s->problem->n;
-  STEIF_CHECK(!s->agreed, s->ctx, STEIF_UNSUPPORTED,
-              "steif_recompute needs all %zu unknowns in one place, and these vectors are spread "
-              "over ranks",
-              n);
+  STEIF_CHECK(
+    !s->agreed, s->ctx, STEIF_UNSUPPORTED,
+    "steif_recompute needs all %zu unknowns in one place, and these vectors are spread "
+    "over ranks",
+    n);
   STEIF_CHECK(y && stf_array(y) && N_VGetLength(y) == s->problem->n && stf_array(s->shown),
               s->ctx, STEIF_BAD_INPUT, "a vector of %zu components with a host array is needed",
               n);
