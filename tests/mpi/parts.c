@@ -4,6 +4,7 @@
 #include "ranks.h"
 
 #ifdef HAVE_MPIMANYVECTOR
+#include "base/failing.h"
 #include <math.h>
 #include <nvector/nvector_mpimanyvector.h>
 #include <nvector/nvector_serial.h>
@@ -91,10 +92,58 @@ static void run(MPI_Comm comm, const char *method)
   rod_close(&p.r);
 }
 
+/* The last rank does not get the k-th piece of memory, while others clone vectors, which takes all ranks. */
+static int refused(MPI_Comm comm, const char *method, long k)
+{
+  pieces p;
+  sunrealtype y0[64];
+  rod_open(&p.r, comm, 40, 0);
+  failing fails = {.refuse_at = p.r.rank == p.r.size - 1 ? k : 0};
+  const steif_setup given = failing_setup(&fails);
+  steif_context *ctx = steif_context_new(&given), *own = steif_context_new(NULL);
+  int there = ctx != NULL, code = STEIF_NO_MEMORY;
+  MPI_Allreduce(MPI_IN_PLACE, &there, 1, MPI_INT, MPI_MIN, comm);
+  SUNContext sun = steif_sundials(own);
+  p.whole = rod_vector(&p.r, own), p.out = N_VClone(p.whole);
+  N_Vector part[] = {N_VNew_Serial(p.r.rows / 2, sun),
+                     N_VNew_Serial(p.r.rows - p.r.rows / 2, sun)};
+  N_Vector like = N_VMake_MPIManyVector(comm, 2, part, sun);
+  if (there) {
+    steif_problem b = rod_problem(&p.r, y0);
+    b.y0 = NULL, b.start = start, b.f = f, b.precsetup = setup, b.precsolve = solve,
+    b.user = &p;
+    steif_options o = steif_defaults();
+    o.rtol = 1e-3, o.like = like;
+    steif_solver *s = steif_solver_new(ctx, &b, method, &o);
+    code = s ? STEIF_OK : steif_status(ctx);
+    EVERYWHERE(&p.r, same_answer(&p.r, ctx, code));
+    EVERYWHERE(&p.r, code == STEIF_OK || code == STEIF_NO_MEMORY);
+    steif_solver_free(&s);
+  }
+  steif_context_free(&ctx);
+  EVERYWHERE(&p.r, fails.alive == 0);
+  N_VDestroy(like), N_VDestroy(part[0]), N_VDestroy(part[1]);
+  N_VDestroy(p.whole), N_VDestroy(p.out);
+  steif_context_free(&own);
+  rod_close(&p.r);
+  return code != STEIF_OK;
+}
+
+static void memory(MPI_Comm comm, const char *method)
+{
+  rod r;
+  long k = 1;
+  rod_open(&r, comm, 40, 0);
+  while (k < 1000 && refused(comm, method, k)) k++;
+  EVERYWHERE(&r, k > 10 && k < 1000);
+  rod_close(&r);
+}
+
 void test_parts(MPI_Comm comm)
 {
   static const char *const methods[] = {"bdf", "radau:s=3", "dirk:hw43", "rodas4", "cvode"};
   for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) run(comm, methods[k]);
+  memory(comm, "bdf"), memory(comm, "cvode"), memory(comm, "ida"), memory(comm, "arkode");
 }
 #else
 void test_parts(MPI_Comm comm) { (void)comm; }
