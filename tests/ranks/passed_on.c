@@ -60,17 +60,17 @@ static void integrals_and_weights(const char *name, const char *spec, const char
   steif_context_free(&ctx);
 }
 
-/* The first sentence, with its code, of a matrix that is asked for first by products of E. */
-static void first_sentence(void)
+/* The first sentence, with its code, of a matrix that is asked for first by products of E, or a preconditioner. */
+static void first_sentence(const char *name, const char *method)
 {
   N_Vector like;
   char words[60];
   steif_context *ctx = steif_context_new(NULL);
-  steif_problem *p = steif_mpi_problem_new(ctx, "ladder:n=40,case=cons", MPI_COMM_WORLD, &like);
+  steif_problem *p = steif_mpi_problem_new(ctx, name, MPI_COMM_WORLD, &like);
   steif_options o = steif_defaults();
   o.rtol = 1e-4, o.like = like, fill = p->A, p->A = no_number;
   steif_mpi *m = steif_mpi_open(ctx, p, "mumps", like);
-  steif_solver *s = m ? steif_solver_new(ctx, steif_mpi_problem(m), "bdf", &o) : NULL;
+  steif_solver *s = m ? steif_solver_new(ctx, steif_mpi_problem(m), method, &o) : NULL;
   const int code = s ? steif_solve_to(s, 0.01) : steif_status(ctx);
   snprintf(words, sizeof words, "is nan (rank %d) [STEIF_NOT_FINITE]", ranks - 1);
   if (!ALL(code == STEIF_NOT_FINITE && strstr(steif_message(ctx), words)) && rank == 0)
@@ -108,5 +108,6 @@ void test_passed_on(void)
   integrals_and_weights("heat2d:n=6", "amg", "bdf");
   integrals_and_weights("heat2d:n=6", "mumps", "radau:s=2");
   integrals_and_weights("heat2d:n=6", "amg", "cvode");
-  first_sentence();
+  first_sentence("ladder:n=40,case=cons", "bdf");
+  first_sentence("heat2d:n=6", "cvode"), first_sentence("heat2d:n=6", "ida");
 }

@@ -30,7 +30,7 @@ static void hear(int line, const char *function, const char *file, const char *t
 void stf_baseline_enter(stf_baseline *base, stf_run *run)
 {
   base->run = run;
-  base->said[0] = base->detail[0] = 0, base->fault.now = false;
+  base->said[0] = base->detail[0] = 0, base->fault.now = base->told = false;
   SUNContext_PushErrHandler(steif_sundials(run->ctx), hear, base);
 }
 
@@ -49,7 +49,7 @@ void stf_baseline_hear(int code, const char *module, const char *function, char 
 void stf_baseline_enter(stf_baseline *base, stf_run *run)
 {
   base->run = run;
-  base->said[0] = base->detail[0] = 0, base->fault.now = false;
+  base->said[0] = base->detail[0] = 0, base->fault.now = base->told = false;
 }
 
 void stf_baseline_leave(stf_baseline *base) { (void)base; }
@@ -191,6 +191,12 @@ static bool finite_numbers(sunindextype n, const sunrealtype *x)
     for (int k = 0; k < 4; k++) s[k] += 0 * x[i + k];
   for (; i < n; i++) s[0] += 0 * x[i];
   return s[0] + s[1] + s[2] + s[3] == 0;
+}
+
+int stf_baseline_tells(stf_baseline *base, long failures, int returned)
+{
+  base->told = returned < 0 && stf_failures(base->run->ctx) > failures;
+  return returned;
 }
 
 bool stf_baseline_finite(N_Vector v)

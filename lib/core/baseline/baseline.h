@@ -56,6 +56,7 @@ typedef struct stf_baseline {
   long made;           /* steps made then */
   long stalls;         /* steps in a row that time did not feel */
   char said[STF_SAID]; /* last message of the package */
+  bool told;           /* a preconditioner that has ended the call has left its own sentence */
   char detail[120];    /* what the engine adds to the sentence */
 } stf_baseline;
 
@@ -124,6 +125,8 @@ int stf_baseline_precsolve(sunrealtype t, N_Vector y, N_Vector fy, N_Vector r, N
                            sunrealtype gamma, sunrealtype delta, int side, void *base);
 /* True if df/dy comes from a callback. */
 bool stf_baseline_has_jac(const stf_baseline *base);
+/* What a preconditioner returned; `failures` there were before. */
+int stf_baseline_tells(stf_baseline *base, long failures, int returned);
 /* Every component is a finite number. */
 bool stf_baseline_finite(N_Vector v);
 

@@ -150,6 +150,7 @@ int stf_baseline_verdict(stf_baseline *base, int flag, sunrealtype h, int order)
     STEIF_TRY(check_solution(base));
     return check_progress(base);
   }
+  if (base->told && steif_status(run->ctx) < 0) return steif_status(run->ctx);
   const stf_flag *f = row(base, flag);
   char fault[120], at_order[24] = "";
   describe_fault(base, sizeof fault, fault);

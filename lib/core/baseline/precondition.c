@@ -30,10 +30,14 @@ int stf_baseline_precsetup(sunrealtype t, N_Vector y, N_Vector fy, sunbooleantyp
 {
   stf_baseline *base = user;
   const steif_problem *p = base->run->problem;
+  const long failures = stf_failures(base->run->ctx);
   *jcur = base->near ? !jok : 1;
   base->c = 1 / gamma;
   if (!base->near)
-    return p->precsetup ? p->precsetup(t, y, base->run->yp, fy, base->c, p->user) : 0;
+    return p->precsetup
+             ? stf_baseline_tells(base, failures,
+                                  p->precsetup(t, y, base->run->yp, fy, base->c, p->user))
+             : 0;
   if (*jcur) {
     N_Vector w = base->work;
     const int seen = stf_baseline_jac(t, y, fy, base->A, base, w, w, w);
@@ -48,10 +52,12 @@ int stf_baseline_precsolve(sunrealtype t, N_Vector y, N_Vector fy, N_Vector r, N
 {
   stf_baseline *base = user;
   const steif_problem *p = base->run->problem;
+  const long failures = stf_failures(base->run->ctx);
   (void)side, (void)gamma;
   int code = 0;
   if (!base->near)
-    code = p->precsolve(t, y, base->run->yp, fy, r, z, base->c, delta, p->user);
+    code = stf_baseline_tells(
+      base, failures, p->precsolve(t, y, base->run->yp, fy, r, z, base->c, delta, p->user));
   else {
     N_VScale(1, r, z);
     code = steif_pencil_solve(base->near, 0, 1, &z, NULL);

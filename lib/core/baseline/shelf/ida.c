@@ -93,15 +93,20 @@ static int verdict(ida *s, int flag)
 static int precsetup(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, sunrealtype c,
                      void *user)
 {
-  const steif_problem *p = ((const stf_baseline *)user)->run->problem;
-  return p->precsetup ? p->precsetup(t, y, yp, r, c, p->user) : 0;
+  stf_baseline *base = user;
+  const steif_problem *p = base->run->problem;
+  const long failures = stf_failures(base->run->ctx);
+  if (!p->precsetup) return 0;
+  return stf_baseline_tells(base, failures, p->precsetup(t, y, yp, r, c, p->user));
 }
 
 static int precsolve(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, N_Vector b, N_Vector z,
                      sunrealtype c, sunrealtype delta, void *user)
 {
-  const steif_problem *p = ((const stf_baseline *)user)->run->problem;
-  return p->precsolve(t, y, yp, r, b, z, c, delta, p->user);
+  stf_baseline *base = user;
+  const steif_problem *p = base->run->problem;
+  const long failures = stf_failures(base->run->ctx);
+  return stf_baseline_tells(base, failures, p->precsolve(t, y, yp, r, b, z, c, delta, p->user));
 }
 
 static int attach(ida *s)
