@@ -201,8 +201,10 @@ static int setup(void *state, sunrealtype re, sunrealtype im)
   rows *r = g->r;
   (void)im;
   if (!g->count || g->revision != r->revision) {
-    MPI_TRY(steif_agree(r->ctx, r->like, pattern(g)));
-    MPI_TRY(steif_agree(r->ctx, r->like, vectors(g)));
+    int code = steif_agree(r->ctx, r->like, pattern(g));
+    if (!code) code = steif_agree(r->ctx, r->like, vectors(g));
+    if (code) forget(g); /* on all ranks, or some would make them anew alone */
+    MPI_TRY(code);
   }
   MPI_TRY(steif_agree(r->ctx, r->like, values(g, re)));
   drop(g);

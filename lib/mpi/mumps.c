@@ -223,7 +223,9 @@ int mumps_serve(mumps *s, sunrealtype re, sunrealtype im, sunrealtype part, slot
   rows *r = s->r;
   if (!s->set.row || s->revision != r->revision) {
     forget(s);
-    MPI_TRY(steif_agree(r->ctx, r->like, pattern(s)));
+    const int code = steif_agree(r->ctx, r->like, pattern(s));
+    if (code) forget(s); /* on all ranks, or some would make it anew alone */
+    MPI_TRY(code);
   }
   slot *t = *found = choose(s, re, im, part);
   t->used = ++s->clock;
