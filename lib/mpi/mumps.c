@@ -102,7 +102,7 @@ static int short_of_memory(const mumps *s, const factors_answer *a, const char *
     "MUMPS has not memory enough to %s%s on rank %d (it expects %d MB of the rank that takes "
     "most; INFOG(1) = %d, INFOG(2) = %d): give more ranks%s",
     what, limit, rank, a->estimate, a->code, a->detail,
-    !s->set.memory    ? ""
+    !s->set.memory   ? ""
     : a->code == -13 ? " or a smaller memory=MB, which is taken at once"
                      : " or a larger memory=MB");
 }
