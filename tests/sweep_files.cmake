@@ -75,6 +75,8 @@ foreach(other "${range};--t1;1e5;--rtol;1e-2" "${words};--rtol;1.1e-6" "sweep;ro
   expect(3 ${other} --resume part.csv ERR "member 0 comes out as \"0,0.01,ok.*and stands there as \"0,0.01,ok,10,")
   alike(part.csv old.csv "other options")
 endforeach()
+expect(3 ${words} --resume none.csv ERR "cannot read")
+none_left("a sweep that does not begin")
 
 # Damaged lines: their members could not be told from whole ones.
 file(STRINGS ${FOLDER}/old.csv lines)
@@ -135,6 +137,36 @@ file(WRITE ${FOLDER}/part.csv.part "${text}")
 expect(3 ${words} --resume part.csv ERR "member 2 is another one in \"part.csv\" than in \".*part.csv.part\"")
 file(REMOVE ${FOLDER}/part.csv.part)
 
+# One sweep at a time goes on with a file: another one is told so, and changes nothing.
+file(WRITE ${FOLDER}/slow.steif "param k = 1\nstate y = 1\ny' = -y + sin(1000*k*t)\ntime 0 to 1000\n")
+set(slow sweep slow.steif --p k=1:2:6 --threads 1)
+expect(0 ${slow} --csv slow.csv)
+file(STRINGS ${FOLDER}/slow.csv lines LIMIT_COUNT 1)
+file(WRITE ${FOLDER}/two.csv "${lines}\n")
+file(WRITE ${FOLDER}/two.sh "\"$@\" >one.txt &\n\"$@\" >two.txt\ncode=$?\nwait $!\necho $? $code\n")
+execute_process(COMMAND sh two.sh ${PROGRAM} ${slow} --resume two.csv WORKING_DIRECTORY ${FOLDER}
+                OUTPUT_VARIABLE codes ERROR_VARIABLE err)
+if(NOT codes MATCHES "^(0 1|1 0)\n$" OR NOT err MATCHES "another sweep writes .*two.csv.part. now.*STEIF_IO")
+  message(SEND_ERROR "sweep --resume of one file by two at once: ${codes}, ${err}")
+endif()
+alike(two.csv slow.csv "two at once")
+none_left("two at once")
+find_program(FLOCK flock)
+if(FLOCK)
+  begin(old.csv 4)
+  configure_file(${FOLDER}/old.csv ${FOLDER}/part.csv COPYONLY)
+  execute_process(COMMAND ${FLOCK} part.csv.part ${PROGRAM} ${words} --resume part.csv --json WORKING_DIRECTORY ${FOLDER}
+                  OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code)
+  member("input or output" status)
+  if(NOT code EQUAL 1 OR NOT err MATCHES "another sweep writes .*part.csv.part. now")
+    message(SEND_ERROR "sweep --resume of a locked file: ${code}, ${err}")
+  endif()
+  alike(part.csv old.csv "a locked file")
+  expect(0 ${words} --resume part.csv)
+  alike(part.csv whole.csv "a lock whose owner is gone")
+  none_left("a lock whose owner is gone")
+endif()
+
 # A link stays one.
 if(UNIX)
   file(CREATE_LINK part.csv ${FOLDER}/link.csv SYMBOLIC)
@@ -158,7 +190,6 @@ alike(part.csv three.csv "numbers in sentences")
 # On a terminal a line tells how many members are done, from the start on, and the time left.
 find_program(SCRIPT script)
 if(SCRIPT AND CMAKE_HOST_SYSTEM_NAME STREQUAL "Linux")
-  file(WRITE ${FOLDER}/slow.steif "param k = 1\nstate y = 1\ny' = -y + sin(1000*k*t)\ntime 0 to 1000\n")
   execute_process(COMMAND ${SCRIPT} -qec "${PROGRAM} sweep slow.steif --p k=1:2:6 --threads 1 --csv slow.csv" shown
                   WORKING_DIRECTORY ${FOLDER} OUTPUT_VARIABLE out RESULT_VARIABLE code)
   if(NOT code EQUAL 0 OR NOT out MATCHES "K0 of 6 members.*K[1-5] of 6 members, about [0-9]+ s left.*fingerprint")

@@ -83,6 +83,7 @@ struct sweep {
   size_t points;   /* rows of a member that goes to its end: --points or --at, else 1 */
   bool on_the_way; /* with --points or --at */
   double at[REALS_MOST];
+  int lock;         /* of FILE.part; -1: none */
   FILE *csv;        /* NULL: none */
   const char *file; /* its name */
   char *line;
@@ -161,6 +162,9 @@ int old_compare(struct sweep *s, long long k, const struct member_record *r);
 
 /* sweep_file.c: the file of --csv. With --resume rows go into FILE.part, which takes the place of FILE when all is written. */
 int sweep_file_write(struct sweep *s, const char *path, int (*run)(struct sweep *s));
+/* Before anything of --resume is read: EXIT_OK, or an exit code where another sweep has FILE.part. */
+int sweep_file_lock(struct sweep *s);
+void sweep_file_unlock(struct sweep *s);
 /* Files that rows of an earlier run may be in: --resume, then what killed runs have left. */
 enum { OLD_FILES = 3, PATH_ROOM = 4096 };
 int sweep_file_old(const struct sweep *s, char path[OLD_FILES][PATH_ROOM]);

@@ -3,12 +3,16 @@
  *   FILE.part       what a run with --resume writes
  *   FILE.part.kept  rows of FILE.part that an earlier run has left, and those of FILE, before FILE.part is begun again
  * SPDX-License-Identifier: BSD-3-Clause */
+#define _DEFAULT_SOURCE   /* flock */
+#define _DARWIN_C_SOURCE  /* flock */
 #define _XOPEN_SOURCE 700 /* realpath */
 #include "sweep.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -34,12 +38,16 @@ static void name_files(struct names *n, const char *path)
   free(file);
 }
 
+static void name_resumed(struct names *n, const struct call *call)
+{
+  name_files(n, word_of(call, given(call, "--csv") ? "--csv" : "--resume"));
+}
+
 int sweep_file_old(const struct sweep *s, char path[OLD_FILES][PATH_ROOM])
 {
   struct names n;
-  const char *old = word_of(s->call, "--resume");
-  name_files(&n, given(s->call, "--csv") ? word_of(s->call, "--csv") : old);
-  snprintf(path[0], PATH_ROOM, "%s", old);
+  name_resumed(&n, s->call);
+  snprintf(path[0], PATH_ROOM, "%s", word_of(s->call, "--resume"));
   snprintf(path[1], PATH_ROOM, "%s", n.kept);
   snprintf(path[2], PATH_ROOM, "%s", n.part);
   return n.beside ? OLD_FILES : 1;
@@ -49,6 +57,48 @@ static int unwritable(const struct sweep *s, const char *path, int reason)
 {
   say(s->call, "cannot write \"%s\": %s [STEIF_IO]", path, strerror(reason));
   return EXIT_FAILED;
+}
+
+static bool is_at(int file, const char *path)
+{
+  struct stat open, there;
+  return !fstat(file, &open) && !stat(path, &there) && open.st_dev == there.st_dev &&
+         open.st_ino == there.st_ino;
+}
+
+/* The lock is that of the open file, which the kernel takes back when the process dies, and which other openings of the
+ * same file leave alone. One of a file that its former owner has renamed or removed keeps nobody away. Where the file
+ * cannot be opened, that is told when it is to be written; where the file system has no locks, there is none. */
+int sweep_file_lock(struct sweep *s)
+{
+  struct names n;
+  name_resumed(&n, s->call);
+  for (int file; n.beside && s->lock < 0; s->lock = file) {
+    file = open(n.part, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0) return EXIT_OK;
+    const bool busy = flock(file, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK;
+    if (!busy && is_at(file, n.part)) continue;
+    close(file);
+    if (busy) {
+      refuse(s->call, STEIF_IO, "STEIF_IO",
+             "another sweep writes \"%s\" now; wait for its end, or take another file by --csv",
+             n.part);
+      return EXIT_FAILED;
+    }
+    file = -1;
+  }
+  return EXIT_OK;
+}
+
+/* Of a sweep that has written nothing no file is left. */
+void sweep_file_unlock(struct sweep *s)
+{
+  struct names n;
+  struct stat info;
+  if (s->lock < 0) return;
+  name_resumed(&n, s->call);
+  if (!fstat(s->lock, &info) && !info.st_size && is_at(s->lock, n.part)) remove(n.part);
+  close(s->lock);
 }
 
 /* What FILE.part has is safe elsewhere before it is emptied. */

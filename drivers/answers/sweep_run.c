@@ -253,13 +253,26 @@ static int read_points(struct sweep *s)
            : EXIT_OK;
 }
 
+static bool shown_here(const struct sweep *s)
+{
+  return !s->call->shares || s->call->shares->first;
+}
+
+/* Ranks read rows to be kept once the first one knows that nobody adds to them. */
+static int lock_old(struct sweep *s)
+{
+  const struct shares *shares = s->call->shares;
+  if (!given(s->call, "--resume")) return EXIT_OK;
+  const int code = shown_here(s) ? sweep_file_lock(s) : EXIT_OK;
+  return shares ? shares->agree(code, shares->of) : code;
+}
+
 /* The rows to be kept: every rank has their numbers, and the first one looks at them closely. */
 static int open_old(struct sweep *s)
 {
   if (!given(s->call, "--resume")) return EXIT_OK;
   const int code = old_open(s);
-  const bool looks = !s->call->shares || s->call->shares->first;
-  return code || !looks ? code : old_check(s);
+  return code || !shown_here(s) ? code : old_check(s);
 }
 
 static int begin(struct sweep *s)
@@ -271,6 +284,8 @@ static int begin(struct sweep *s)
   s->room = (size_t)1000 + (s->n + AXES) * (COLUMN + 2);
   s->line = malloc(s->room);
   if (!s->line) return no_memory(s->call, "a row", "collect digits or stats");
+  code = lock_old(s);
+  if (code) return code;
   code = open_old(s);
   if (!code) code = sweep_picture_open(s);
   if (s->call->shares) code = s->call->shares->agree(code, s->call->shares->of);
@@ -287,13 +302,14 @@ int sweep_run(struct call *call, const steif_problem *p)
   s->options = options_of(call);
   s->options.recompute = 1;
   s->collect = (enum collect)choice_of(call, "--collect");
-  const bool shown = !call->shares || call->shares->first;
-  if (shown && !given(call, "--csv") && given(call, "--resume"))
+  s->lock = -1;
+  if (shown_here(s) && !given(call, "--csv") && given(call, "--resume"))
     call->csv = word_of(call, "--resume");
   int words;
   s->sets.count = numbers_set(call, SETS, s->sets.text, s->sets.value, &words);
   const int code = begin(s);
   old_close(s);
+  sweep_file_unlock(s);
   sweep_picture_close(s);
   if (s->made) steif_problem_clear(call->ctx, &s->first);
   free(s->line);

@@ -58,6 +58,15 @@ if(NOT text MATCHES "\n6,[^\n]*,ok,100.5," OR EXISTS ${FOLDER}/part.csv.part)
   message(SEND_ERROR "sweep over ${RANKS} ranks: the progress of a killed run is lost")
 endif()
 
+# Another sweep goes on with the file: rank 0 says so, once, and all ranks end.
+find_program(FLOCK flock)
+if(FLOCK)
+  list(PREPEND ranks ${FLOCK} part.csv.part)
+  run(1 "another sweep writes" ${words} --resume part.csv)
+  list(REMOVE_AT ranks 0 1)
+  file(REMOVE ${FOLDER}/part.csv.part)
+endif()
+
 run(0 "\"members\":3" sweep rober auto --p k1=1,2,3 --t1 1 --json)
 run(1 "2 of 2 members failed" sweep vdpol auto --p mu=-1,-2 --t1 1)
 run(1 "time 101 of member 0 is out of order.*1 of 1 members failed" sweep rober auto --p k1=1 --t1 100 --at 40,101)
