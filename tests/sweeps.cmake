@@ -135,6 +135,15 @@ expect(0 solve rober auto --set k1=0.1,k2=2e4 --t1 1 --json)
 member("${y}" y 0)
 expect(2 solve rober auto --set k1=0.1,kk=1 --t1 1 ERR "no parameter 'kk'")
 expect(2 solve rober auto --set k1=0.1,form=none --t1 1 ERR "STEIF_")
+# A value is given once, in words of the call.
+set(once " leave one of them out .STEIF_BAD_INPUT")
+expect(2 sweep rober auto --p k1=1,2 --set k1=7 --t1 1 ERR "k1 is given twice, by --set and by --p.${once}")
+expect(2 sweep heat:n=7 auto --p n=5,6 --t1 1 ERR "n is given twice, after the colon and by --p.${once}")
+expect(2 solve ${MODELS}/rober.steif:k1=3 auto --set k2=1,k1=7 --t1 1
+       ERR ": k1 is given twice, after the colon and by --set.${once}")
+expect(2 solve rober auto --set k1=3 --set k2=1,k1=7 --t1 1 ERR ": k1 is given twice, both times by --set.${once}")
+expect(0 solve ${MODELS}/rober.steif:k1=3 auto --set k3=1 --set k2=1 --t1 1)
+expect(0 sweep ${MODELS}/rober.steif:k1=3 auto --p k2=1,2 --set k3=7 --t1 1)
 file(WRITE ${FOLDER}/names.steif "param status = 1, member = 2, steps = 3\nstate message = 1\n"
                                  "message' = -status*member/steps*message\ntime 0 to 1\n")
 set(words sweep names.steif auto --p status=1,2 --p member=2 --p steps=3)

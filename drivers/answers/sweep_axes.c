@@ -1,5 +1,6 @@
 /* sweep_axes.c: ranges of parameters, and the parameters of a member.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "problem.h"
 #include "sweep.h"
 #include <float.h>
 #include <math.h>
@@ -103,6 +104,10 @@ int axes_read(const struct call *call, struct axes *a)
     for (int k = 0; k < a->count; k++)
       if (!strcmp(own->name, a->name[k]))
         return bad_usage(call, "--p names %s twice; leave one of them out", own->name);
+    const char *other = value_given(call, call->word[0], own->name);
+    if (other)
+      return bad_usage(call, "%s is given twice, %s and by --p; leave one of them out",
+                       own->name, other);
     a->name[a->count] = own->name;
   }
   return count_members(call, a);

@@ -18,7 +18,8 @@ typedef struct outcome {
 /* Rows of an option table that options_of reads, besides --rtol, --atol and --h. */
 /* clang-format off */
 #define SET_OPTION                                                                             \
-  {"--set", REPEATED, "NAME=VALUE,...", "values of parameters, as after a colon", NULL}
+  {"--set", REPEATED, "NAME=VALUE,...",                                                        \
+   "values of parameters: what a colon takes, and what sweep --p takes", NULL}
 #define PARALLEL_OPTION(about)                                                                 \
   {"--parallel", FLAG, NULL, about, NULL}
 #define RANKS_OPTIONS                                                                          \

@@ -56,18 +56,58 @@ static int no_problem(struct call *call, const char *word)
   return code;
 }
 
+/* What stands after the colon of a problem, "k=1,l=2"; NULL: nothing. */
+static const char *after_colon(const char *word)
+{
+  const char *file = strstr(word, ".steif"), *colon = strchr(file ? file : word, ':');
+  return colon ? colon + 1 : NULL;
+}
+
+/* Where a list of NAME=VALUE has this name before `end`; NULL: nowhere. */
+static const char *place_of(const char *list, const char *end, const char *name, size_t length)
+{
+  for (const char *at = list; at < end; at += strcspn(at, ",") + 1)
+    if (!strncmp(at, name, length) && at[length] == '=') return at;
+  return NULL;
+}
+
+const char *value_given(const struct call *call, const char *word, const char *name)
+{
+  const char *list = after_colon(word);
+  if (list && place_of(list, list + strlen(list), name, strlen(name))) return "after the colon";
+  for (int i = 0; (list = repeated_of(call, "--set", i)); i++)
+    if (place_of(list, list + strlen(list), name, strlen(name))) return "by --set";
+  return NULL;
+}
+
+/* Names of --set in text, which begins with `word`, that it has before. */
+static int each_once(struct call *call, const char *word, const char *text)
+{
+  const char *list = after_colon(text), *end = text + strlen(text),
+             *own = text + strlen(word) + 1;
+  for (const char *at = own; list && at < end; at += strcspn(at, ",") + 1) {
+    const int length = (int)strcspn(at, "=,");
+    const char *first = at[length] == '=' ? place_of(list, at, at, (size_t)length) : NULL;
+    if (first)
+      return bad_usage(call, "%.*s is given twice, %s by --set; leave one of them out", length,
+                       at, first < own ? "after the colon and" : "both times");
+  }
+  return EXIT_OK;
+}
+
 /* "word:k=1,l=2" of all --set. */
 static int with_values(struct call *call, const char *word, char *text, size_t room)
 {
-  const char *set, *file = strstr(word, ".steif");
-  char mark = strchr(file ? file : word, ':') ? ',' : ':';
+  const char *set;
+  char mark = after_colon(word) ? ',' : ':';
   size_t used = (size_t)snprintf(text, room, "%s", word);
   for (int i = 0; (set = repeated_of(call, "--set", i)) && used < room; i++, mark = ',') {
     if (!strchr(set, '='))
       return bad_usage(call, "--set is \"%s\" and must be NAME=VALUE,...", set);
     used += (size_t)snprintf(text + used, room - used, "%c%s", mark, set);
   }
-  return used < room ? EXIT_OK : bad_usage(call, "--set is longer than %zu characters", room);
+  return used < room ? each_once(call, word, text)
+                     : bad_usage(call, "--set is longer than %zu characters", room);
 }
 
 int numbers_set(const struct call *call, int room, char name[][STEIF_SPEC_KEY], double *value,

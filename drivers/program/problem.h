@@ -11,6 +11,8 @@ int find_problem(struct call *call, const char *word, steif_problem *p);
 /* NAME=NUMBER of --set, at most `room` of them: how many. *words: how many have other values. */
 int numbers_set(const struct call *call, int room, char name[][STEIF_SPEC_KEY], double *value,
                 int *words);
+/* Where the call gives this parameter of `word` a value, for a sentence: "by --set", "after the colon"; NULL: nowhere. */
+const char *value_given(const struct call *call, const char *word, const char *name);
 
 /* What `work` returns for the problem of the first word, or an exit code after a sentence. */
 int with_problem(struct call *call, int (*work)(struct call *call, const steif_problem *p));
