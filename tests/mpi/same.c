@@ -104,7 +104,7 @@ static void words(rod *r, size_t size, size_t count, const range *list, size_t o
 {
   for (size_t at = 0; at < size; at += sizeof(int)) {
     given g;
-    char text[40];
+    char text[60];
     if (is_free(at, count, list)) continue;
     open(&g, r);
     if (r->rank == r->size - 1) ((char *)&g)[offset + at] ^= 1;
