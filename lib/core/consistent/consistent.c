@@ -156,17 +156,26 @@ static int start_from(stf_point *s, stf_evidence *e, const steif_diagnosis *d,
   return stf_start_from(e, d, request, start);
 }
 
-/* By all tests of the index, of which there is no report. */
-static int find_diagnosed(stf_point *s, const steif_request *request, steif_start *start)
+/* By tests of the index, of which there is no report; brief: those that agree are enough. */
+static int find_by(stf_point *s, bool brief, const steif_request *request, steif_start *start)
 {
   stf_evidence evidence;
   steif_diagnosis d = {.index = -1};
-  s->brief = true;
+  s->brief = brief;
   int code = stf_diagnose(s, &evidence, &d);
   if (!code) code = start_from(s, &evidence, &d, request, start);
   stf_evidence_free(&evidence);
   steif_diagnosis_clear(&d);
   return code;
+}
+
+/* Brief tests may agree on an array from which no start is found where the best of all lengths has one. */
+static int find_diagnosed(stf_point *s, const steif_request *request, steif_start *start)
+{
+  const int code = find_by(s, true, request, start);
+  if (!code || code == STEIF_NO_MEMORY) return code;
+  steif_forget(s->ctx);
+  return find_by(s, false, request, start);
 }
 
 /* By stages where test S certifies the structure, at the start that is found too: the other tests have no say in it. */

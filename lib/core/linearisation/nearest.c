@@ -15,6 +15,8 @@
 static const sunrealtype dependent = 1e-10; /* singular values below are zero */
 /* Steps that no longer shrink below this are rounding of r and J. */
 static const sunrealtype rounding = 1e-6, noise = 1e-3;
+/* Whole steps of this length leave r at rounding. */
+static const sunrealtype second_order = 1e-9;
 /* Large systems stop early where neither steps nor residuals fall. */
 enum { HALVINGS = 12, IDLE = 8 };
 
@@ -61,7 +63,7 @@ static int decompose(stf_nearest_point *m)
 
 static sunrealtype pull(const stf_nearest_point *m, size_t j)
 {
-  return isnan(m->target[j]) ? 0 : m->target[j] - m->z[j];
+  return m->unpulled || isnan(m->target[j]) ? 0 : m->target[j] - m->z[j];
 }
 
 /* dz = W^{-1} (V S^{-1} U^T (-r) + V0 V0^T W (target - z)), V0 the null space of J W^{-1}. */
@@ -125,10 +127,35 @@ static int damp(stf_nearest_point *m, const sunrealtype *dz, sunrealtype *factor
   return STEIF_OK;
 }
 
+/* Steps that converge linearly to the nearest point leave r of second order in their length. What follows are the
+ * shortest steps to r = 0 from there, Newton's, as long as they are small and r falls. */
+static int fulfil(stf_nearest_point *m)
+{
+  enum { STEPS = 8 };
+  const size_t rows = m->rows, columns = m->columns;
+  sunrealtype *trial = m->work, *r = m->work + columns, *dz = r + rows, before = 1;
+  for (int k = 0; k < STEPS && before > 0; k++) {
+    STEIF_TRY(m->jacobian(m->data, m));
+    STEIF_TRY(m->residual(m->data, m->z, m->r));
+    STEIF_TRY(m->solver->factor(m));
+    before = m->solver->merit(m, m->r);
+    STEIF_TRY(m->solver->direction(m, dz));
+    if (!(length(m, dz, false) <= noise)) return STEIF_OK;
+    for (size_t j = 0; j < columns; j++) trial[j] = m->z[j] + dz[j];
+    const int code = m->residual(m->data, trial, r);
+    if (code < 0) return code;
+    if (code || !(m->solver->merit(m, r) < 0.5 * before)) return STEIF_OK;
+    memcpy(m->z, trial, columns * sizeof *trial);
+    memcpy(m->r, r, rows * sizeof *r);
+  }
+  return STEIF_OK;
+}
+
 static int solve(stf_nearest_point *m)
 {
   const size_t columns = m->columns;
-  sunrealtype *dz = m->work + columns + m->rows, before = INFINITY, factor, least = INFINITY;
+  sunrealtype *dz = m->work + columns + m->rows, before = INFINITY, factor = 1,
+              least = INFINITY;
   int stagnant = 0, idle = 0; /* iterations whose steps, whose residuals do not fall */
   m->converged = false, m->iterations = 0;
   while (m->iterations < m->most && !m->converged &&
@@ -148,7 +175,11 @@ static int solve(stf_nearest_point *m)
       now <= 1e-14 || (now <= rounding && stagnant >= 2) || (now <= noise && stagnant >= 4);
     before = now;
   }
-  return STEIF_OK;
+  if (before <= second_order && factor >= 1) return STEIF_OK;
+  m->unpulled = true;
+  const int code = fulfil(m);
+  m->unpulled = false;
+  return code;
 }
 
 int stf_nearest_point_find(stf_point *point, stf_nearest_point *m)

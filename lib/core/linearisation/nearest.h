@@ -35,6 +35,7 @@ typedef struct stf_nearest_point {
   int most; /* iterations */
   int iterations;
   bool converged;
+  bool unpulled; /* steps for r alone, whatever the targets are */
   size_t rank;
   sunrealtype rcond;                      /* smallest kept singular value over the largest */
   sunrealtype *r, *J, *U, *VT, *s, *left; /* at the end: r and J at z, U of the scaled J */

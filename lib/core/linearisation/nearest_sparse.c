@@ -241,7 +241,7 @@ static int factor(stf_nearest_point *m)
 
 static sunrealtype pull(const stf_nearest_point *m, size_t j)
 {
-  return isnan(m->target[j]) ? 0 : m->target[j] - m->z[j];
+  return m->unpulled || isnan(m->target[j]) ? 0 : m->target[j] - m->z[j];
 }
 
 static int direction(stf_nearest_point *m, sunrealtype *dz)

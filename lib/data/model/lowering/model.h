@@ -314,7 +314,15 @@ int stf_component(stf_model *m, stf_builder *b, const stf_statement *s, int32_t 
 /* fulfilled_start.c: start values that fulfil the equations, and the index. */
 int stf_consistent_start(stf_model *m, steif_problem *problem);
 struct steif_request;
-/* other_start.c: refuses guesses between two solutions about as near, of which y is one; says so of components
+struct steif_start;
+/* sought_start.c: the start from a guess, with conditions that hold at it; m's are as they are there, or lost. */
+int stf_start_near(stf_model *m, const steif_problem *problem,
+                   const struct steif_request *request, const sunrealtype *from,
+                   struct steif_start *start);
+/* The same from m->y0, or from guesses near it. STEIF_BAD_INPUT where values after '=' would have to move. */
+int stf_sought_start(stf_model *m, const steif_problem *problem,
+                     const struct steif_request *request, struct steif_start *start);
+/* other_start.c: rejects guesses between two solutions about as near, of which y is one; says so of components
  * without a guess. */
 int stf_other_start(stf_model *m, const steif_problem *problem,
                     const struct steif_request *request, const sunrealtype *y);

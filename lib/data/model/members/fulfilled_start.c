@@ -1,9 +1,10 @@
 /* fulfilled_start.c: start values that fulfil the equations, and the index of
  * the components. SPDX-License-Identifier: BSD-3-Clause */
 #include "component_numbers.h"
-#include "exact_start.h"
+#include "reactions.h"
 #include "model.h"
 #include <math.h>
+#include <steif/consistent.h>
 #include <steif/model.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,14 +15,9 @@ enum steif_attribute stf_kind_of_start(const stf_model *m, size_t i)
   return m->start[i] == '=' ? STEIF_FIXED : m->start[i] == '~' ? STEIF_GUESS : STEIF_FREE;
 }
 
-static int attributes(const stf_model *m, enum steif_attribute *attribute)
+static void attributes(const stf_model *m, enum steif_attribute *attribute)
 {
-  int open = 0;
-  for (int32_t i = 0; i < m->n; i++) {
-    attribute[i] = stf_kind_of_start(m, (size_t)i);
-    open += attribute[i] != STEIF_FIXED;
-  }
-  return open;
+  for (int32_t i = 0; i < m->n; i++) attribute[i] = stf_kind_of_start(m, (size_t)i);
 }
 
 /* From where to where, of guesses that did not hold. */
@@ -56,13 +52,12 @@ static int take(stf_model *m, steif_problem *p, const steif_start *start)
 
 /* Linear systems may start with a jump: fixed values that contradict them are
  * for the impulse analysis. */
-static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *attribute,
-                 int open)
+static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *attribute)
 {
   const steif_request request = {.attribute = attribute};
   steif_start start = {0};
   p->yp0 = m->slope;
-  int code = stf_consistent_along(m->ctx, p, NULL, &request, steif_model_taylor, &start);
+  int code = stf_sought_start(m, p, &request, &start);
   const bool found = !code;
   if (!found) p->yp0 = m->yp0;
   if (found) {
@@ -72,22 +67,9 @@ static int solve(stf_model *m, steif_problem *p, const enum steif_attribute *att
   if (found && !code) code = take(m, p, &start);
   steif_start_clear(&start);
   if (code == STEIF_NO_MEMORY || found) return code;
-  const bool contradiction =
-    code == STEIF_BAD_INPUT && m->form != STEIF_DESCRIPTOR && open < m->n;
-  if (!contradiction) { /* the run may start all the same, or fail: then this is why */
-    if (m->form != STEIF_DESCRIPTOR)
-      snprintf(m->moved, sizeof m->moved, "not moved: %s", steif_message(m->ctx));
-    steif_forget(m->ctx);
-    return STEIF_OK;
-  }
-  char sentence[500];
-  strncpy(sentence, steif_message(m->ctx), sizeof sentence - 1);
-  sentence[sizeof sentence - 1] = 0;
-  char *name = strstr(sentence, " [STEIF_"); /* of the code, which is added again */
-  if (name) *name = 0;
-  return STEIF_FAIL(m->ctx, STEIF_BAD_INPUT,
-                    "%s: %s Values after '=' are fixed: '~' makes one a guess, which may move",
-                    p->name, sentence);
+  if (code == STEIF_BAD_INPUT && m->form != STEIF_DESCRIPTOR) return code;
+  steif_forget(m->ctx); /* the run may start all the same, or fail: then this is why */
+  return STEIF_OK;
 }
 
 static int index_of_components(stf_model *m, steif_problem *p)
@@ -116,8 +98,9 @@ int stf_consistent_start(stf_model *m, steif_problem *p)
   if (m->n > STEIF_DIAGNOSE_LARGEST) return STEIF_OK;
   enum steif_attribute *attribute = stf_allocate(m->ctx, (size_t)m->n, sizeof *attribute);
   if (!attribute) return STEIF_NO_MEMORY;
-  const int open = attributes(m, attribute);
-  const int code = solve(m, p, attribute, open);
+  attributes(m, attribute);
+  const int code = solve(m, p, attribute);
   stf_release(m->ctx, attribute);
+  if (!code) stf_reactions_begin(m->t0, m);
   return code ? code : index_of_components(m, p);
 }

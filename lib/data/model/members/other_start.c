@@ -1,9 +1,9 @@
 /* other_start.c: guesses between two solutions, as z ~ 0 of 0 = z^2 - x, are no choice between them. Sought is
  * the start from the mirror image of the one found: a second solution on the other side of the guess, about as
  * far from it, says so. SPDX-License-Identifier: BSD-3-Clause */
-#include "exact_start.h"
 #include "model.h"
 #include <math.h>
+#include <steif/consistent.h>
 #include <steif/model.h>
 #include <stdio.h>
 #include <string.h>
@@ -61,9 +61,7 @@ int stf_other_start(stf_model *m, const steif_problem *p, const steif_request *r
     any = any || other;
   }
   steif_start start = {0};
-  int code = any ? stf_consistent_along(m->ctx, p, &(steif_point){.y = mirror, .t = p->t0},
-                                        &few, steif_model_taylor, &start)
-                 : STEIF_OK;
+  int code = any ? stf_start_near(m, p, &few, mirror, &start) : STEIF_OK;
   if (!code && any)
     code = tell(m, p, y, start.y);
   else if (code && code != STEIF_NO_MEMORY)
