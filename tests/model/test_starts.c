@@ -60,14 +60,12 @@ static void slopes_of_arrays(void)
 static void constraints_to_rounding(void)
 {
   fixture s;
-  CU_ASSERT_FATAL(
-    fixture_text(
-      &s,
-      "param c = 0.9688365352131203\n"
-      "state x ~ 1.2035949479197967, y ~ -0.28434425171542221, z ~ 0\n"
-      "x' = y + z\ny' = -x*z + t\n0 = x*y + sin(x) - c*t\n"
-      "time 1.6388750759841662 to 1.7388750759841662\n",
-      "") == STEIF_OK);
+  CU_ASSERT_FATAL(fixture_text(&s,
+                               "param c = 0.9688365352131203\n"
+                               "state x ~ 1.2035949479197967, y ~ -0.28434425171542221, z ~ 0\n"
+                               "x' = y + z\ny' = -x*z + t\n0 = x*y + sin(x) - c*t\n"
+                               "time 1.6388750759841662 to 1.7388750759841662\n",
+                               "") == STEIF_OK);
   const sunrealtype *y = s.p.y0, c = 0.9688365352131203;
   CHECK(fabs(y[0] * y[1] + sin(y[0]) - c * s.p.t0) < 1e-12);
   CHECK(fabs((y[1] + cos(y[0])) * (y[1] + y[2]) + y[0] * (s.p.t0 - y[0] * y[2]) - c) < 1e-12);
@@ -144,8 +142,8 @@ static void fails(const char *text, const char *said)
 static void singular_guesses(void)
 {
   opens_at("state x = 0.01, z\nx' = -z\n0 = z^2 - x\ntime 0 to 0.1\n", 0.1, "may be");
-  opens_at("state x = 0.5, z\nx' = -z\n0 = cos(z) - 1 + x\ntime 0 to 0.1\n",
-           1.0471975511965977, "may be");
+  opens_at("state x = 0.5, z\nx' = -z\n0 = cos(z) - 1 + x\ntime 0 to 0.1\n", 1.0471975511965977,
+           "may be");
   opens_at("state x = 1e-12, z\nx' = -z\n0 = z^2 - x\ntime 0 to 0.1\n", 1e-6, "may be");
   fails("state x = 0.01, z ~ 0\nx' = -z\n0 = z^2 - x\ntime 0 to 0.1\n",
         "lies between two solutions");

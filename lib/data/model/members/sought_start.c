@@ -50,8 +50,10 @@ static int look(stf_model *m, const steif_problem *p, const steif_request *reque
   memcpy(last, from, n * sizeof *y);
   conditions_at(m, y);
   for (int k = 0; k < TURNS; k++) {
-    const int code = stf_consistent_along(m->ctx, p, &(steif_point){.y = y, .t = p->t0},
-                                          request, steif_model_taylor, start);
+    const steif_point at = {.y = y, .t = p->t0, .yp = p->yp0};
+    const bool begun = k == 0 && from == m->y0;
+    const int code =
+      stf_consistent_along(m->ctx, p, begun ? NULL : &at, request, steif_model_taylor, start);
     if (code == STEIF_NO_MEMORY || (code && k == 0)) return code;
     if (code) break;
     if (k > 0 && same(m, start->y, y)) return STEIF_OK;
@@ -153,14 +155,15 @@ static bool any_fixed(const stf_model *m)
 /* What a run cannot start from, whatever it repairs, is an error; `code` else, as a run may start all the same. */
 static int tell(stf_model *m, const steif_problem *p, int code, bool turns, const char *why)
 {
-  int32_t at, which = 0;
-  sunrealtype way;
+  int32_t at = -1, which = 0;
+  sunrealtype way = 0;
   STEIF_CHECK(!turns, m->ctx, STEIF_BAD_INPUT, "%s: %s", p->name, why);
   STEIF_CHECK(code != STEIF_BAD_INPUT || !any_fixed(m), m->ctx, STEIF_BAD_INPUT,
               "%s: %s Values after '=' are fixed: '~' makes one a guess, which may move",
               p->name, why);
-  STEIF_TRY(moved_by_repair(m, p, &at, &way));
-  while (which < m->n - 1 && !open(m, which)) which++;
+  while (which < m->n && !open(m, which)) which++;
+  if (which < m->n && (code == STEIF_NO_CONVERGENCE || code == STEIF_SINGULAR))
+    STEIF_TRY(moved_by_repair(m, p, &at, &way));
   STEIF_CHECK(
     at < 0, m->ctx, STEIF_BAD_INPUT,
     "%s: no start was found with %s = %.6g, which would have to move by %.3g: give a guess "
