@@ -153,10 +153,13 @@ static bool any_fixed(const stf_model *m)
 }
 
 /* What a run cannot start from, whatever it repairs, is an error; `code` else, as a run may start all the same. */
-static int tell(stf_model *m, const steif_problem *p, int code, bool turns, const char *why)
+static int tell(stf_model *m, const steif_problem *p, int code, bool turns, char *why)
 {
   int32_t at = -1, which = 0;
   sunrealtype way = 0;
+  snprintf(m->moved, sizeof m->moved, "not moved: %s", why);
+  char *name = strstr(why, " [STEIF_"); /* of the code, which is added again */
+  if (name) *name = 0;
   STEIF_CHECK(!turns, m->ctx, STEIF_BAD_INPUT, "%s: %s", p->name, why);
   STEIF_CHECK(code != STEIF_BAD_INPUT || !any_fixed(m), m->ctx, STEIF_BAD_INPUT,
               "%s: %s Values after '=' are fixed: '~' makes one a guess, which may move",
@@ -169,7 +172,6 @@ static int tell(stf_model *m, const steif_problem *p, int code, bool turns, cons
     "%s: no start was found with %s = %.6g, which would have to move by %.3g: give a guess "
     "of %s after '~' that is nearer to a solution, or make %s a guess (%.250s)",
     p->name, m->unknown[at], m->y0[at], way, m->unknown[which], m->unknown[at], why);
-  snprintf(m->moved, sizeof m->moved, "not moved: %.500s [%s]", why, steif_code_name(code));
   return code == STEIF_BAD_INPUT ? STEIF_NO_CONVERGENCE : code;
 }
 
@@ -182,8 +184,6 @@ int stf_sought_start(stf_model *m, const steif_problem *p, const steif_request *
   int code = near(m, p, request, m->y0, start, &turns);
   if (!code || code == STEIF_NO_MEMORY || m->form == STEIF_DESCRIPTOR) return code;
   snprintf(why, sizeof why, "%s", steif_message(m->ctx));
-  char *name = strstr(why, " [STEIF_"); /* of the code, which is added again */
-  if (name) *name = 0;
   steif_forget(m->ctx);
   if (m->n <= MOST && code != STEIF_CALLBACK) {
     sunrealtype *from = stf_allocate(m->ctx, (size_t)m->n, sizeof *from);
