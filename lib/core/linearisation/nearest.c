@@ -127,27 +127,45 @@ static int damp(stf_nearest_point *m, const sunrealtype *dz, sunrealtype *factor
   return STEIF_OK;
 }
 
-/* Steps that converge linearly to the nearest point leave r of second order in their length. What follows are the
- * shortest steps to r = 0 from there, Newton's, as long as they are small and r falls. */
+/* One of Newton's steps to r = 0, the shortest; *ratio: of r after it and before, 1 where none was made. */
+static int newton(stf_nearest_point *m, sunrealtype *ratio)
+{
+  const size_t rows = m->rows, columns = m->columns;
+  sunrealtype *trial = m->work, *r = m->work + columns, *dz = r + rows;
+  *ratio = 1;
+  STEIF_TRY(m->jacobian(m->data, m));
+  STEIF_TRY(m->residual(m->data, m->z, m->r));
+  STEIF_TRY(m->solver->factor(m));
+  STEIF_TRY(m->solver->direction(m, dz));
+  if (!(length(m, dz, false) <= noise)) return STEIF_OK;
+  for (size_t j = 0; j < columns; j++) trial[j] = m->z[j] + dz[j];
+  const int code = m->residual(m->data, trial, r);
+  if (code) return code < 0 ? code : STEIF_OK;
+  const sunrealtype before = m->solver->merit(m, m->r), after = m->solver->merit(m, r);
+  if (!(after < 0.5 * before)) return STEIF_OK;
+  *ratio = after / before;
+  memcpy(m->z, trial, columns * sizeof *trial);
+  memcpy(m->r, r, rows * sizeof *r);
+  return STEIF_OK;
+}
+
+/* Steps that converge linearly to the nearest point leave r of second order in their length: Newton's follow, as long
+ * as r falls. Where it never falls much, J is singular at the end of them, and they are not taken. */
 static int fulfil(stf_nearest_point *m)
 {
   enum { STEPS = 8 };
   const size_t rows = m->rows, columns = m->columns;
-  sunrealtype *trial = m->work, *r = m->work + columns, *dz = r + rows, before = 1;
-  for (int k = 0; k < STEPS && before > 0; k++) {
-    STEIF_TRY(m->jacobian(m->data, m));
-    STEIF_TRY(m->residual(m->data, m->z, m->r));
-    STEIF_TRY(m->solver->factor(m));
-    before = m->solver->merit(m, m->r);
-    STEIF_TRY(m->solver->direction(m, dz));
-    if (!(length(m, dz, false) <= noise)) return STEIF_OK;
-    for (size_t j = 0; j < columns; j++) trial[j] = m->z[j] + dz[j];
-    const int code = m->residual(m->data, trial, r);
-    if (code < 0) return code;
-    if (code || !(m->solver->merit(m, r) < 0.5 * before)) return STEIF_OK;
-    memcpy(m->z, trial, columns * sizeof *trial);
-    memcpy(m->r, r, rows * sizeof *r);
+  sunrealtype *z = m->work + 2 * columns + rows, *r = z + columns, ratio = 0;
+  bool regular = false;
+  memcpy(z, m->z, columns * sizeof *z);
+  memcpy(r, m->r, rows * sizeof *r);
+  for (int k = 0; k < STEPS && ratio < 1; k++) {
+    STEIF_TRY(newton(m, &ratio));
+    regular = regular || ratio < 0.1;
   }
+  if (regular) return STEIF_OK;
+  memcpy(m->z, z, columns * sizeof *z);
+  memcpy(m->r, r, rows * sizeof *r);
   return STEIF_OK;
 }
 
