@@ -108,6 +108,9 @@ struct sweep {
 int sweep_show(struct sweep *s, long long k, const struct member_record *r);
 size_t sweep_record_size(const struct sweep *s);
 /* Members of the sweep, as old_number has them, or those to be compared. */
+/* Member i of the sweep from the problem `like`. */
+int sweep_vary(steif_context *ctx, const struct sweep *s, long long i,
+               const steif_problem *like, steif_problem *to);
 int sweep_members(struct sweep *s, long long count);
 /* The rows of a member on stdout, in the file and in the fingerprint; nonzero when they cannot be written. */
 int sweep_head(struct sweep *s);

@@ -31,23 +31,17 @@ static int unreadable(const struct sweep *s, const char *path, int reason)
   return EXIT_FILE;
 }
 
-static int stranger(const struct sweep *s, const char *path, long line, const char *what)
+/* A line that cannot be kept, and what to do about it. */
+static int unfit(const struct sweep *s, const char *path, long line, const char *what,
+                 const char *remedy)
 {
-  say(s->call,
-      "\"%s\", line %ld: %s; --resume goes with the words and options of the sweep "
-      "that wrote the file [STEIF_BAD_INPUT]",
-      path, line, what);
+  say(s->call, "\"%s\", line %ld: %s; %s [STEIF_BAD_INPUT]", path, line, what, remedy);
   return EXIT_FILE;
 }
 
-static int damaged(const struct sweep *s, const char *path, long line, const char *what)
-{
-  say(s->call,
-      "\"%s\", line %ld: %s; remove the line, and --resume runs its member again "
-      "[STEIF_BAD_INPUT]",
-      path, line, what);
-  return EXIT_FILE;
-}
+static const char other_sweep[] =
+  "--resume goes with the words and options of the sweep that wrote the file";
+static const char run_again[] = "remove the line, and --resume runs its member again";
 
 /* What killed runs have left may not be there. */
 static int read_file(struct sweep *s, int k)
@@ -66,7 +60,7 @@ static int read_file(struct sweep *s, int k)
   if (strlen(text) == used) return EXIT_OK;
   long line = 1;
   for (const char *at = text; (at = strchr(at, '\n')); at++) line++;
-  return damaged(s, path, line, "a character of value 0 stands there");
+  return unfit(s, path, line, "a character of value 0 stands there", run_again);
 }
 
 /* ---- members ---------------------------------------------------------------------------------- */
@@ -89,21 +83,21 @@ static int keep_line(struct sweep *s, const char *path, long at, char *line, lon
   char *end;
   const long long i = strtoll(line, &end, 10);
   if (end == line || *end != ',' || i < 0 || i >= s->axes.members)
-    return stranger(s, path, at, "no member of this sweep");
+    return unfit(s, path, at, "no member of this sweep", other_sweep);
   const size_t length = sweep_begin(s, i, s->line, s->room);
   if (length >= s->room || strncmp(line, s->line, length))
-    return stranger(s, path, at, "the member has other parameters here");
+    return unfit(s, path, at, "the member has other parameters here", other_sweep);
   if (last && last->number > i)
-    return stranger(s, path, at, "members are not in ascending order");
+    return unfit(s, path, at, "members are not in ascending order", other_sweep);
   if (!last || last->number < i) {
     last = &o->member[o->count++];
     *last = (struct kept){.number = i, .first = o->lines, .path = path};
     memset(o->record, 0, sizeof *o->record);
   }
   if (!sweep_read(s, i, line, o->record))
-    return damaged(s, path, at, "this is no row as sweeps write it");
+    return unfit(s, path, at, "this is no row as sweeps write it", run_again);
   if (!in_time(s, o->record))
-    return damaged(s, path, at, "a row of this time is not among those of the sweep");
+    return unfit(s, path, at, "a row of this time is not among those of the sweep", run_again);
   last->code = o->record->code;
   last->lines++;
   o->line[o->lines++] = line;
@@ -141,13 +135,14 @@ static int keep_lines(struct sweep *s, int k)
       code = keep_line(s, path, at, line, first);
     } else {
       sweep_header(s, s->line, s->room);
-      if (strcmp(line, s->line)) code = stranger(s, path, at, "other columns than this sweep");
+      if (strcmp(line, s->line))
+        code = unfit(s, path, at, "other columns than this sweep", other_sweep);
     }
   }
   if (!code && !at && line) {
     sweep_header(s, s->line, s->room);
     if (strncmp(line, s->line, strlen(line)))
-      code = stranger(s, path, 1, "other columns than this sweep");
+      code = unfit(s, path, 1, "other columns than this sweep", other_sweep);
   }
   if (!code) leave_out_halves(s, first);
   return code;

@@ -54,10 +54,10 @@ typedef struct steif_mpi_stats {
   long exchanges;        /* of rows with neighbours */
   long long sent;        /* bytes of them, from this rank */
   double memory;         /* MB that the factors of MUMPS take on this rank at most */
-  double
-    backward_error; /* the largest |b - M x|_i / (|M| |x| + |b|)_i after refinement, of M^T as well (W. Oettli,
-                            W. Prager, 1964); rows whose terms are rounding of others are measured beside the longest
-                            |x|. 1: nothing is known, as terms are beyond the largest number */
+  /* The largest |b - M x|_i / (|M| |x| + |b|)_i after refinement, of M^T as well (W. Oettli, W. Prager, Numer. Math. 6,
+   * 1964); rows whose terms are rounding of others are measured beside the longest |x|. 1: nothing is known, as terms
+   * are beyond the largest number. */
+  double backward_error;
   long evaluations; /* of f or F for differences */
   int colours;      /* of the columns then */
 } steif_mpi_stats;
@@ -106,8 +106,8 @@ STEIF_EXPORT int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vect
  * E and F ("ladder:n=1000,case=cons"; E.steif models too), for "mumps": every rank builds all of it, keeps its own
  * rows, numbered by levels of the graph of F so that ranks have few neighbours, and evaluates all of f.
  * As in one process, an inconsistent start is moved to x(0+), and the index of the unknowns found, by rank 0 for all.
- * Index 3, and breaks of f where the index is 2, are STEIF_UNSUPPORTED. *like is a vector of own rows. NULL with the sentence set, STEIF_UNSUPPORTED: another form. The problem must
- * outlive what uses it. */
+ * *like is a vector of own rows. NULL with the sentence set; STEIF_UNSUPPORTED: another form, index 3, or breaks of f
+ * where the index is 2. The problem must outlive what uses it. */
 STEIF_EXPORT steif_problem *steif_mpi_problem_new(steif_context *ctx, const char *spec,
                                                   MPI_Comm comm, N_Vector *like);
 /* What was done about the start of such a problem, "" when nothing was. */
