@@ -1,6 +1,7 @@
 /* test_circle.c: circles by batches of nodes: threads, and nodes at which pivots fail.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "circle.h"
+#include "impulse/crew.h"
 #include "impulse/systems.h"
 
 static void found(system_ *s, const steif_analysis *analysis, steif_structure *structure,
@@ -93,8 +94,9 @@ static void quadrature(const system_ *s, double R, int points, double *x_plus, d
 
 /* A pivot that vanishes, one that is small, and none of these; twice, as what was found serves
  * again. */
-static void pivots_fail(void)
+static void pivots_fail_for(int others)
 {
+  crew team;
   const double R = 12, angle = 2 * 3.14159265358979323846 * 1.5 / 16;
   const steif_shift pair[PAIRS] = {{0.3, 1.9}, {R * cos(angle), R * sin(angle)}, {-1.2, 0.8}};
   static const struct {
@@ -109,6 +111,7 @@ static void pivots_fail(void)
     constrained(&s, pair);
     quadrature(&s, row[i].radius, row[i].points, x_plus, c);
     const steif_analysis analysis = {.points = row[i].points};
+    if (others) assemble(&team, s.ctx, others, 1, 0);
     CU_ASSERT_FATAL(stf_circle_open(s.ctx, s.E, s.F, &analysis, 2, &circle) == STEIF_OK);
     for (int again = 0; again < 2; again++) {
       const stf_polynomial g = {.constant = s.Ex0, .scale = circle->scaled.row};
@@ -123,8 +126,15 @@ static void pivots_fail(void)
       CHECK(circle->careful == row[i].careful);
     }
     stf_circle_close(s.ctx, &circle);
+    if (others) part(&team, s.ctx, STEIF_OK);
     system_close(&s);
   }
+}
+
+/* Alone, and by a team, which has to seek the same pivots again. */
+static void pivots_fail(void)
+{
+  for (int others = 0; others <= 2; others++) pivots_fail_for(others);
 }
 
 CU_TestInfo tests_of_circle[] = {
