@@ -121,8 +121,19 @@ static bool sparse(inside *i, double columns, bool complex)
          (!complex || numbers(i, 0));
 }
 
-/* Flags, sizes, name, and what the class has. Opaque arrays, of which matio knows nothing, go
- * on with their name and are passed over. */
+/* An opaque array: its name, its kind, and what is passed over. matio takes the tag of the name for that of
+ * sizes and the eight bytes after it for the name's tag: a letter there, or the tag of the kind, is none
+ * whose length it would believe. */
+static bool opaque(inside *i)
+{
+  unsigned char name[NAME] = {0};
+  const long length = element(i, INT8, sizeof name, name);
+  for (long k = 0; k < length; k++)
+    if (name[k] < ' ') return false;
+  return length >= 0 && element(i, INT8, NAME, NULL) >= 0 && take(i, (size_t)i->left, NULL);
+}
+
+/* Flags, sizes, name, and what the class has. */
 static bool matrix(inside *i)
 {
   unsigned char flags[8], size[4 * DIMENSIONS] = {0};
@@ -130,8 +141,7 @@ static bool matrix(inside *i)
   if (element(i, UINT32, sizeof flags, flags) != sizeof flags) return false;
   const unsigned long word = four(i->from, flags), class = word & 255;
   const bool complex = word >> 11 & 1;
-  if (class == OPAQUE)
-    return element(i, INT8, NAME, NULL) >= 0 && take(i, (size_t)i->left, NULL);
+  if (class == OPAQUE) return opaque(i);
   if (class < CELL || class > FUNCTION) return false;
   const long length = element(i, INT32, sizeof size, size);
   if (length < 8 || length % 4 || element(i, INT8, NAME, NULL) < 0) return false;
