@@ -1,6 +1,6 @@
 /* sweep_file.c: the file of a sweep. Rows that are kept are never at stake: a new file is written beside them and takes
  * their place, by renaming, when it has them all.
- *   FILE.part       what a run with --resume writes
+ *   FILE.part       what a run with --resume writes; its lock keeps every other sweep away from FILE
  *   FILE.part.kept  rows of FILE.part that an earlier run has left, and those of FILE, before FILE.part is begun again
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _DEFAULT_SOURCE   /* flock */
@@ -38,7 +38,7 @@ static void name_files(struct names *n, const char *path)
   free(file);
 }
 
-static void name_resumed(struct names *n, const struct call *call)
+static void name_written(struct names *n, const struct call *call)
 {
   name_files(n, word_of(call, given(call, "--csv") ? "--csv" : "--resume"));
 }
@@ -46,7 +46,7 @@ static void name_resumed(struct names *n, const struct call *call)
 int sweep_file_old(const struct sweep *s, char path[OLD_FILES][PATH_ROOM])
 {
   struct names n;
-  name_resumed(&n, s->call);
+  name_written(&n, s->call);
   snprintf(path[0], PATH_ROOM, "%s", word_of(s->call, "--resume"));
   snprintf(path[1], PATH_ROOM, "%s", n.kept);
   snprintf(path[2], PATH_ROOM, "%s", n.part);
@@ -72,7 +72,7 @@ static bool is_at(int file, const char *path)
 int sweep_file_lock(struct sweep *s)
 {
   struct names n;
-  name_resumed(&n, s->call);
+  name_written(&n, s->call);
   for (int file; n.beside && s->lock < 0; s->lock = file) {
     file = open(n.part, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file < 0) return EXIT_OK;
@@ -82,7 +82,7 @@ int sweep_file_lock(struct sweep *s)
     if (busy) {
       refuse(s->call, STEIF_IO, "STEIF_IO",
              "another sweep writes \"%s\" now; wait for its end, or take another file by --csv",
-             n.part);
+             n.target);
       return EXIT_FAILED;
     }
     file = -1;
@@ -96,7 +96,7 @@ void sweep_file_unlock(struct sweep *s)
   struct names n;
   struct stat info;
   if (s->lock < 0) return;
-  name_resumed(&n, s->call);
+  name_written(&n, s->call);
   if (!fstat(s->lock, &info) && !info.st_size && is_at(s->lock, n.part)) remove(n.part);
   close(s->lock);
 }

@@ -107,11 +107,11 @@ static bool shown_here(const struct sweep *s)
   return !s->call->shares || s->call->shares->first;
 }
 
-/* Ranks read rows to be kept once the first one knows that nobody adds to them. */
-static int lock_old(struct sweep *s)
+/* Nobody else writes the file meanwhile; ranks read rows to be kept once the first one knows that. */
+static int lock_file(struct sweep *s)
 {
   const struct shares *shares = s->call->shares;
-  if (!given(s->call, "--resume")) return EXIT_OK;
+  if (!given(s->call, "--resume") && !given(s->call, "--csv")) return EXIT_OK;
   const int code = shown_here(s) ? sweep_file_lock(s) : EXIT_OK;
   return shares ? shares->agree(code, shares->of) : code;
 }
@@ -133,7 +133,7 @@ static int begin(struct sweep *s)
   s->room = (size_t)1000 + (s->n + AXES) * (COLUMN + 2);
   s->line = malloc(s->room);
   if (!s->line) return no_memory(s->call, "a row", "collect digits or stats");
-  code = lock_old(s);
+  code = lock_file(s);
   if (code) return code;
   code = open_old(s);
   if (!code) code = sweep_picture_open(s);
