@@ -33,6 +33,7 @@ typedef struct mumps {
   rows *r;
   factors_setting set;
   long revision, clock;
+  bool regular; /* a c E - A of this pattern was sound */
   slot slot[2 * SLOTS]; /* real ones, then complex ones */
   int *row_of_b;
   int columns; /* right-hand sides that these hold: */
@@ -55,6 +56,8 @@ void mumps_scale(const mumps *s, slot *t);
 int mumps_room(mumps *s, slot *t, int columns); /* before it */
 int mumps_correct(mumps *s, slot *t, bool transposed, bool scaled, int count,
                   sunrealtype *const *d, sunrealtype *const *x);
+/* The part of a solution that rounding has made, 1 where the matrix is singular to rounding. */
+int mumps_lost(mumps *s, slot *t, sunrealtype *part);
 int mumps_solve(void *state, sunrealtype re, sunrealtype im, bool transposed, int count,
                 const sunrealtype *const *b, sunrealtype *const *x);
 

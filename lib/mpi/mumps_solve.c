@@ -4,7 +4,10 @@
 #include "mumps.h"
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
+
+enum { PROBES = 4 }; /* right-hand sides that tell how many digits solutions have */
 
 /* A backward error that needs no refinement. */
 #define ENOUGH 1e-14
@@ -211,6 +214,51 @@ static sunrealtype residual(mumps *s, const slot *t, bool transposed, int count,
   }
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, s->r->own.comm);
   return largest;
+}
+
+/* -- digits ---------------------------------------------------------------------------------------- */
+
+/* +1 or -1, by the number of an unknown and of a column alone, so for any ranks the same. */
+static sunrealtype sign_of(sunindextype row, int k)
+{
+  uint64_t z = (uint64_t)row * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)k + 1;
+  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+  return z >> 63 ? 1 : -1;
+}
+
+/* Rounding makes of M a matrix M + D, whose inverse is met here: a sweep of refinement changes x = (M + D)^{-1} b by
+ * (M + D)^{-1} D x. Where M is singular, x is nearly in its null space, M x = 0, and the change is as long as x; else it
+ * is as much shorter as x has digits. The largest ratio of PROBES right-hand sides, in even units. */
+int mumps_lost(mumps *s, slot *t, sunrealtype *part)
+{
+  const rows *r = s->r;
+  const int width = t->with->complex ? 2 : 1, halves = PROBES * width;
+  const size_t here = (size_t)r->own.rows;
+  sunrealtype *b[2 * PROBES], *d[2 * PROBES], *x[2 * PROBES], *dx[2 * PROBES];
+  sunrealtype length[2 * PROBES];
+  MPI_TRY(mumps_room(s, t, 2 * PROBES));
+  memset(s->own, 0, 2 * (size_t)halves * here * sizeof *s->own);
+  for (int k = 0; k < halves; k++) {
+    d[k] = s->d + (size_t)k * here, b[k] = d[k] + (size_t)halves * here;
+    x[k] = s->own + (size_t)k * here, dx[k] = x[k] + (size_t)halves * here;
+    for (sunindextype i = 0; i < r->own.rows; i++)
+      b[k][i] = sign_of(r->own.first + i, k) / t->row[i];
+  }
+  MPI_TRY(mumps_correct(s, t, false, false, PROBES, b, x));
+  residual(s, t, false, PROBES, (const sunrealtype *const *)b, x, d);
+  MPI_TRY(mumps_correct(s, t, false, false, PROBES, d, dx));
+  for (int k = 0; k < PROBES; k++) {
+    length[k] = longest_of(s, t, false, (const sunrealtype *const *)x + width * k);
+    length[PROBES + k] = longest_of(s, t, false, (const sunrealtype *const *)dx + width * k);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, length, 2 * PROBES, MPI_DOUBLE, MPI_MAX, r->own.comm);
+  *part = 0;
+  for (int k = 0; k < PROBES; k++) {
+    const sunrealtype now = length[PROBES + k] / length[k];
+    *part = isfinite(now) ? fmax(*part, now) : INFINITY;
+  }
+  return STEIF_OK;
 }
 
 /* -- solves --------------------------------------------------------------------------------------- */

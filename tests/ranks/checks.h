@@ -19,5 +19,6 @@ void test_hard_systems(void);
 void test_index_two(void);
 void test_one_rank_short(void);
 void test_passed_on(void);
+void test_singular_pencils(void);
 
 #endif

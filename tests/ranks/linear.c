@@ -385,7 +385,7 @@ int main(int argc, char **argv)
   const char *part = argc > 1 ? argv[1] : "solves bad runs differences";
   if (strstr(part, "solves")) solves(60, 1), solves(60, 19), solves(2, 3), little_memory();
   if (strstr(part, "differences")) test_differences();
-  if (strstr(part, "hard")) test_hard_systems();
+  if (strstr(part, "hard")) test_hard_systems(), test_singular_pencils();
   if (strstr(part, "memory")) test_one_rank_short();
   if (strstr(part, "bad")) bad_input(), sizes(), not_over_ranks(), test_passed_on();
   if (strstr(part, "short"))
