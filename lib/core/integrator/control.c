@@ -268,7 +268,6 @@ static int attempt(steif_solver *s, sunrealtype h, int tries, sunrealtype *e)
   if (*e <= 1 && step->carry) STEIF_TRY(carry(s, h, e));
   if (*e <= 1 && s->options.test_quadratures) STEIF_TRY(stf_quadrature_test(s, h, e));
   if (!(*e <= 1) || !s->problem->constraint) return STEIF_OK;
-  step->error_norm = -1;
   const int code = stf_constraint_keep(s, h, tries);
   if (code == STEIF_RETRY) stf_switching_constrained(s);
   return code;
