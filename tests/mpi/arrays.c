@@ -24,7 +24,6 @@ static int expected(int which, const char *method, const rod *r)
 {
   (void)method;
   switch (which) {
-  case CONSTRAINT:
   case DENSE:
   case BAND:
   case SPARSE:

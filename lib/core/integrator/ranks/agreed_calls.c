@@ -10,7 +10,6 @@ static int refuse(const stf_agreed *a, const steif_options *o, int form)
 {
   const enum steif_storage storage = o->force_storage ? o->storage : a->p->storage;
   const char *const what = storage != STEIF_KRYLOV ? "storage other than Krylov"
-                           : a->p->constraint      ? "constraint"
                            : o->sensitivities      ? "sensitivities"
                            : o->reinitialise       ? "reinitialise"
                            : form != STEIF_ODE && o->initial == STEIF_CHECK
