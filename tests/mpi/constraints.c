@@ -306,4 +306,13 @@ void test_constraints(MPI_Comm comm)
     sums_are_few(&r);
     rod_close(&r);
   }
+  MPI_Comm reversed;
+  int rank;
+  rod r;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_split(comm, 0, -rank, &reversed);
+  rod_open(&r, reversed, N, 0);
+  bad_rows_are_told(&r);
+  rod_close(&r);
+  MPI_Comm_free(&reversed);
 }
