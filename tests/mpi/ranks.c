@@ -120,7 +120,8 @@ int same_answer(const rod *r, steif_context *ctx, int code)
 int main(int argc, char **argv)
 {
   MPI_Init(&argc, &argv);
-  const char *part = argc > 1 ? argv[1] : "arrays limits runs reductions memory parts same constraints";
+  const char *part =
+    argc > 1 ? argv[1] : "arrays limits runs reductions memory parts same constraints";
   if (strstr(part, "arrays")) test_arrays(MPI_COMM_WORLD);
   if (strstr(part, "limits")) test_limits(MPI_COMM_WORLD);
   if (strstr(part, "runs")) test_runs(MPI_COMM_WORLD);

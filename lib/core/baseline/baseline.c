@@ -118,6 +118,13 @@ int stf_baseline_open(stf_baseline *base, stf_run *run, const char *package,
   return tolerances(base);
 }
 
+int stf_baseline_gate(const stf_baseline *base)
+{
+  const stf_run *run = base->run;
+  return base->atol || base->constraint ? stf_sum_gate(run->ctx)
+                                        : stf_clone_gate(run->ctx, run->y);
+}
+
 int stf_baseline_adaptive(const stf_baseline *base)
 {
   const steif_options *o = base->run->options;
