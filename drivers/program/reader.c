@@ -38,6 +38,8 @@ static const struct {
   {"raise .memory", "raise --memory"},
   {"ask for fewer .checkpoints or raise", "raise"},
   {"(options.initial = STEIF_REPAIR)", "(--initial repair)"},
+  {"options.initial = STEIF_CHECK", "--initial check"},
+  {"options.initial = STEIF_AS_GIVEN", "--initial given"},
   {"compute one by steif_consistent", "'steif diagnose' computes one"},
   {"Call steif_consistent first, or take the method", "Take the method"},
   {"Call steif_consistent first",

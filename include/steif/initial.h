@@ -26,8 +26,8 @@ enum steif_attribute { STEIF_GUESS, STEIF_FIXED, STEIF_FREE };
  *                   largest. The index of components is found where .index is NULL, at any n.
  *   STEIF_CHECK     the same is computed, and a start that would move is STEIF_BAD_INPUT
  *   STEIF_AS_GIVEN  the start is not looked at; the index of components is found all the same
- * As given is also a start with Krylov storage, options.like, problem.start, prescribed steps or by a baseline; over ranks
- * STEIF_CHECK is STEIF_UNSUPPORTED.
+ * As given is also a start with Krylov storage, options.like or problem.start, where STEIF_CHECK is STEIF_UNSUPPORTED, and
+ * with prescribed steps or by a baseline; over ranks STEIF_CHECK is STEIF_UNSUPPORTED with all of these.
  * Components that would move by less than their tolerance stay as they are, and multipliers of index 3 where nothing
  * else would move: the first step computes them. A start that is consistent costs two evaluations of f and
  * one factorisation more than one that is not looked at; where .index is NULL, some Jacobians beside. */

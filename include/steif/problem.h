@@ -165,7 +165,8 @@ struct steif_problem {
   const int *index;      /* n entries 1, 2, 3: index of each component as in RADAU5; norms
                                 scale component i by h^(index-1); NULL: all 1 */
   const int *constraint; /* n entries as for CVodeSetConstraints: 1: y_i >= 0, 2: > 0, -1: <= 0,
-                                -2: < 0, 0: none; kept at the ends of steps; NULL: none */
+                                -2: < 0, 0: none; kept at the ends of steps; over ranks of own
+                                rows, kept by all ranks alike; NULL: none */
   int dae_index;         /* differentiation index; 0: the highest of .index; -1: not stated */
   int autonomous;        /* 1: f does not depend on t */
   sunrealtype period;    /* of f in t where it is known, else 0 */

@@ -107,9 +107,35 @@ static void given_steps_cannot_be_smaller(void)
   steif_context_free(&ctx);
 }
 
+/* y1 = 3 - t and y2 stay positive: the run of no constraint, bit by bit. */
+static void constraints_that_hold_change_nothing(void)
+{
+  static const sunrealtype y0[] = {3, 1};
+  static const int both[] = {1, 2}, none[] = {0, 0};
+  steif_problem p = {.name = "leave", .n = 2, .t1 = 2, .y0 = y0, .f = leave};
+  for (int m = 0; m < METHODS; m++) {
+    steif_context *ctx = steif_context_new(NULL);
+    const steif_options o = {.rtol = 1e-6, .atol = 1e-9};
+    const int *const signs[] = {NULL, both, none};
+    steif_stats n[3];
+    double y[3];
+    for (int k = 0; k < 3; k++) {
+      p.constraint = signs[k];
+      steif_solver *s = smooth_open(ctx, &p, methods[m], &o);
+      CHECK(!steif_solve_to(s, 2));
+      n[k] = *steif_statistics(s), y[k] = NV_Ith_S(steif_solution(s), 1);
+      steif_solver_free(&s);
+    }
+    CHECK(n[1].steps == n[0].steps && n[1].nfe == n[0].nfe && y[1] == y[0]);
+    CHECK(n[2].steps == n[0].steps && n[2].nfe == n[0].nfe && y[2] == y[0]);
+    steif_context_free(&ctx);
+  }
+}
+
 CU_TestInfo tests_of_constraints[] = {
   {"a solution that leaves is told", a_solution_that_leaves_is_told},
   {"steps end where they may", steps_end_where_they_may},
   {"bad constraints are refused", bad_constraints_are_refused},
+  {"constraints that hold change nothing", constraints_that_hold_change_nothing},
   {"given steps cannot be made smaller", given_steps_cannot_be_smaller},
   CU_TEST_INFO_NULL};

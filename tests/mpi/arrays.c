@@ -3,6 +3,7 @@
 #include "ranks.h"
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static int Ev(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
 {
@@ -18,16 +19,16 @@ static int local(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
   return 0;
 }
 
-enum { PLAIN, ATOLS, INDEX, CONSTRAINT, DENSE, BAND, SPARSE, SENSITIVE, EVENT, CASES };
+enum { PLAIN, ATOLS, INDEX, CONSTRAINT, DENSE, BAND, SPARSE, SENSITIVE, CHECKED, EVENT, CASES };
 
 static int expected(int which, const char *method, const rod *r)
 {
   (void)method;
   switch (which) {
-  case CONSTRAINT:
   case DENSE:
   case BAND:
   case SPARSE:
+  case CHECKED:
   case SENSITIVE: return STEIF_UNSUPPORTED;
   case EVENT: return r->size > 1 ? STEIF_BAD_INPUT : STEIF_OK;
   default: return STEIF_OK;
@@ -54,10 +55,13 @@ static void run(rod *r, const char *method, int which)
   if (which == BAND) p.storage = STEIF_BAND, p.lower = p.upper = 1;
   if (which == SPARSE) p.storage = STEIF_SPARSE, p.nnz = 3 * r->n;
   if (which == SENSITIVE) o.sensitivities = 1;
+  if (which == CHECKED) p.Ev = Ev, o.initial = STEIF_CHECK;
   if (which == EVENT) p.events = 1, p.event = local;
   steif_solver *s = steif_solver_new(ctx, &p, method, &o);
   const int code = s ? steif_solve_to(s, p.t1) : steif_status(ctx);
   EVERYWHERE(r, same_answer(r, ctx, code));
+  EVERYWHERE(r,
+             which != CHECKED || strstr(steif_message(ctx), "check the start in one process"));
   if (!EVERYWHERE(r, (code == STEIF_OK) == (expected(which, method, r) == STEIF_OK)) &&
       r->rank == 0)
     fprintf(stdout, "  %s, case %d: %s\n", method, which, steif_message(ctx));
@@ -76,7 +80,7 @@ void test_arrays(MPI_Comm comm)
   for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
     for (int which = PLAIN; which < CASES; which++) {
       const int package = k > 4;
-      if (which == INDEX && k > 1) continue; /* needs the mass form */
+      if ((which == INDEX || which == CHECKED) && k > 1) continue; /* need the mass form */
       if (which == SENSITIVE && package) continue;
       run(&r, methods[k], which);
     }

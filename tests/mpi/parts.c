@@ -86,6 +86,11 @@ static void run(MPI_Comm comm, const char *method)
   } else
     printf("%s, rank %d: %s\n", method, p.r.rank, steif_message(ctx));
   steif_solver_free(&s), steif_solver_free(&t);
+  static const int signs[64] = {1};
+  b.constraint = signs; /* of rows that are in no array */
+  EVERYWHERE(&p.r, !steif_solver_new(ctx, &b, method, &q));
+  EVERYWHERE(&p.r, same_answer(&p.r, ctx, STEIF_UNSUPPORTED));
+  EVERYWHERE(&p.r, !!strstr(steif_message(ctx), "constraints of problem 'rod' need the rows"));
   N_VDestroy(q.like), N_VDestroy(part[0]), N_VDestroy(part[1]);
   N_VDestroy(p.whole), N_VDestroy(p.out);
   steif_context_free(&ctx);

@@ -120,7 +120,8 @@ int same_answer(const rod *r, steif_context *ctx, int code)
 int main(int argc, char **argv)
 {
   MPI_Init(&argc, &argv);
-  const char *part = argc > 1 ? argv[1] : "arrays limits runs reductions memory parts same";
+  const char *part =
+    argc > 1 ? argv[1] : "arrays limits runs reductions memory parts same constraints";
   if (strstr(part, "arrays")) test_arrays(MPI_COMM_WORLD);
   if (strstr(part, "limits")) test_limits(MPI_COMM_WORLD);
   if (strstr(part, "runs")) test_runs(MPI_COMM_WORLD);
@@ -128,6 +129,7 @@ int main(int argc, char **argv)
   if (strstr(part, "memory")) test_memory(MPI_COMM_WORLD);
   if (strstr(part, "parts")) test_parts(MPI_COMM_WORLD);
   if (strstr(part, "same")) test_same(MPI_COMM_WORLD);
+  if (strstr(part, "constraints")) test_constraints(MPI_COMM_WORLD);
   MPI_Finalize();
   return failures != 0;
 }

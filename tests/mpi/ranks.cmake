@@ -11,7 +11,7 @@ if(MPI_C_FOUND AND TARGET SUNDIALS::nvecparallel)
   endif()
   foreach(ranks 1 2 3)
     # Ranks that share a core wait for each other by giving it away.
-    foreach(part arrays limits runs reductions memory parts same)
+    foreach(part arrays limits runs reductions memory parts same constraints)
       add_test(NAME mpi_${part}_${ranks}
                COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} --oversubscribe
                        --bind-to none $<TARGET_FILE:test_mpi> ${part})

@@ -37,6 +37,9 @@ N_Vector rod_vector(rod *r, steif_context *ctx);
 int everywhere(const rod *r, int condition, const char *text, const char *file, int line);
 extern int failures;
 
+/* Sums over ranks so far, as MPI sees them. */
+extern long allreduces;
+
 /* Code and sentence are the same on all ranks. */
 int same_answer(const rod *r, steif_context *ctx, int code);
 
@@ -47,5 +50,6 @@ void test_reductions(MPI_Comm comm);
 void test_memory(MPI_Comm comm);
 void test_parts(MPI_Comm comm);
 void test_same(MPI_Comm comm);
+void test_constraints(MPI_Comm comm);
 
 #endif

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static long allreduces;
+long allreduces;
 
 /* The profiling interface of MPI: every call of the library and of its vectors comes here. */
 int MPI_Allreduce(const void *from, void *to, int count, MPI_Datatype type, MPI_Op op,

@@ -298,18 +298,24 @@ static void first_component(rod *r)
   close(&g);
 }
 
-/* Numbers of ranks are those of the communicator. */
-static void part_of_all(MPI_Comm comm)
+/* Numbers of ranks are those of the communicator: of a part, in the order of all or the other one, and of all in
+ * reversed order. */
+static void other_communicators(MPI_Comm comm)
 {
   int rank;
-  rod r;
-  MPI_Comm part;
   MPI_Comm_rank(comm, &rank);
-  MPI_Comm_split(comm, rank > 0, rank, &part);
-  rod_open(&r, part, 40, 0);
-  if (r.size > 1) values(&r, "bdf", EVENTS, FATAL), wrong_rows(&r), first_component(&r);
-  rod_close(&r);
-  MPI_Comm_free(&part);
+  for (int k = 0; k < 3; k++) {
+    rod r;
+    MPI_Comm part;
+    MPI_Comm_split(comm, k < 2 && rank > 0, k ? -rank : rank, &part);
+    rod_open(&r, part, 40, 0);
+    if (r.size > 1) {
+      values(&r, "bdf", EVENTS, FATAL), values(&r, "cvode", EVENTS, NOT_A_NUMBER);
+      wrong_rows(&r), first_component(&r);
+    }
+    rod_close(&r);
+    MPI_Comm_free(&part);
+  }
 }
 
 void test_same(MPI_Comm comm)
@@ -336,6 +342,6 @@ void test_same(MPI_Comm comm)
     first_component(&r);
     times(&r, "bdf"), times(&r, "rk4"), times(&r, "cvode");
   }
-  part_of_all(comm);
+  other_communicators(comm);
   rod_close(&r);
 }

@@ -15,6 +15,14 @@ run(0 "steps +[1-9]" solve heat2d:n=8 bdf --linear mumps --t1 0.01)
 run(0 "steps +[1-9]" solve heat2d:n=8 cvode --t1 0.01)
 run(0 "unknowns +67" solve ladder:n=20,case=cons bdf --linear mumps)
 run(2 "STEIF_UNSUPPORTED" solve hires bdf)
+
+# A requirement of a model is kept, or the run ends as in one process.
+set(model ${CMAKE_CURRENT_BINARY_DIR}/require_${RANKS}.steif)
+file(WRITE ${model} "form descriptor\nstate x = 1\nstate y = 0.5\nstate u ~ 1\nx' = -x + 0.2*sin(3*t)\ny' = -1\n"
+                    "0 = u - x - y\nrequire y >= 0\ntime 0 to 2\n")
+run(1 "'y', on rank [0-9].* of problem .* becomes -.* declared to be >= 0.*STEIF_INFEASIBLE" solve ${model} bdf)
+run(1 "'y', on rank [0-9].* of problem .* becomes -.* declared to be >= 0" solve ${model} radau:s=3 --linear mumps)
+run(0 "steps +[1-9]" solve ${model} bdf --t1 0.4)
 run(0 "setups +0\n.*error +[0-9.]+e-0[6-9]" solve heat2d:n=8 bdf --linear krylov --t1 0.1)
 run(2 "krylov serves y' = f" solve ladder:n=20,case=cons bdf --linear krylov)
 run(2 "STEIF_UNKNOWN_NAME" solve heat2d:n=8 bdf --linear pardiso)

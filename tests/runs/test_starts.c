@@ -160,6 +160,53 @@ static void starts_that_stay(void)
   steif_context_free(&ctx);
 }
 
+static int from_zero(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  (void)t, (void)user;
+  N_VConst(0, y), N_VConst(0, yp);
+  return 0;
+}
+
+static int same(sunrealtype t, N_Vector y, N_Vector yp, N_Vector x, N_Vector out, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  N_VScale(1, x, out);
+  return 0;
+}
+
+/* Where the start cannot be looked at, it is as given; asked for a check, the run does not begin. */
+static void a_check_that_cannot_be_made_is_told(void)
+{
+  static const char *const words[] = {"storage Krylov", "options.like", "problem.start"};
+  steif_context *ctx = steif_context_new(NULL);
+  made s;
+  state = 7;
+  fill(&s, 2, false);
+  matrices(ctx, &s);
+  const steif_linear l = {s.E, s.F, f, &s};
+  for (int k = 0; k < 3; k++) {
+    steif_problem p;
+    steif_options o = steif_defaults();
+    CU_ASSERT_FATAL(!steif_linear_problem(ctx, &l, s.x0, 0, 1, &p));
+    N_Vector like = N_VNew_Serial(p.n, steif_sundials(ctx));
+    if (k == 0) p.storage = STEIF_KRYLOV, p.Ev = same, p.Av = same, p.E = p.A = NULL;
+    if (k == 1) o.like = like;
+    if (k == 2) p.start = from_zero;
+    for (int initial = STEIF_REPAIR; initial <= STEIF_AS_GIVEN; initial++) {
+      o.initial = (enum steif_initial)initial;
+      steif_solver *solver = steif_solver_new(ctx, &p, "radau:s=3", &o);
+      CHECK((solver != NULL) == (initial != STEIF_CHECK));
+      if (!solver) CHECK(steif_status(ctx) == STEIF_UNSUPPORTED);
+      if (!solver) CHECK(strstr(steif_message(ctx), words[k]) != NULL);
+      steif_solver_free(&solver);
+    }
+    N_VDestroy(like);
+    steif_problem_clear(ctx, &p);
+  }
+  SUNMatDestroy(s.E), SUNMatDestroy(s.F);
+  steif_context_free(&ctx);
+}
+
 /* Two capacitors put together, as M y' = f(y) that says that it is linear: no `descriptor` takes that form, and the stages
  * keep the charge: v = 4/(1 + 3). */
 static int currents(sunrealtype t, N_Vector y, N_Vector r, void *user)
@@ -196,6 +243,7 @@ static void linear_with_a_mass_matrix(void)
 CU_TestInfo tests_of_starts[] = {
   {"constraints in any rows", constraints_in_any_rows},
   {"starts that stay", starts_that_stay},
+  {"a check that cannot be made is told", a_check_that_cannot_be_made_is_told},
   {"linear with a mass matrix", linear_with_a_mass_matrix},
   CU_TEST_INFO_NULL,
 };

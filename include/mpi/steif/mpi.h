@@ -2,14 +2,14 @@
  *
  * A rank owns consecutive rows of y, E and A, the first rank the first ones. The same calls solve the problem as in
  * one process: a vector of own rows, made by steif_mpi_vector, is options.like; callbacks read and write own rows,
- * exchange what they need of neighbours, and are called on all ranks at the same places. y0, yp0, atols and index are of
- * own rows. All else that a run looks at is the same on all ranks: numbers, times, the method, events, parameters,
- * which callbacks there are; STEIF_BAD_INPUT names the member in which ranks disagree. Event functions, invariants and
- * integrands (quadrature.h) have the same values on all of them, so the callback sums up. steif_solve_to,
- * steif_solver_extend and steif_quadrature_values are called by all ranks with the same t; steif_dense too, with the
- * explicit methods whose dense output evaluates f, and arkode. Not over ranks: constraint, sensitivities,
- * reinitialise, steif_recompute, checkpoints. A run needs a vector over ranks on all of them: one that is given another
- * options.like does not know of the others.
+ * exchange what they need of neighbours, and are called on all ranks at the same places. y0, yp0, atols, index,
+ * constraint and names are of own rows; a rank without rows gives a pointer where the others do. All else that a run
+ * looks at is the same on all ranks: numbers, times, the method, events, parameters, which callbacks there are;
+ * STEIF_BAD_INPUT names the member in which ranks disagree. Event functions, invariants and integrands (quadrature.h)
+ * have the same values on all of them, so the callback sums up. steif_solve_to, steif_solver_extend and
+ * steif_quadrature_values are called by all ranks with the same t; steif_dense too, with the explicit methods whose
+ * dense output evaluates f, and arkode. Not over ranks: sensitivities, reinitialise, steif_recompute, checkpoints. A
+ * run needs a vector over ranks on all of them: one that is given another options.like does not know of the others.
  *
  * Linear systems (c E - A) x = b: steif_mpi_open makes of a problem with A (and E) by rows one that GMRES solves
  * with a preconditioner made of these rows:

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "agree.h"
 #include "image.h"
+#include "rank.h"
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MOST = 256 };
@@ -45,23 +45,11 @@ static sunrealtype elect(N_Vector like, uint64_t key, sunrealtype count, bool *s
   return count;
 }
 
-/* The number of this rank as the usual launchers of MPI tell it, for sentences; -1: not told. */
-static int own_rank(void)
-{
-  static const char *const told[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK",
-                                     "SLURM_PROCID"};
-  for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
-    const char *text = getenv(told[i]);
-    if (text && *text >= '0' && *text <= '9') return atoi(text);
-  }
-  return -1;
-}
-
-/* The lowest of `count` ranks that stand; returns how many remain, *told the number that it was told. */
+/* The lowest of `count` ranks that stand; returns how many remain, *told its number. */
 static sunrealtype lowest(N_Vector like, sunrealtype count, bool *stands, int *told)
 {
   const uint64_t last = (uint64_t)1 << 31;
-  const int own = own_rank();
+  const int own = stf_own_rank(like);
   count = elect(like, last - (uint64_t)(own + 1), count, stands);
   sunrealtype of_all = *stands ? own : 0;
   sum(like, 1, &of_all);
@@ -69,11 +57,11 @@ static sunrealtype lowest(N_Vector like, sunrealtype count, bool *stands, int *t
   return count;
 }
 
-/* The number in the communicator of the rank that the launcher gave the number `told`: how many come before it,
- * and how many rows they have. */
+/* How many ranks come before the one with the number `told`, which is its number in the communicator, also where the
+ * launcher told it; and how many rows they have. */
 static int number_of(N_Vector like, int told, sunindextype rows, long long *first)
 {
-  const bool before = told >= 0 && own_rank() < told;
+  const bool before = told >= 0 && stf_own_rank(like) < told;
   sunrealtype of_all[] = {before, before ? (sunrealtype)rows : 0};
   sum(like, 2, of_all);
   *first = (long long)of_all[1];

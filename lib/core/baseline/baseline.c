@@ -77,14 +77,18 @@ static int tolerances(stf_baseline *base)
   return STEIF_OK;
 }
 
+/* The packages reject constraints that are 0 in all components. */
 static int constraints(stf_baseline *base)
 {
   stf_run *run = base->run;
   if (!run->problem->constraint) return STEIF_OK;
-  if (!(base->constraint = stf_pool_vector(run->pool, run->like))) return STEIF_NO_MEMORY;
+  N_Vector signs = stf_pool_vector(run->pool, run->like);
+  if (!signs) return STEIF_NO_MEMORY;
   sunindextype rows;
-  sunrealtype *c = stf_own_rows(base->constraint, &rows);
+  sunrealtype *c = stf_own_rows(signs, &rows);
   for (sunindextype i = 0; c && i < rows; i++) c[i] = run->problem->constraint[i];
+  STEIF_TRY(stf_sum_gate(run->ctx));
+  if (N_VMaxNorm(signs) > 0) base->constraint = signs;
   return STEIF_OK;
 }
 
@@ -112,6 +116,13 @@ int stf_baseline_open(stf_baseline *base, stf_run *run, const char *package,
   STEIF_TRY(constraints(base));
   STEIF_TRY(stf_coloured_open(base));
   return tolerances(base);
+}
+
+int stf_baseline_gate(const stf_baseline *base)
+{
+  const stf_run *run = base->run;
+  return base->atol || base->constraint ? stf_sum_gate(run->ctx)
+                                        : stf_clone_gate(run->ctx, run->y);
 }
 
 int stf_baseline_adaptive(const stf_baseline *base)

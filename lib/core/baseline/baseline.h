@@ -83,6 +83,8 @@ void stf_baseline_hear(int code, const char *module, const char *function, char 
 /* --- baseline.c --- */
 int stf_baseline_open(stf_baseline *base, stf_run *run, const char *package,
                       const stf_flag *flags);
+/* Before the package is made: it clones vectors, and asks for norms of tolerances and constraints. */
+int stf_baseline_gate(const stf_baseline *base);
 /* Refuse given steps. */
 int stf_baseline_adaptive(const stf_baseline *base);
 /* J and a solver for it; `exact`: a callback gives the entries. */

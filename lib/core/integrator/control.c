@@ -89,7 +89,7 @@ int stf_fixed_step(steif_solver *s)
     const int carried = stf_carry_carry(step->carry, h);
     if (carried) return cause(s, carried);
   }
-  if (s->problem->constraint) STEIF_TRY(stf_constraint_keep(s, h, 0));
+  if (s->constrained) STEIF_TRY(stf_constraint_keep(s, h, 0));
   accept(s, h, t);
   s->mesh_at++;
   return STEIF_OK;
@@ -267,8 +267,7 @@ static int attempt(steif_solver *s, sunrealtype h, int tries, sunrealtype *e)
   if (step->control.between > *e) *e = step->control.between;
   if (*e <= 1 && step->carry) STEIF_TRY(carry(s, h, e));
   if (*e <= 1 && s->options.test_quadratures) STEIF_TRY(stf_quadrature_test(s, h, e));
-  if (!(*e <= 1) || !s->problem->constraint) return STEIF_OK;
-  step->error_norm = -1;
+  if (!(*e <= 1) || !s->constrained) return STEIF_OK;
   const int code = stf_constraint_keep(s, h, tries);
   if (code == STEIF_RETRY) stf_switching_constrained(s);
   return code;

@@ -79,6 +79,7 @@ struct steif_solver {
   sunrealtype h_next, h_old, h_tried, error_old; /* chosen steps */
   bool after_reject, failed;
   stf_pace pace;
+  bool constrained;             /* some component has a sign to keep */
   int constraint_moves;         /* steps in a row that a constraint has moved */
   stf_rounding *rounding;       /* of runs near it; NULL: not followed */
   sunrealtype rounded;          /* in tolerances */
@@ -170,10 +171,9 @@ int stf_rest_open(steif_solver *s, const stf_constant *constant, sunrealtype t1)
 /* Is there more to do after a step than to go on? */
 bool stf_observed(const steif_solver *s);
 
-/* Constraints: sensible, and kept at the start; kept by y at t; kept by the trial, which may be moved
- * within the tolerance: STEIF_RETRY asks for a smaller step. */
+/* Constraints: kept at the start, and s->constrained: there are any; kept by the trial, which may be moved within the
+ * tolerance: STEIF_RETRY asks for a smaller step. */
 int stf_constraint_open(steif_solver *s);
-int stf_constraint_check(steif_solver *s, sunrealtype t, N_Vector y, const char *where);
 int stf_constraint_keep(steif_solver *s, sunrealtype h, int tries);
 
 /* s->rounding where it may matter; after a step, what has become of rounding errors. */

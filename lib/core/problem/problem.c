@@ -36,6 +36,11 @@ static int check_values(steif_context *ctx, const steif_problem *p, sunindextype
     STEIF_CHECK(!p->index || (p->index[i] >= 1 && p->index[i] <= 3), ctx, STEIF_BAD_INPUT,
                 "index[%lld] = %d of problem '%s' must be 1, 2 or 3", (long long)i, p->index[i],
                 p->name);
+    STEIF_CHECK(!p->constraint || (p->constraint[i] >= -2 && p->constraint[i] <= 2), ctx,
+                STEIF_BAD_INPUT,
+                "constraint[%lld] = %d of problem '%s' must be 0 (none), 1 (y >= 0), 2 (> 0), "
+                "-1 (<= 0) or -2 (< 0)",
+                (long long)i, p->constraint[i], p->name);
   }
   return STEIF_OK;
 }

@@ -109,7 +109,7 @@ int stf_storage_check(steif_context *ctx, const steif_problem *problem,
 const char *stf_unknown(const steif_problem *problem, sunindextype i, char *room);
 const char *stf_equation(const steif_problem *problem, sunindextype i, char *room);
 
-/* steif_problem_form where this rank has so many rows of start values and index. */
+/* steif_problem_form where this rank has so many rows of start values, index and constraint. */
 int stf_problem_form(steif_context *ctx, const steif_problem *problem, sunindextype rows);
 
 /* The problem, or where it has no name a copy in `room` with one for messages. STF_NAMED(p): p from here on, for a

@@ -5,6 +5,7 @@
 #include "slice_start.h"
 #include <nvector/nvector_serial.h>
 #include <steif/data.h>
+#include <stdio.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
@@ -23,8 +24,13 @@ typedef struct slice {
   sunindextype *own; /* numbers of own rows in the whole */
   band E, A;
   sunrealtype *start, *slope;
-  int *index;
+  int *index, *sign;
+  const char **unknown; /* names of own ones, where they are numbered anew ... */
+  char *text;           /* ... and letters of those that have none */
+  steif_names names;
 } slice;
+
+enum { LETTERS = 24 }; /* of such a name */
 
 /* -- callbacks -------------------------------------------------------------------------------- */
 
@@ -112,6 +118,29 @@ static int keep(steif_context *ctx, slice *s, band *b, const sunindextype *place
   return STEIF_OK;
 }
 
+/* Of row k, which is unknown i of the whole. */
+static void name(slice *s, sunindextype k, sunindextype i)
+{
+  const steif_names *names = s->whole.names;
+  char *text = s->text + k * LETTERS;
+  snprintf(text, LETTERS, "x%lld", (long long)i + 1);
+  s->unknown[k] = names && names->unknown ? names->unknown[i] : text;
+}
+
+static int own_constraints(steif_context *ctx, slice *s)
+{
+  const size_t rows = (size_t)s->rows + 1;
+  if (!s->whole.constraint) return STEIF_OK;
+  s->sign = steif_allocate(ctx, rows, sizeof *s->sign);
+  s->unknown = steif_allocate(ctx, rows, sizeof *s->unknown);
+  s->text = steif_allocate(ctx, rows, LETTERS);
+  if (!s->sign || !s->unknown || !s->text) return STEIF_NO_MEMORY;
+  for (sunindextype k = 0; k < s->rows; k++)
+    s->sign[k] = s->whole.constraint[s->own[k]], name(s, k, s->own[k]);
+  s->names.unknown = s->unknown;
+  return STEIF_OK;
+}
+
 static int own_numbers(steif_context *ctx, slice *s, const sunindextype *place,
                        const slice_start *all)
 {
@@ -129,7 +158,7 @@ static int own_numbers(steif_context *ctx, slice *s, const sunindextype *place,
     s->start[k] = all->y[i], s->index[k] = all->index[i];
     if (p->yp0) s->slope[k] = p->yp0[i];
   }
-  return STEIF_OK;
+  return own_constraints(ctx, s);
 }
 
 /* -- the whole system ------------------------------------------------------------------------- */
@@ -192,6 +221,8 @@ static void describe(slice *s, int index)
                                       .y0 = s->start,
                                       .yp0 = s->slope,
                                       .index = s->index,
+                                      .constraint = s->sign,
+                                      .names = s->sign ? &s->names : NULL,
                                       .dae_index = index,
                                       .E = E,
                                       .A = A,
@@ -210,7 +241,8 @@ static void release(steif_context *ctx, parallel_problem *public)
 {
   slice *s = (slice *)public; /* its first member */
   void *const all[] = {s->own,      s->start,   s->slope, s->index,    s->E.at,
-                       s->E.column, s->E.value, s->A.at,  s->A.column, s->A.value};
+                       s->E.column, s->E.value, s->A.at,  s->A.column, s->A.value,
+                       s->sign,     s->unknown, s->text};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) steif_release(ctx, all[i]);
   if (s->wide) N_VDestroy(s->wide);
   steif_problem_clear(ctx, &s->whole);

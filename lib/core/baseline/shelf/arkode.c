@@ -222,7 +222,7 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
 {
   arkode *s = state;
   STEIF_TRY(prepare(run, s, spec));
-  STEIF_TRY(stf_clone_gate(run->ctx, run->y));
+  STEIF_TRY(stf_baseline_gate(&s->base));
   stf_baseline_enter(&s->base, run);
   s->memory = ARKStepCreate(NULL, stf_baseline_rhs, run->t, run->y, steif_sundials(run->ctx));
   STEIF_TRY(verdict(s, s->memory ? configure(s) : ARK_MEM_FAIL));

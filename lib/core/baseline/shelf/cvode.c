@@ -140,7 +140,7 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
   STEIF_TRY(stf_baseline_open(b, run, s->call->package, flags));
   STEIF_TRY(stf_baseline_adaptive(b));
   STEIF_TRY(s->adams ? open_iteration(s) : open_newton(b));
-  STEIF_TRY(stf_clone_gate(run->ctx, run->y));
+  STEIF_TRY(stf_baseline_gate(b));
   stf_baseline_enter(b, run);
   s->memory = s->call->CVodeCreate(s->adams ? CV_ADAMS : CV_BDF, steif_sundials(run->ctx));
   return verdict(s, s->memory ? configure(s) : CV_MEM_FAIL);

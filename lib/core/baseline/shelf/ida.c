@@ -195,7 +195,7 @@ static int open(stf_run *run, void *state, const steif_spec *spec)
   STEIF_TRY(stf_lower_open(b));
   STEIF_TRY(stf_start_slopes(b));
   STEIF_TRY(identify(s, &id));
-  STEIF_TRY(stf_clone_gate(run->ctx, run->y));
+  STEIF_TRY(stf_baseline_gate(b));
   stf_baseline_enter(b, run);
   s->memory = s->call->IDACreate(steif_sundials(run->ctx));
   int flag = s->memory ? configure(s) : IDA_MEM_FAIL;

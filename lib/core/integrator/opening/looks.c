@@ -75,16 +75,29 @@ int stf_start_repaired(stf_repair *r)
   return r->jumps ? jump(r) : STEIF_OK;
 }
 
+/* What hides the entries of matrices, or the start, from a look at it; NULL: nothing does. */
+static const char *what_hides(const steif_options *o, const steif_problem *p)
+{
+  const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
+  return storage == STEIF_KRYLOV || p->storage == STEIF_KRYLOV ? "storage Krylov"
+         : o->like                                             ? "options.like"
+         : p->start                                            ? "problem.start"
+                                                               : NULL;
+}
+
 /* The start of a DAE, for methods of ours with adaptive steps. */
 int stf_look_at_start(steif_solver *s, int form)
 {
   const steif_options *o = &s->options;
   const steif_problem *p = s->problem;
-  const bool dae = form != STEIF_ODE;
-  const enum steif_storage storage = o->force_storage ? o->storage : p->storage;
-  if (!dae || o->h > 0 || o->mesh || o->like || p->start || storage == STEIF_KRYLOV ||
-      p->storage == STEIF_KRYLOV)
-    return STEIF_OK;
+  const char *const hides = what_hides(o, p);
+  if (form == STEIF_ODE || o->h > 0 || o->mesh) return STEIF_OK;
+  STEIF_CHECK(!hides || o->initial != STEIF_CHECK, s->ctx, STEIF_UNSUPPORTED,
+              "options.initial = STEIF_CHECK: with %s the start of '%s' cannot be checked, "
+              "which takes start values and entries of matrices in arrays of one process; give "
+              "these, or options.initial = STEIF_AS_GIVEN",
+              hides, p->name);
+  if (hides) return STEIF_OK;
   s->repair = (stf_repair){.ctx = s->ctx,
                            .pool = s->pool,
                            .given = p,

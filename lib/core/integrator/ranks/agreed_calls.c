@@ -9,18 +9,20 @@
 static int refuse(const stf_agreed *a, const steif_options *o, int form)
 {
   const enum steif_storage storage = o->force_storage ? o->storage : a->p->storage;
-  const char *const what = storage != STEIF_KRYLOV ? "storage other than Krylov"
-                           : a->p->constraint      ? "constraint"
-                           : o->sensitivities      ? "sensitivities"
-                           : o->reinitialise       ? "reinitialise"
-                           : form != STEIF_ODE && o->initial == STEIF_CHECK
-                             ? "initial = STEIF_CHECK"
-                             : NULL;
-  STEIF_CHECK(
-    !what, a->ctx, STEIF_UNSUPPORTED,
-    "'%s' of problem '%s' needs all %lld unknowns in one place, and these vectors are "
-    "spread over ranks: use storage Krylov without it",
-    what, a->p->name, (long long)a->p->n);
+  const char *what = NULL, *instead = "solve it in one process, or leave it out";
+  if (storage != STEIF_KRYLOV)
+    what = "storage other than Krylov", instead = "use storage Krylov";
+  else if (o->sensitivities)
+    what = "options.sensitivities";
+  else if (o->reinitialise)
+    what = "options.reinitialise";
+  else if (form != STEIF_ODE && o->initial == STEIF_CHECK)
+    what = "options.initial = STEIF_CHECK",
+    instead = "check the start in one process, or give options.initial = STEIF_AS_GIVEN";
+  STEIF_CHECK(!what, a->ctx, STEIF_UNSUPPORTED,
+              "%s of problem '%s' needs all %lld unknowns in one place, and these vectors are "
+              "spread over ranks: %s",
+              what, a->p->name, (long long)a->p->n, instead);
   return STEIF_OK;
 }
 

@@ -128,12 +128,13 @@ enum { ROOM = 64 };
 typedef struct collected {
   const char *name[ROOM], *of;
   unsigned long long number[ROOM];
+  bool presence[ROOM]; /* the number tells whether it is given */
   size_t count;
 } collected;
 
 static void add(collected *c, const char *name, const void *bytes, size_t count)
 {
-  c->name[c->count] = name;
+  c->name[c->count] = name, c->presence[c->count] = false;
   c->number[c->count++] = bytes ? stf_checksum(bytes, count) : 0;
 }
 
@@ -153,15 +154,16 @@ static void add_members(collected *c, size_t count, const member *m, const void 
     static const char none[sizeof(void *)];
     const bool there = memcmp(at, none, sizeof none) != 0;
     add(c, m[i].name, &there, sizeof there);
+    c->presence[c->count - 1] = true;
   }
 }
 
 static int compare(steif_context *ctx, N_Vector like, const collected *c)
 {
   const long at = stf_agree_different(like, c->count, c->number);
-  STEIF_CHECK(at < 0, ctx, STEIF_BAD_INPUT, "ranks disagree in %s%s: give all the same", c->of,
-              at < 0 ? "" : c->name[at]);
-  return STEIF_OK;
+  if (at < 0) return STEIF_OK;
+  return STEIF_FAIL(ctx, STEIF_BAD_INPUT, "ranks disagree in %s%s: %s", c->of, c->name[at],
+                    c->presence[at] ? "give it on all ranks or on none" : "give all the same");
 }
 
 /* -- what they point to: counts and presence are the same already --------------------------------- */
