@@ -215,7 +215,10 @@ struct steif_problem {
    * so long before and after a change: before a step g is evaluated so often ahead, at the present y, and the step
    * ends at the first of these times that shows a change. Not of prescribed steps. 0: not known. */
   sunrealtype event_spacing;
-  void *reserved[9]; /* 0; members to come take their place, and later ones stand after them */
+  /* Over ranks (steif/mpi.h): vectors like those that the callbacks take, options.like where that is NULL; another one
+   * that is not spread over ranks is STEIF_BAD_INPUT. NULL: any vectors. */
+  N_Vector like;
+  void *reserved[8]; /* 0; members to come take their place, and later ones stand after them */
 };
 
 /* The form, or 0 with the message set: complete, consistent, finite start values. */

@@ -331,7 +331,7 @@ steif_mpi *steif_mpi_open(steif_context *ctx, const steif_problem *problem, cons
     return NULL;
   }
   m->problem = *problem, m->p = problem;
-  m->rows.ctx = ctx, m->rows.like = like;
+  m->rows.ctx = ctx, m->problem.like = m->rows.like = like;
   if (prepare(m, spec)) steif_mpi_free(&m);
   return m;
 }

@@ -170,10 +170,10 @@ int mumps_receive(mumps *s, slot *t, int count, int columns)
   t->out = steif_allocate(r->ctx, width * need, sizeof *t->out);
   t->row_of_x = steif_allocate(r->ctx, need, sizeof(int));
   t->order = steif_allocate(r->ctx, need, sizeof(int));
-  t->room = t->x && t->out && t->row_of_x && t->order ? (int)need : 0;
-  t->columns = t->room ? columns : 0;
+  t->room = (int)need; /* what is asked for next time, too */
+  t->columns = t->x && t->out && t->row_of_x && t->order ? columns : 0;
   t->get_at[r->own.size] = -1;
-  return t->room ? STEIF_OK : STEIF_NO_MEMORY;
+  return t->columns ? STEIF_OK : STEIF_NO_MEMORY;
 }
 
 static int factor(mumps *s, slot *t)

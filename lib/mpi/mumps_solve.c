@@ -30,7 +30,9 @@ int mumps_room(mumps *s, slot *t, int columns)
 {
   int code = widen(s, columns);
   if (!code) code = mumps_receive(s, t, t->room - 1, columns);
-  return steif_agree(s->r->ctx, s->r->like, code);
+  code = steif_agree(s->r->ctx, s->r->like, code);
+  if (code) t->columns = 0, t->get_at[s->r->own.size] = -1; /* on all ranks, or they part */
+  return code;
 }
 
 /* Who gets which entries of the solution as MUMPS spreads it: found at the first solve by new

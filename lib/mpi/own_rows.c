@@ -90,12 +90,13 @@ static int check(const rows *r, SUNMatrix M, char which)
     return steif_fail(r->ctx, STEIF_BAD_INPUT,
                       "%c has %lld entries on rank %d, and room for %lld (.nnz)", which,
                       (long long)at[rows_here], r->own.rank, (long long)SM_NNZ_S(M));
-  for (sunindextype i = 0; i < rows_here; i++) {
-    const long long row = (long long)(r->own.first + i);
+  for (sunindextype i = 0; i < rows_here; i++) /* all of them, before one is followed */
     if (at[i + 1] < at[i])
       return steif_fail(r->ctx, STEIF_BAD_INPUT,
-                        "the index pointers of %c decrease at row %lld (rank %d)", which, row,
-                        r->own.rank);
+                        "the index pointers of %c decrease at row %lld (rank %d)", which,
+                        (long long)(r->own.first + i), r->own.rank);
+  for (sunindextype i = 0; i < rows_here; i++) {
+    const long long row = (long long)(r->own.first + i);
     for (sunindextype k = at[i]; k < at[i + 1]; k++) {
       if (column[k] < 0 || column[k] >= r->own.n)
         return steif_fail(r->ctx, STEIF_BAD_INPUT,

@@ -76,6 +76,7 @@ static const range free_in_problem[] = {
   IN(steif_problem, f),
   IN(steif_problem, precsetup),
   IN(steif_problem, precsolve),
+  IN(steif_problem, like),
   AFTER(steif_problem, storage, lower),
   AFTER(steif_problem, linear, exact),
   AFTER(steif_problem, invariants, invariant),

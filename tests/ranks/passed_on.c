@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "checks.h"
 #include <math.h>
+#include <nvector/nvector_serial.h>
 #include <stdio.h>
 #include <steif/quadrature.h>
 #include <string.h>
@@ -102,9 +103,68 @@ static void questions(void)
   steif_context_free(&ctx);
 }
 
+/* The vectors are those of the problem where options have none; those of one process are rejected. On the last rank alone
+ * too: with options.like on the others. */
+static void vectors(int opened, int wrong)
+{
+  N_Vector like;
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem *p = steif_mpi_problem_new(ctx, "heat2d:n=6", MPI_COMM_WORLD, &like);
+  N_Vector serial = N_VNew_Serial(p->n, steif_sundials(ctx));
+  steif_options o = steif_defaults();
+  o.rtol = 1e-6, o.like = rank < ranks - 1 ? like : wrong ? serial : NULL;
+  if (!opened) o.storage = STEIF_KRYLOV, o.force_storage = 1;
+  steif_mpi *m = opened ? steif_mpi_open(ctx, p, "mumps", like) : NULL;
+  steif_solver *s =
+    steif_solver_new(ctx, m ? steif_mpi_problem(m) : p, opened ? "bdf" : "dopri87", &o);
+  if (wrong) {
+    ALL(!s && steif_status(ctx) == STEIF_BAD_INPUT && same(ctx));
+    ALL(strstr(steif_message(ctx), "options.like is of one process") != NULL);
+  } else {
+    N_Vector exact = N_VClone(like);
+    if (!ALL(s && steif_solve_to(s, 0.01) == STEIF_OK) && rank == 0)
+      printf("  %s\n", steif_message(ctx));
+    ALL(!p->exact(0.01, exact, NULL, p->user));
+    N_VLinearSum(1, exact, -1, steif_solution(s), exact);
+    ALL(N_VMaxNorm(exact) < 1e-4);
+    N_VDestroy(exact);
+  }
+  steif_solver_free(&s);
+  steif_mpi_free(&m);
+  N_VDestroy(serial);
+  steif_mpi_problem_free(ctx, &p, &like);
+  steif_context_free(&ctx);
+}
+
+static int far_pointer(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix M, void *user)
+{
+  const int code = fill(t, y, yp, M, user);
+  if (rank == ranks - 1 && SM_ROWS_S(M) > 2) SM_INDEXPTRS_S(M)[2] = (sunindextype)1 << 40;
+  return code;
+}
+
+/* Pointers in the middle are looked at before what they point to. */
+static void pointers(void)
+{
+  N_Vector like;
+  steif_context *ctx = steif_context_new(NULL);
+  steif_problem *p = steif_mpi_problem_new(ctx, "heat2d:n=6", MPI_COMM_WORLD, &like);
+  N_Vector b = N_VClone(like);
+  fill = p->A, p->A = far_pointer;
+  steif_mpi *m = steif_mpi_open(ctx, p, "mumps", like);
+  ALL(steif_mpi_solve(m, 0, like, like, 1, 0, 0, 1, &b, &b) == STEIF_BAD_INPUT && same(ctx));
+  ALL(strstr(steif_message(ctx), "the index pointers of A decrease at row ") != NULL);
+  steif_mpi_free(&m);
+  N_VDestroy(b);
+  steif_mpi_problem_free(ctx, &p, &like);
+  steif_context_free(&ctx);
+}
+
 void test_passed_on(void)
 {
-  questions();
+  questions(), pointers();
+  for (int opened = 0; opened < 2; opened++)
+    for (int wrong = 0; wrong < 2; wrong++) vectors(opened, wrong);
   integrals_and_weights("heat2d:n=6", "amg", "bdf");
   integrals_and_weights("heat2d:n=6", "mumps", "radau:s=2");
   integrals_and_weights("heat2d:n=6", "amg", "cvode");

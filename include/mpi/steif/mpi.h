@@ -9,7 +9,8 @@
  * have the same values on all of them, so the callback sums up. steif_solve_to, steif_solver_extend and
  * steif_quadrature_values are called by all ranks with the same t; steif_dense too, with the explicit methods whose
  * dense output evaluates f, and arkode. Not over ranks: sensitivities, reinitialise, steif_recompute, checkpoints. A
- * run needs a vector over ranks on all of them: one that is given another options.like does not know of the others.
+ * run needs a vector over ranks on all of them: a problem of steif_mpi_open brings it where options.like is NULL, and
+ * rejects one of one process; without steif_mpi_open such a run does not know of the other ranks.
  *
  * Linear systems (c E - A) x = b: steif_mpi_open makes of a problem with A (and E) by rows one that GMRES solves
  * with a preconditioner made of these rows:

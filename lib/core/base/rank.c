@@ -1,9 +1,9 @@
 /* rank.c: the number of this rank in the communicator of a vector, for sentences.
  *
  * Sums are the same for any order of the ranks and cannot tell it, and nothing here is linked to MPI. But the operations
- * of the vector are: the library that they are in knows MPI_Comm_rank. What this takes differs between
- * implementations: a pointer (Open MPI), or a number (MPICH and its relatives). With others, or where it is not found,
- * as in programs that have all of MPI inside, the launcher tells a number, whose order may be another one.
+ * of a vector of N_VNew_Parallel are: the library that they are in knows MPI_Comm_rank. What this takes differs between
+ * implementations: a pointer (Open MPI), or a number (MPICH and its relatives). With others, with other vectors, or
+ * in programs that have all of it inside, the launcher tells a number, whose order may be another one.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE /* dladdr */
@@ -25,16 +25,17 @@ static int of_launcher(void)
   return -1;
 }
 
-/* The library with the operations of the vector, or the program that has them in it. */
+/* The library with the operations of a vector of N_VNew_Parallel, whose communicator is one of MPI; that of others may
+ * be anything. NULL: not found. */
 static void *library_of(N_Vector like)
 {
   Dl_info where;
   void *at;
+  if (N_VGetVectorID(like) != SUNDIALS_NVEC_PARALLEL) return NULL;
   memcpy(&at, &like->ops->nvdotprodmultiallreduce, sizeof at);
-  void *library = dladdr(at, &where) && where.dli_fname
-                    ? dlopen(where.dli_fname, RTLD_NOLOAD | RTLD_LAZY)
-                    : NULL;
-  return library ? library : dlopen(NULL, RTLD_LAZY);
+  const bool known = dladdr(at, &where) && where.dli_fname && where.dli_sname &&
+                     !strcmp(where.dli_sname, "N_VDotProdMultiAllReduce_Parallel");
+  return known ? dlopen(where.dli_fname, RTLD_NOLOAD | RTLD_LAZY) : NULL;
 }
 
 #if SUNDIALS_VERSION_MAJOR >= 7

@@ -43,6 +43,9 @@ steif_problem *steif_mpi_problem_new(steif_context *ctx, const char *spec, MPI_C
   N_VDestroy(one);
   steif_problem *problem = p ? &p->problem : NULL;
   *like = code ? NULL : steif_mpi_vector(ctx, comm, p->rows);
-  if (!*like) steif_mpi_problem_free(ctx, &problem, like);
+  if (!*like)
+    steif_mpi_problem_free(ctx, &problem, like);
+  else
+    problem->like = *like;
   return problem;
 }
