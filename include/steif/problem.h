@@ -214,7 +214,12 @@ struct steif_problem {
    * so long before and after a change: before a step g is evaluated so often ahead, at the present y, and the step
    * ends at the first of these times that shows a change. Not of prescribed steps. 0: not known. */
   sunrealtype event_spacing;
-  void *reserved[9]; /* 0; members to come take their place, and later ones stand after them */
+  /* Called after a break with the first time after it, where steps of our own methods are adaptive and
+   * options.reinitialise is NULL: y(t+) of y in its place; yp is NULL. For vectors spread over ranks or without a host array,
+   * whose unknowns that jump there are not found otherwise, and stay; with it what does not begin anew at breaks is
+   * STEIF_UNSUPPORTED where index or dae_index is above 1. Over ranks: called by all of them, own rows. NULL: none. */
+  steif_state restart;
+  void *reserved[8]; /* 0; members to come take their place, and later ones stand after them */
 };
 
 /* The form, or 0 with the message set: complete, consistent, finite start values. */

@@ -127,6 +127,8 @@ int stf_start_repaired(stf_repair *repair);
 /* The start of a DAE, for methods of ours with adaptive steps. */
 int stf_look_at_start(steif_solver *s, int form);
 int stf_look_at_orders(steif_solver *s);
+/* STEIF_UNSUPPORTED: steps pass over breaks where problem.restart has to find unknowns of index 2 and more. */
+int stf_look_at_breaks(steif_solver *s);
 
 /* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. `rows`: of absolute tolerances. */
 int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o,

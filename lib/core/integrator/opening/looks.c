@@ -98,6 +98,32 @@ int stf_look_at_start(steif_solver *s, int form)
   return STEIF_OK;
 }
 
+/* Has it unknowns of index 2 and more, on some rank? */
+static bool any_higher(const steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const N_Vector like = s->options.like;
+  sunindextype rows;
+  bool any = p->dae_index > 1;
+  const bool here = p->index && stf_own_rows(s->dense, &rows);
+  for (sunindextype i = 0; here && i < rows; i++) any |= p->index[i] > 1;
+  if (like && stf_spread(like)) stf_agree_any(like, 1, &any);
+  return any;
+}
+
+int stf_look_at_breaks(steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const steif_options *o = &s->options;
+  const bool anew = !s->engine && !(o->h > 0) && !o->mesh;
+  if (!p->restart || anew || !p->break_count || !(p->breaks[0] < s->t1)) return STEIF_OK;
+  STEIF_CHECK(!any_higher(s), s->ctx, STEIF_UNSUPPORTED,
+              "'%s' has unknowns of index 2 that may jump at its break t = %g, where '%s' does "
+              "not begin anew%s: take radau or bdf with steps that they choose",
+              p->name, p->breaks[0], s->spec, s->engine ? "" : " with given steps");
+  return STEIF_OK;
+}
+
 /* Unknowns of index 2 that are spread over ranks are shown as the method has them, and nothing computes them anew: those
  * of stages of low order beside others, and of methods that are not stiffly accurate, have a few digits only (Hairer and
  * Wanner, Solving ODEs II, VII.4), which the estimates of their errors do not see. */

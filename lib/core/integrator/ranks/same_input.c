@@ -78,6 +78,7 @@ static const member of_problem[] = {
   THERE(quadrature),
   THERE(precsolve_pair),
   THERE(event_slope),
+  THERE(restart),
   THERE(Etv),
   THERE(Atv),
   THERE(precsolve_transposed),
