@@ -214,11 +214,13 @@ struct steif_problem {
    * so long before and after a change: before a step g is evaluated so often ahead, at the present y, and the step
    * ends at the first of these times that shows a change. Not of prescribed steps. 0: not known. */
   sunrealtype event_spacing;
-  /* Called after a break with the first time after it, where steps of our own methods are adaptive and
-   * options.reinitialise is NULL: y(t+) of y in its place; yp is NULL. For vectors spread over ranks or without a host array,
-   * whose unknowns that jump there are not found otherwise, and stay; with it what does not begin anew at breaks is
-   * STEIF_UNSUPPORTED where index or dae_index is above 1. Over ranks: called by all of them, own rows. NULL: none. */
-  steif_state restart;
+  /* Of vectors spread over ranks, whose unknowns without a derivative of their own are found nowhere else: y in place
+   * becomes the state at t that keeps what the equations keep of it; yp is NULL. Called by all ranks, own rows. With it
+   * steps that our own methods choose begin anew after each break of the problem, at the first time after it
+   * (options.reinitialise does so elsewhere), and where index or dae_index is above 1, what else steps over breaks is
+   * STEIF_UNSUPPORTED, and unknowns that bdf and radau:s=2 have to few digits are settled where steif_solve_to,
+   * steif_solve_step and options.observe show them; not by steif_dense. NULL: y stays as steps leave it. */
+  steif_state settle;
   void *reserved[8]; /* 0; members to come take their place, and later ones stand after them */
 };
 

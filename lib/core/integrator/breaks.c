@@ -21,26 +21,13 @@ static bool at_break(const steif_solver *s)
   return s->next_break < p->break_count && s->step.t == p->breaks[s->next_break];
 }
 
-/* y at t by the problem itself. */
-static int of_problem(const steif_solver *s, sunrealtype t, N_Vector y)
-{
-  const steif_problem *p = s->problem;
-  const long failures = stf_failures(s->ctx);
-  const int returned = p->restart(t, y, NULL, p->user);
-  if (returned && stf_failures(s->ctx) > failures) return steif_status(s->ctx); /* told */
-  STEIF_CHECK(returned == 0, s->ctx, STEIF_CALLBACK,
-              "restart of problem '%s' returned %d after the break at t = %.12g", p->name,
-              returned, t);
-  return STEIF_OK;
-}
-
-/* The same, shown where an unknown moves by more tolerances than errors do. */
-static int restart_of_problem(steif_solver *s)
+/* Over ranks, by the problem itself; shown where an unknown moves by more tolerances than errors do. */
+static int settle(steif_solver *s)
 {
   const sunrealtype most = 10;
   stf_step *step = &s->step;
   N_VScale(1, step->y, s->dense);
-  STEIF_TRY(of_problem(s, step->t, step->y));
+  STEIF_TRY(stf_settle(s, step->t, step->y));
   STEIF_TRY(stf_weigh(s));
   N_VLinearSum(1, step->y, -1, s->dense, s->dense);
   N_VProd(s->dense, step->weights, s->dense);
@@ -53,7 +40,7 @@ static int reinitialise(steif_solver *s)
 {
   stf_step *step = &s->step;
   const int jumps = s->repair.report.jumps;
-  if (!s->options.reinitialise && s->problem->restart) return restart_of_problem(s);
+  if (stf_settled_by(s)) return settle(s);
   if (!s->options.reinitialise) {
     STEIF_TRY(stf_mode_place(s, step->t, step->y));
     if (s->repair.report.jumps > jumps) stf_observe(s, s->end, step->y);
@@ -73,8 +60,8 @@ int stf_break_shown(steif_solver *s)
     return STEIF_OK;
   const sunrealtype after = nextafter(step->t, INFINITY);
   N_VScale(1, step->y, s->dense);
-  STEIF_TRY(s->problem->restart ? of_problem(s, after, s->dense)
-                                : stf_mode_show(s, after, s->dense));
+  STEIF_TRY(stf_settled_by(s) ? stf_settle(s, after, s->dense)
+                              : stf_mode_show(s, after, s->dense));
   s->shown = s->dense;
   return STEIF_OK;
 }

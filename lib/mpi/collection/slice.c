@@ -21,7 +21,8 @@ typedef struct slice {
   steif_context *ctx;
   N_Vector wide, at; /* of all unknowns in the numbers of the whole; at: where callbacks read or write the state */
   int most;          /* index */
-  slice_break after;
+  bool settles;
+  slice_kept kept; /* of rank 0 */
   sunindextype n, first, rows;
   sunindextype *own; /* numbers of own rows in the whole */
   band E, A;
@@ -85,13 +86,13 @@ static void take_own(const slice *s, N_Vector y)
   for (sunindextype k = 0; k < s->rows; k++) here[k] = all[s->own[k]];
 }
 
-static int restart(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+static int settle(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   slice *s = user;
   (void)yp;
   gather(s, y);
-  const int code = slice_break_pass(s->ctx, &s->whole, s->most, t, y, &s->after,
-                                    N_VGetArrayPointer(s->at));
+  const int code = slice_settle(s->ctx, &s->whole, s->most, t, y, &s->kept,
+                                N_VGetArrayPointer(s->at));
   if (!code) take_own(s, y);
   return code;
 }
@@ -247,7 +248,7 @@ static void describe(slice *s, int index)
                                       .linear = 1,
                                       .breaks = p->breaks,
                                       .break_count = p->break_count,
-                                      .restart = p->break_count ? restart : NULL,
+                                      .settle = s->settles ? settle : NULL,
                                       .exact = p->exact ? exact : NULL,
                                       .rtol_scale = p->rtol_scale,
                                       .user = s};
@@ -259,7 +260,7 @@ static void release(steif_context *ctx, parallel_problem *public)
   void *const all[] = {s->own,      s->start,   s->slope, s->index,    s->E.at,
                        s->E.column, s->E.value, s->A.at,  s->A.column, s->A.value};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) steif_release(ctx, all[i]);
-  slice_break_clear(ctx, &s->after);
+  slice_settle_close(ctx, &s->kept);
   if (s->wide) N_VDestroy(s->wide);
   if (s->at) N_VDestroy(s->at);
   steif_problem_clear(ctx, &s->whole);
@@ -282,7 +283,7 @@ static int check(steif_context *ctx, const char *text, const steif_problem *p)
     text);
 }
 
-static int check_index(steif_context *ctx, const char *text, int index)
+static int check_index(steif_context *ctx, const char *text, const slice *s, int index)
 {
   if (index > 2)
     return steif_fail(
@@ -290,6 +291,12 @@ static int check_index(steif_context *ctx, const char *text, int index)
       "'%s' has index %d: over ranks linear systems are solved by iteration, which is not "
       "accurate enough for more than 2; solve it in one process",
       text, index);
+  if (index == 2 && s->whole.break_count > 0 && !s->settles)
+    return steif_fail(
+      ctx, STEIF_UNSUPPORTED,
+      "'%s' has index 2 and f a break at t = %g, where unknowns may jump, and its structure is "
+      "not certified, by which they would be found over ranks; solve it in one process",
+      text, s->whole.breaks[0]);
   return STEIF_OK;
 }
 
@@ -309,7 +316,9 @@ static int start_and_rows(steif_context *ctx, const char *text, N_Vector one, sl
                           slice_start *all)
 {
   int code = slice_start_find(ctx, &s->whole, one, all);
-  if (!code) code = check_index(ctx, text, all->most);
+  if (!code)
+    code = slice_settle_open(ctx, &s->whole, all->most, one, &s->kept, &s->settles);
+  if (!code) code = check_index(ctx, text, s, all->most);
   if (!code) code = cut(ctx, s, all);
   memcpy(s->public.message, all->message, sizeof s->public.message);
   s->ctx = ctx, s->most = all->most;

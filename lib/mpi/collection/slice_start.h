@@ -1,4 +1,4 @@
-/* slice_start.h: the start of a whole system, and x(t+) after its breaks, the same on all ranks.
+/* slice_start.h: the start of a whole system, and its states later, the same on all ranks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef STEIF_MPI_SLICE_START_H
 #define STEIF_MPI_SLICE_START_H
@@ -19,17 +19,20 @@ int slice_start_find(steif_context *ctx, const steif_problem *whole, N_Vector on
                      slice_start *s);
 void slice_start_clear(steif_context *ctx, slice_start *s);
 
-/* slice_break.c: what rank 0 keeps for the breaks of a system of index 2. */
-typedef struct slice_break {
+/* slice_settle.c: what rank 0 keeps of a system of index 2. */
+typedef struct slice_kept {
   steif_linear linear;
   steif_structure structure;
   bool found;
-} slice_break;
+} slice_kept;
 
-/* x (n, the same on all ranks): x(t-), which becomes x(t+). `one` as above. */
-int slice_break_pass(steif_context *ctx, const steif_problem *whole, int index, sunrealtype t,
-                     N_Vector one, slice_break *b, sunrealtype *x);
-void slice_break_clear(steif_context *ctx, slice_break *b);
+/* *settles: states of a system of this index can be settled: the structure of index 2 is certified. `one` as above. */
+int slice_settle_open(steif_context *ctx, const steif_problem *whole, int index, N_Vector one,
+                      slice_kept *k, bool *settles);
+/* x (n, on rank 0), as it came at t, becomes the state from there on: x(t+) of x(t-). On all ranks. */
+int slice_settle(steif_context *ctx, const steif_problem *whole, int index, sunrealtype t,
+                 N_Vector one, slice_kept *k, sunrealtype *x);
+void slice_settle_close(steif_context *ctx, slice_kept *k);
 
 /* slice_start.c: more than what a count of MPI may be goes in parts. */
 void slice_spread(void *data, size_t bytes, MPI_Comm comm);
