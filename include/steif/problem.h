@@ -216,11 +216,11 @@ struct steif_problem {
   sunrealtype event_spacing;
   /* Of vectors spread over ranks, whose unknowns without a derivative of their own are found nowhere else: y in place
    * becomes the state at t that keeps what the equations keep of it; yp is NULL. Called by all ranks, own rows. With it
-   * steps that our own methods choose begin anew after each break of the problem, at the first time after it
-   * (options.reinitialise does so elsewhere), and where index or dae_index is above 1, what else steps over breaks is
-   * STEIF_UNSUPPORTED, and unknowns that bdf and radau:s=2 have to few digits are settled where steif_solve_to,
-   * steif_solve_step and options.observe show them; not by steif_dense. NULL: y stays as steps leave it. */
-  steif_state settle;
+   * adaptive steps of our own methods restart after each break of the problem, at the first time after it
+   * (options.reinitialise does so elsewhere). Where index or dae_index is above 1, what else steps over breaks is
+   * STEIF_UNSUPPORTED, errors are measured as in one process, and y is projected where steif_solve_to, steif_solve_step
+   * and options.observe show it; by steif_dense not. NULL: y stays as steps leave it. */
+  steif_state project;
   void *reserved[8]; /* 0; members to come take their place, and later ones stand after them */
 };
 

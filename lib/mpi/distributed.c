@@ -109,9 +109,9 @@ static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   ON(start, t, y, yp, p->user);
 }
-static int settle(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+static int project(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
-  ON(settle, t, y, yp, p->user);
+  ON(project, t, y, yp, p->user);
 }
 static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
@@ -269,7 +269,7 @@ static void pass_on(steif_mpi *m)
   steif_problem *q = &m->problem;
 #define PASS(member) q->member = p->member ? member : NULL
   PASS(f), PASS(kick), PASS(drift), PASS(F), PASS(g), PASS(Ev), PASS(Av), PASS(Lv);
-  PASS(start), PASS(settle), PASS(exact), PASS(invariant), PASS(event), PASS(handle_event), PASS(event_slope),
+  PASS(start), PASS(project), PASS(exact), PASS(invariant), PASS(event), PASS(handle_event), PASS(event_slope),
     PASS(begin);
   PASS(save), PASS(restore);
 #undef PASS

@@ -21,26 +21,12 @@ static bool at_break(const steif_solver *s)
   return s->next_break < p->break_count && s->step.t == p->breaks[s->next_break];
 }
 
-/* Over ranks, by the problem itself; shown where an unknown moves by more tolerances than errors do. */
-static int settle(steif_solver *s)
-{
-  const sunrealtype most = 10;
-  stf_step *step = &s->step;
-  N_VScale(1, step->y, s->dense);
-  STEIF_TRY(stf_settle(s, step->t, step->y));
-  STEIF_TRY(stf_weigh(s));
-  N_VLinearSum(1, step->y, -1, s->dense, s->dense);
-  N_VProd(s->dense, step->weights, s->dense);
-  if (N_VMaxNorm(s->dense) > most) stf_observe(s, s->end, step->y);
-  return STEIF_OK;
-}
-
 /* The state after a break, as after an event; shown where it has jumped. */
 static int reinitialise(steif_solver *s)
 {
   stf_step *step = &s->step;
   const int jumps = s->repair.report.jumps;
-  if (stf_settled_by(s)) return settle(s);
+  if (stf_settled_by(s)) return stf_settle_break(s);
   if (!s->options.reinitialise) {
     STEIF_TRY(stf_mode_place(s, step->t, step->y));
     if (s->repair.report.jumps > jumps) stf_observe(s, s->end, step->y);

@@ -194,11 +194,13 @@ int stf_recompute_shown(steif_solver *s);
  * steps would divide by h, and unknowns of index 2 and 3 without a derivative belong to the mode before. *known: they
  * are found, all others stay within some tolerances and no index is another one; else y is left alone. */
 int stf_recompute_mode(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool *known);
-/* output/settled.c: does problem.settle put y in its place at breaks; y at t; and what is shown at t_shown, where
- * s->settles. */
+/* output/settled.c: does problem.project put y in its place; y at t; that of the step behind a break; where s->settles,
+ * what is shown at t_shown; and to the observer, at the end of a step. */
 bool stf_settled_by(const steif_solver *s);
 int stf_settle(const steif_solver *s, sunrealtype t, N_Vector y);
+int stf_settle_break(steif_solver *s);
 int stf_settle_shown(steif_solver *s);
+int stf_settle_observed(steif_solver *s);
 /* events/modes.c: y at t, where a mode of a DAE begins, behind an event or a break: put where its equations hold, and
  * y' too where it is *known; the index of the mode is that of s->problem from then on. */
 int stf_mode_place(steif_solver *s, sunrealtype t, N_Vector y);

@@ -118,24 +118,13 @@ bool stf_observed(const steif_solver *s)
   return s->agreed || s->events || o->observe || o->stop || o->max_seconds > 0;
 }
 
-/* To an observer, as it is shown elsewhere. */
-static int observe(steif_solver *s)
-{
-  if (s->options.observe && s->settles) {
-    s->shown = stf_last(s), s->t_shown = s->end;
-    STEIF_TRY(stf_settle_shown(s));
-  }
-  stf_observe(s, s->end, s->options.observe && s->settles ? s->dense : stf_last(s));
-  return STEIF_OK;
-}
-
 /* A step and all that may hang on it. */
 static int step_once(steif_solver *s, sunrealtype begun)
 {
   if (!s->observed) return integrated(s);
   STEIF_TRY(within_limits(s, begun));
   STEIF_TRY(integrated(s));
-  if (!(s->finished && s->events->silent)) STEIF_TRY(observe(s));
+  if (!(s->finished && s->events->silent)) STEIF_TRY(stf_settle_observed(s));
   const bool asked = s->observer_stopped, explained = s->observer_failed;
   s->observer_stopped = s->observer_failed = false;
   if (asked && !explained)

@@ -86,7 +86,7 @@ static void take_own(const slice *s, N_Vector y)
   for (sunindextype k = 0; k < s->rows; k++) here[k] = all[s->own[k]];
 }
 
-static int settle(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+static int project(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   slice *s = user;
   (void)yp;
@@ -248,7 +248,7 @@ static void describe(slice *s, int index)
                                       .linear = 1,
                                       .breaks = p->breaks,
                                       .break_count = p->break_count,
-                                      .settle = s->settles ? settle : NULL,
+                                      .project = s->settles ? project : NULL,
                                       .exact = p->exact ? exact : NULL,
                                       .rtol_scale = p->rtol_scale,
                                       .user = s};

@@ -119,8 +119,8 @@ int stf_look_at_breaks(steif_solver *s)
   if (!stf_settled_by(s) || anew || !p->break_count || !(p->breaks[0] < s->t1)) return STEIF_OK;
   STEIF_CHECK(!any_higher(s), s->ctx, STEIF_UNSUPPORTED,
               "'%s' has unknowns of index 2 that may jump at its break t = %g, where '%s' does "
-              "not begin anew%s: take radau or bdf with steps that they choose",
-              p->name, p->breaks[0], s->spec, s->engine ? "" : " with given steps");
+              "not restart%s: take radau or bdf with adaptive steps",
+              p->name, p->breaks[0], s->spec, s->engine ? "" : " with prescribed steps");
   return STEIF_OK;
 }
 

@@ -110,9 +110,9 @@ static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
   AGREED(start, t, y, yp, p->user);
 }
 
-static int settle(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+static int project(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
-  AGREED(settle, t, y, yp, p->user);
+  AGREED(project, t, y, yp, p->user);
 }
 
 static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
@@ -229,7 +229,7 @@ const char *stf_agreed_name(long id)
                NAMED(A),          NAMED(L),         NAMED(Ev),           NAMED(Av),
                NAMED(Lv),         NAMED(precsetup), NAMED(precsolve),    NAMED(precsolve_pair),
                NAMED(start),      NAMED(exact),     NAMED(handle_event), NAMED(begin),
-               NAMED(event_slope), NAMED(settle)};
+               NAMED(event_slope), NAMED(project)};
   for (size_t i = 0; i < STF_COUNT(names); i++)
     if ((long)names[i].offset == id) return names[i].name;
   return "a callback";
@@ -257,7 +257,7 @@ void stf_agreed_wrap(stf_agreed *a, steif_options *o)
   WRAP(f), WRAP(kick), WRAP(drift), WRAP(F), WRAP(g), WRAP(jac), WRAP(idajac);
   WRAP(E), WRAP(A), WRAP(L), WRAP(Ev), WRAP(Av), WRAP(Lv), WRAP(precsetup), WRAP(precsolve);
   WRAP(precsolve_pair), WRAP(start), WRAP(exact), WRAP(handle_event), WRAP(event_slope),
-    WRAP(settle), WRAP(begin), WRAP(event), WRAP(invariant);
+    WRAP(project), WRAP(begin), WRAP(event), WRAP(invariant);
   to->Etv = to->Atv = NULL,
   to->precsolve_transposed = NULL; /* of gradients, which serve no ranks */
   wrap_integrals(a);

@@ -146,10 +146,10 @@ static int event_slope(sunrealtype t, N_Vector y, N_Vector yp, void *user)
   return l->from.event_slope(t, y, yp, l->from.user);
 }
 
-static int settle(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+static int project(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   const steif_problem *p = &((const lowered *)user)->from;
-  return p->settle(t, y, yp, p->user);
+  return p->project(t, y, yp, p->user);
 }
 
 static int begin(sunrealtype t, void *user)
@@ -189,7 +189,7 @@ static steif_problem states(const lowered *l)
   q.precsolve = p->precsolve ? precsolve : NULL;
   q.precsolve_pair = p->precsolve_pair ? precsolve_pair : NULL;
   q.start = p->start ? start : NULL;
-  q.settle = p->settle ? settle : NULL;
+  q.project = p->project ? project : NULL;
   q.exact = p->exact ? exact : NULL;
   q.invariant = p->invariant ? invariant : NULL;
   q.event = p->event ? event : NULL;
