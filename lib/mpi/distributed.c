@@ -269,8 +269,8 @@ static void pass_on(steif_mpi *m)
   steif_problem *q = &m->problem;
 #define PASS(member) q->member = p->member ? member : NULL
   PASS(f), PASS(kick), PASS(drift), PASS(F), PASS(g), PASS(Ev), PASS(Av), PASS(Lv);
-  PASS(start), PASS(project), PASS(exact), PASS(invariant), PASS(event), PASS(handle_event), PASS(event_slope),
-    PASS(begin);
+  PASS(start), PASS(project), PASS(exact), PASS(invariant), PASS(event), PASS(handle_event),
+    PASS(event_slope), PASS(begin);
   PASS(save), PASS(restore);
 #undef PASS
   q->user = m, q->storage = STEIF_KRYLOV, q->pattern = NULL;

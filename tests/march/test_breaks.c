@@ -239,8 +239,15 @@ static void sums_jump_at_breaks(void)
 {
   static const char *const solvers[] = {"auto", "radau:s=3", "radau:s=5", "bdf", "descriptor"};
   static const double at[] = {0.5}, half[] = {0.5, 0.5};
-  const steif_problem p = {.name = "sums", .n = 2, .t1 = 2, .y0 = half, .E = sums_E,
-                           .A = sums_A, .g = sums_g, .breaks = at, .break_count = 1};
+  const steif_problem p = {.name = "sums",
+                           .n = 2,
+                           .t1 = 2,
+                           .y0 = half,
+                           .E = sums_E,
+                           .A = sums_A,
+                           .g = sums_g,
+                           .breaks = at,
+                           .break_count = 1};
   for (int m = 0; m < 5; m++) {
     steif_context *ctx = steif_context_new(NULL);
     steif_options o = steif_defaults();

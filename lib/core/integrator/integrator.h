@@ -64,7 +64,8 @@ struct steif_solver {
   bool watched;         /* every step is shown to someone */
   long stretch;         /* steps that an engine makes between two looks at the limits */
   bool finished;        /* by an event */
-  bool settles; /* unknowns of index 2 over ranks, which have fewer digits in steps, where they are shown */
+  bool
+    settles; /* unknowns of index 2 over ranks, which have fewer digits in steps, where they are shown */
   bool observer_stopped,
     observer_failed;          /* the observer wishes to stop, and has failed itself */
   stf_step step;              /* a method of ours ... */

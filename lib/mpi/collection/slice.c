@@ -19,8 +19,9 @@ typedef struct slice {
   parallel_problem public;
   steif_problem whole;
   steif_context *ctx;
-  N_Vector wide, at; /* of all unknowns in the numbers of the whole; at: where callbacks read or write the state */
-  int most;          /* index */
+  N_Vector wide,
+    at; /* of all unknowns in the numbers of the whole; at: where callbacks read or write the state */
+  int most; /* index */
   bool settles;
   slice_kept kept; /* of rank 0 */
   sunindextype n, first, rows;
@@ -91,8 +92,8 @@ static int project(sunrealtype t, N_Vector y, N_Vector yp, void *user)
   slice *s = user;
   (void)yp;
   gather(s, y);
-  const int code = slice_settle(s->ctx, &s->whole, s->most, t, y, &s->kept,
-                                N_VGetArrayPointer(s->at));
+  const int code =
+    slice_settle(s->ctx, &s->whole, s->most, t, y, &s->kept, N_VGetArrayPointer(s->at));
   if (!code) take_own(s, y);
   return code;
 }
@@ -316,8 +317,7 @@ static int start_and_rows(steif_context *ctx, const char *text, N_Vector one, sl
                           slice_start *all)
 {
   int code = slice_start_find(ctx, &s->whole, one, all);
-  if (!code)
-    code = slice_settle_open(ctx, &s->whole, all->most, one, &s->kept, &s->settles);
+  if (!code) code = slice_settle_open(ctx, &s->whole, all->most, one, &s->kept, &s->settles);
   if (!code) code = check_index(ctx, text, s, all->most);
   if (!code) code = cut(ctx, s, all);
   memcpy(s->public.message, all->message, sizeof s->public.message);

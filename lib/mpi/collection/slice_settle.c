@@ -40,8 +40,7 @@ static int jump(steif_context *ctx, const steif_problem *whole, sunrealtype t, s
 {
   steif_impulse i = {0};
   const steif_linear *l = &k->linear;
-  int code =
-    steif_impulse_find(ctx, l->E, l->F, x, t, l->f, l->user, NULL, &k->structure, &i);
+  int code = steif_impulse_find(ctx, l->E, l->F, x, t, l->f, l->user, NULL, &k->structure, &i);
   if (!code && !i.certified)
     code = steif_fail(ctx, STEIF_NOT_CERTIFIED,
                       "unknowns of index 2 of '%s' are not certified at t = %.12g (%.300s): "
@@ -74,8 +73,7 @@ int slice_settle(steif_context *ctx, const steif_problem *whole, int index, sunr
   int rank, code = STEIF_OK;
   MPI_Comm comm = NV_COMM_P(one);
   MPI_Comm_rank(comm, &rank);
-  if (rank == 0)
-    code = index > 1 ? jump(ctx, whole, t, k, x) : begin_anew(ctx, whole, t, x);
+  if (rank == 0) code = index > 1 ? jump(ctx, whole, t, k, x) : begin_anew(ctx, whole, t, x);
   code = steif_agree(ctx, one, code);
   if (!code) slice_spread(x, (size_t)whole->n * sizeof *x, comm);
   return code;

@@ -50,7 +50,8 @@ int slice_start_find(steif_context *ctx, const steif_problem *whole, N_Vector on
   if (code) return code;
   code = steif_agree(ctx, one, rank == 0 ? slice_start_alone(ctx, whole, s) : STEIF_OK);
   if (code) return code;
-  slice_spread(s->y, n * sizeof *s->y, comm), slice_spread(s->index, n * sizeof *s->index, comm);
+  slice_spread(s->y, n * sizeof *s->y, comm),
+    slice_spread(s->index, n * sizeof *s->index, comm);
   MPI_Bcast(&s->most, 1, MPI_INT, 0, comm);
   MPI_Bcast(s->message, sizeof s->message, MPI_CHAR, 0, comm);
   return STEIF_OK;

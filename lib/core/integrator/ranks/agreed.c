@@ -224,11 +224,11 @@ const char *stf_agreed_name(long id)
   static const struct {
     size_t offset;
     const char *name;
-  } names[] = {NAMED(f),          NAMED(kick),      NAMED(drift),        NAMED(F),
-               NAMED(g),          NAMED(jac),       NAMED(idajac),       NAMED(E),
-               NAMED(A),          NAMED(L),         NAMED(Ev),           NAMED(Av),
-               NAMED(Lv),         NAMED(precsetup), NAMED(precsolve),    NAMED(precsolve_pair),
-               NAMED(start),      NAMED(exact),     NAMED(handle_event), NAMED(begin),
+  } names[] = {NAMED(f),           NAMED(kick),      NAMED(drift),        NAMED(F),
+               NAMED(g),           NAMED(jac),       NAMED(idajac),       NAMED(E),
+               NAMED(A),           NAMED(L),         NAMED(Ev),           NAMED(Av),
+               NAMED(Lv),          NAMED(precsetup), NAMED(precsolve),    NAMED(precsolve_pair),
+               NAMED(start),       NAMED(exact),     NAMED(handle_event), NAMED(begin),
                NAMED(event_slope), NAMED(project)};
   for (size_t i = 0; i < STF_COUNT(names); i++)
     if ((long)names[i].offset == id) return names[i].name;
