@@ -218,7 +218,14 @@ struct steif_problem {
   /* Over ranks (steif/mpi.h): vectors like those that the callbacks take, options.like where that is NULL; another one
    * that is not spread over ranks is STEIF_BAD_INPUT. NULL: any vectors. */
   N_Vector like;
-  void *reserved[8]; /* 0; members to come take their place, and later ones stand after them */
+  /* Of vectors spread over ranks, whose unknowns without a derivative of their own are found nowhere else: y in place
+   * becomes the state at t that keeps what the equations keep of it; yp is NULL. Called by all ranks, own rows. With it
+   * adaptive steps of our own methods restart after each break of the problem, at the first time after it
+   * (options.reinitialise does so elsewhere). Where index or dae_index is above 1, what else steps over breaks is
+   * STEIF_UNSUPPORTED, errors are measured as in one process, and y is projected where steif_solve_to, steif_solve_step
+   * and options.observe show it; by steif_dense not. NULL: y stays as steps leave it. */
+  steif_state project;
+  void *reserved[7]; /* 0; members to come take their place, and later ones stand after them */
 };
 
 /* The form, or 0 with the message set: complete, consistent, finite start values. */

@@ -109,6 +109,10 @@ static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   ON(start, t, y, yp, p->user);
 }
+static int project(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  ON(project, t, y, yp, p->user);
+}
 static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   ON(exact, t, y, yp, p->user);
@@ -265,8 +269,8 @@ static void pass_on(steif_mpi *m)
   steif_problem *q = &m->problem;
 #define PASS(member) q->member = p->member ? member : NULL
   PASS(f), PASS(kick), PASS(drift), PASS(F), PASS(g), PASS(Ev), PASS(Av), PASS(Lv);
-  PASS(start), PASS(exact), PASS(invariant), PASS(event), PASS(handle_event), PASS(event_slope),
-    PASS(begin);
+  PASS(start), PASS(project), PASS(exact), PASS(invariant), PASS(event), PASS(handle_event),
+    PASS(event_slope), PASS(begin);
   PASS(save), PASS(restore);
 #undef PASS
   q->user = m, q->storage = STEIF_KRYLOV, q->pattern = NULL;

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "models/models.h"
 #include "suite.h"
+#include <steif/data.h>
+#include <steif/solver.h>
 #include <string.h>
 
 /* A start from guesses; y, yp NULL: those of the problem. */
@@ -313,6 +315,29 @@ static void moves_are_listed_by_size(void)
   steif_context_free(&c);
 }
 
+/* What solves leave by rounding is no reason against a start: the same values for all tolerances. */
+static void rounding_is_no_obstacle(void)
+{
+  static const double rtol[] = {1e-5, 1e-8, 1e-9, 1e-11, 1e-13};
+  steif_context *c = steif_context_new(NULL);
+  steif_problem p;
+  CU_ASSERT_FATAL(!steif_problem_find(c, "bus:case=inc", &p));
+  double first[300];
+  CU_ASSERT_FATAL(p.n == 300);
+  for (int k = 0; k < 5; k++) {
+    steif_options o = steif_defaults();
+    o.rtol = rtol[k];
+    steif_solver *s = steif_solver_new(c, &p, "bdf", &o);
+    const steif_repair *r = s ? steif_initial_used(s) : NULL;
+    CU_ASSERT_FATAL(r && r->y && r->moved == 200);
+    if (!k) memcpy(first, r->y, sizeof first);
+    for (int i = 0; i < 300; i++) CLOSE(r->y[i], first[i], 1e-11);
+    steif_solver_free(&s);
+  }
+  steif_problem_clear(c, &p);
+  steif_context_free(&c);
+}
+
 CU_TestInfo tests_of_starts[] = {
   {"published starts", published_starts},
   {"closed starts", closed_starts},
@@ -326,4 +351,5 @@ CU_TestInfo tests_of_starts[] = {
   {"redundant fixed values are accepted", redundant_fixed_values_are_accepted},
   {"hopeless starts say so", hopeless_starts_say_so},
   {"moves are listed by size", moves_are_listed_by_size},
+  {"rounding is no obstacle", rounding_is_no_obstacle},
   CU_TEST_INFO_NULL};

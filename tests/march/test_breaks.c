@@ -1,6 +1,7 @@
 /* Declared breaks: steps end before them and begin behind them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "smooth.h"
+#include <sunmatrix/sunmatrix_dense.h>
 
 /* y' = -3.1 (y - s), s = 1, -2, 0.5 before, between and after two breaks. A call inside an
  * attempt that began on the other side of a break is counted; `late`: f has its old value at
@@ -209,6 +210,61 @@ static void a_break_may_be_the_end(void)
   }
 }
 
+/* x' + y' = -x, 0 = x - y - c, c = 0 and 1 after t = 0.5: neither row nor column tells that s = x + y alone is continuous.
+ * s' = -(s + c)/2 from 1; x = (s + c)/2 and y = (s - c)/2 jump by -+ 1/2. */
+static int sums_E(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix E, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  SM_ELEMENT_D(E, 0, 0) = SM_ELEMENT_D(E, 0, 1) = 1;
+  return 0;
+}
+
+static int sums_A(sunrealtype t, N_Vector y, N_Vector yp, SUNMatrix A, void *user)
+{
+  (void)t, (void)y, (void)yp, (void)user;
+  SM_ELEMENT_D(A, 0, 0) = -1;
+  SM_ELEMENT_D(A, 1, 0) = 1, SM_ELEMENT_D(A, 1, 1) = -1;
+  return 0;
+}
+
+static int sums_g(sunrealtype t, int derivative, N_Vector g, void *user)
+{
+  (void)user;
+  NV_Ith_S(g, 0) = 0;
+  NV_Ith_S(g, 1) = !derivative && t >= 0.5 ? -1 : 0;
+  return 0;
+}
+
+static void sums_jump_at_breaks(void)
+{
+  static const char *const solvers[] = {"auto", "radau:s=3", "radau:s=5", "bdf", "descriptor"};
+  static const double at[] = {0.5}, half[] = {0.5, 0.5};
+  const steif_problem p = {.name = "sums",
+                           .n = 2,
+                           .t1 = 2,
+                           .y0 = half,
+                           .E = sums_E,
+                           .A = sums_A,
+                           .g = sums_g,
+                           .breaks = at,
+                           .break_count = 1};
+  for (int m = 0; m < 5; m++) {
+    steif_context *ctx = steif_context_new(NULL);
+    steif_options o = steif_defaults();
+    o.rtol = 1e-7;
+    steif_solver *s = steif_solver_new(ctx, &p, solvers[m], &o);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(s);
+    const int code = steif_solve_to(s, 2);
+    if (code) printf("\n  %s: %s", solvers[m], steif_message(ctx));
+    CHECK(!code);
+    const double sum = (exp(-0.25) + 1) * exp(-0.75) - 1;
+    CLOSE(NV_Ith_S(steif_solution(s), 0), (sum + 1) / 2, 1e-6);
+    CLOSE(NV_Ith_S(steif_solution(s), 1), (sum - 1) / 2, 1e-6);
+    steif_solver_free(&s);
+    steif_context_free(&ctx);
+  }
+}
+
 CU_TestInfo tests_of_breaks[] = {
   {"breaks are hit exactly", breaks_are_hit_exactly},
   {"steps see one side of a break only", steps_see_one_side_only},
@@ -216,4 +272,5 @@ CU_TestInfo tests_of_breaks[] = {
   {"dense output beside a break", dense_output_beside_a_break},
   {"a break may be the end", a_break_may_be_the_end},
   {"odd breaks do no harm", odd_breaks_do_no_harm},
+  {"sums jump at breaks", sums_jump_at_breaks},
   CU_TEST_INFO_NULL};

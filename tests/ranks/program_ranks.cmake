@@ -23,6 +23,7 @@ file(WRITE ${model} "form descriptor\nstate x = 1\nstate y = 0.5\nstate u ~ 1\nx
 run(1 "'y', on rank [0-9].* of problem .* becomes -.* declared to be >= 0.*STEIF_INFEASIBLE" solve ${model} bdf)
 run(1 "'y', on rank [0-9].* of problem .* becomes -.* declared to be >= 0" solve ${model} radau:s=3 --linear mumps)
 run(0 "steps +[1-9]" solve ${model} bdf --t1 0.4)
+run(0 "steps +[1-9].*start: moved y239 by 0.769" solve bus:case=inc bdf --linear mumps)
 run(0 "setups +0\n.*error +[0-9.]+e-0[6-9]" solve heat2d:n=8 bdf --linear krylov --t1 0.1)
 run(2 "krylov serves y' = f" solve ladder:n=20,case=cons bdf --linear krylov)
 run(2 "STEIF_UNKNOWN_NAME" solve heat2d:n=8 bdf --linear pardiso)

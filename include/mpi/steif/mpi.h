@@ -106,9 +106,11 @@ STEIF_EXPORT int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vect
  * lines or planes to a rank, unknowns of a point together. Any other is a linear system E x' + F x = f with constant
  * E and F ("ladder:n=1000,case=cons"; E.steif models too), for "mumps": every rank builds all of it, keeps its own
  * rows, numbered by levels of the graph of F so that ranks have few neighbours, and evaluates all of f.
- * As in one process, an inconsistent start is moved to x(0+), and the index of the unknowns found, by rank 0 for all.
+ * As in one process, an inconsistent start is moved to x(0+), and the index of the unknowns found, by rank 0 for all; so
+ * are x(t+) after breaks of f and, of index 2, what is shown (problem.project), for which rank 0 keeps factors of the
+ * pencil. STEIF_NOT_CERTIFIED of a run: these are not certain at t.
  * *like is a vector of own rows. NULL with the sentence set; STEIF_UNSUPPORTED: another form, index 3, or breaks of f
- * where the index is 2. The problem must outlive what uses it. */
+ * where the index is 2 and the structure not certified (impulse.h). The problem must outlive what uses it. */
 STEIF_EXPORT steif_problem *steif_mpi_problem_new(steif_context *ctx, const char *spec,
                                                   MPI_Comm comm, N_Vector *like);
 /* What was done about the start of such a problem, "" when nothing was. */

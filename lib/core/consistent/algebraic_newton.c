@@ -10,8 +10,11 @@
 enum { MOST = 50, HALVINGS = 12 };
 /* C x = b is solved for a known x with relative errors above this: C is taken for singular. */
 static const sunrealtype regular_to = 1e-7;
-/* Iterations end where a correction is this part of the tolerances, or of |y| by rounding. */
+/* Iterations end where a correction is this part of the tolerances, or of |y| by rounding; and where corrections have
+ * ceased to fall, as solves with an ill-conditioned C leave rounding of all components in each of them, far below the
+ * tolerances, or below them and of the size of rounding of the largest. */
 static const sunrealtype enough = 1e-9, rounding = 1e-14;
+static const sunrealtype far_below = 1e-3, below = 0.1, of_largest = 1e-12;
 
 /* 1 over the largest entry of column j: whatever the units of unknowns are, all have a part in C x. */
 static sunrealtype known(SUNMatrix C, size_t j)
@@ -117,6 +120,20 @@ static bool at_rounding(const stf_repair *r, const sunrealtype *delta)
   return true;
 }
 
+/* `now` and `before`: sizes of this correction and of the last one. */
+static bool ceased(const stf_repair *r, const sunrealtype *delta, sunrealtype now,
+                   sunrealtype before)
+{
+  sunrealtype largest = 0, moved = 0;
+  if (!(now > before / 2) || !(now <= below)) return false;
+  for (size_t j = 0; j < r->point.n; j++) {
+    if (!r->algebraic[j]) continue;
+    largest = fmax(largest, fabs(r->y[j]));
+    moved = fmax(moved, fabs(delta[j]));
+  }
+  return now <= far_below || moved <= of_largest * largest;
+}
+
 /* Those of the look at the index serve the first correction. */
 static int factors_at(stf_repair *r, int k, stf_view_factor *c)
 {
@@ -129,6 +146,7 @@ static int factors_at(stf_repair *r, int k, stf_view_factor *c)
 static int iterate(stf_repair *r, sunrealtype *first, sunrealtype *delta)
 {
   const size_t n = r->point.n;
+  sunrealtype before = INFINITY;
   for (int k = 0; k < MOST; k++) {
     stf_view_factor c;
     sunrealtype after = 0;
@@ -136,7 +154,9 @@ static int iterate(stf_repair *r, sunrealtype *first, sunrealtype *delta)
     if (!code) code = correction(r, &c, r->y, r->yp, delta);
     const sunrealtype now = code ? 0 : size_of(r, delta);
     if (!code && k == 0) *first = now;
-    const bool done = !code && ((k == 0 && now <= 1) || now <= enough || at_rounding(r, delta));
+    const bool done = !code && ((k == 0 && now <= 1) || now <= enough ||
+                                at_rounding(r, delta) || ceased(r, delta, now, before));
+    before = now;
     if (!code && !done) code = damped(r, &c, delta, now, delta + n, &after);
     stf_view_factor_close(&c);
     if (code || done) return code;

@@ -26,6 +26,7 @@ static int reinitialise(steif_solver *s)
 {
   stf_step *step = &s->step;
   const int jumps = s->repair.report.jumps;
+  if (stf_settled_by(s)) return stf_settle_break(s);
   if (!s->options.reinitialise) {
     STEIF_TRY(stf_mode_place(s, step->t, step->y));
     if (s->repair.report.jumps > jumps) stf_observe(s, s->end, step->y);
@@ -43,8 +44,10 @@ int stf_break_shown(steif_solver *s)
   const stf_step *step = &s->step;
   if (s->engine || !step->restart || !at_break(s) || s->end >= s->t1 || s->options.reinitialise)
     return STEIF_OK;
+  const sunrealtype after = nextafter(step->t, INFINITY);
   N_VScale(1, step->y, s->dense);
-  STEIF_TRY(stf_mode_show(s, nextafter(step->t, INFINITY), s->dense));
+  STEIF_TRY(stf_settled_by(s) ? stf_settle(s, after, s->dense)
+                              : stf_mode_show(s, after, s->dense));
   s->shown = s->dense;
   return STEIF_OK;
 }

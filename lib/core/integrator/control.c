@@ -35,12 +35,13 @@ int stf_weigh(const steif_solver *s)
 }
 
 /* Weights of the norm in a step of length h: a component of index k counts h^(k-1) times less, unless stages over ranks
- * have it as it is shown. */
+ * have it as it will be shown. */
 static int weigh_levels(steif_solver *s, sunrealtype h)
 {
   stf_step *step = &s->step;
   STEIF_TRY(stf_weigh(s));
-  if (!s->problem->index || (step->table && stf_spread(step->weights))) return STEIF_OK;
+  const bool shown = step->table && stf_spread(step->weights) && !s->settles;
+  if (!s->problem->index || shown) return STEIF_OK;
   sunindextype rows;
   sunrealtype *w = stf_own_rows(step->weights, &rows);
   for (sunindextype i = 0; w && i < rows; i++)
@@ -342,5 +343,6 @@ sunrealtype stf_first_step(const steif_solver *s)
   const sunrealtype clock =
     1e3 * STF_EPS * fabs(step->t); /* what t can tell apart, with room */
   const sunrealtype most = fmin(span, fmax(1e-3 * span, clock));
+  if (s->settles) return most; /* of short steps unknowns of index 2 have noise / h */
   return clamp(h, fmin(fmax(1e-14 * span, clock), most), most);
 }

@@ -64,6 +64,8 @@ struct steif_solver {
   bool watched;         /* every step is shown to someone */
   long stretch;         /* steps that an engine makes between two looks at the limits */
   bool finished;        /* by an event */
+  bool
+    settles; /* unknowns of index 2 over ranks, which have fewer digits in steps, where they are shown */
   bool observer_stopped,
     observer_failed;          /* the observer wishes to stop, and has failed itself */
   stf_step step;              /* a method of ours ... */
@@ -128,6 +130,8 @@ int stf_start_repaired(stf_repair *repair);
 /* The start of a DAE, for methods of ours with adaptive steps. */
 int stf_look_at_start(steif_solver *s, int form);
 int stf_look_at_orders(steif_solver *s);
+/* STEIF_UNSUPPORTED: steps pass over breaks where problem.restart has to find unknowns of index 2 and more. */
+int stf_look_at_breaks(steif_solver *s);
 
 /* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. `rows`: of absolute tolerances. */
 int stf_options_complete(steif_context *ctx, const steif_problem *p, steif_options *o,
@@ -191,6 +195,13 @@ int stf_recompute_shown(steif_solver *s);
  * steps would divide by h, and unknowns of index 2 and 3 without a derivative belong to the mode before. *known: they
  * are found, all others stay within some tolerances and no index is another one; else y is left alone. */
 int stf_recompute_mode(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, bool *known);
+/* output/settled.c: does problem.project put y in its place; y at t; that of the step behind a break; where s->settles,
+ * what is shown at t_shown; and to the observer, at the end of a step. */
+bool stf_settled_by(const steif_solver *s);
+int stf_settle(const steif_solver *s, sunrealtype t, N_Vector y);
+int stf_settle_break(steif_solver *s);
+int stf_settle_shown(steif_solver *s);
+int stf_settle_observed(steif_solver *s);
 /* events/modes.c: y at t, where a mode of a DAE begins, behind an event or a break: put where its equations hold, and
  * y' too where it is *known; the index of the mode is that of s->problem from then on. */
 int stf_mode_place(steif_solver *s, sunrealtype t, N_Vector y);

@@ -124,7 +124,7 @@ static int step_once(steif_solver *s, sunrealtype begun)
   if (!s->observed) return integrated(s);
   STEIF_TRY(within_limits(s, begun));
   STEIF_TRY(integrated(s));
-  if (!(s->finished && s->events->silent)) stf_observe(s, s->end, stf_last(s));
+  if (!(s->finished && s->events->silent)) STEIF_TRY(stf_settle_observed(s));
   const bool asked = s->observer_stopped, explained = s->observer_failed;
   s->observer_stopped = s->observer_failed = false;
   if (asked && !explained)
@@ -185,6 +185,7 @@ static int one_step(steif_solver *s)
   s->limits_known = false;
   STEIF_TRY(step_once(s, begin(s)));
   s->shown = stf_last(s), s->t_shown = s->end;
+  STEIF_TRY(stf_settle_shown(s));
   steif_forget(s->ctx);
   return STEIF_OK;
 }
@@ -225,6 +226,12 @@ static int show(steif_solver *s, sunrealtype t)
   return STEIF_OK;
 }
 
+/* What holds after a break is shown at it, and settled. */
+static bool begun_anew(const steif_solver *s)
+{
+  return s->shown == s->dense && s->t_shown == s->end && !s->engine && s->step.restart;
+}
+
 static int solve_to(steif_solver *s, sunrealtype t)
 {
   STEIF_TRY(stf_agreed_begin(s, ready(s), "steif_solve_to", t));
@@ -246,6 +253,7 @@ static int solve_to(steif_solver *s, sunrealtype t)
     code = show(s, t);
   else if (!code)
     s->shown = stf_last(s), s->t_shown = s->end, code = stf_break_shown(s);
+  if (!code && !begun_anew(s)) code = stf_settle_shown(s);
   stop_clock(s);
   if (!code && s->end < t) return ended(s);
   if (!code) code = stf_check_reached(s);

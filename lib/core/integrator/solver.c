@@ -294,6 +294,7 @@ static int open(steif_solver *s, const char *method)
   STEIF_TRY(steif_spec_parse(s->ctx, method, spec));
   s->engine = stf_engine_find(spec->name);
   if (later && !s->engine) STEIF_TRY(stf_look_at_start(s, form));
+  STEIF_TRY(stf_look_at_breaks(s));
   STEIF_TRY(s->engine ? open_engine(s, form, spec, y, yp) : open_step(s, form, spec, y, yp));
   if (form == STEIF_DESCRIPTOR)
     STEIF_TRY(stf_constant_matrices(s->ctx, s->problem, form, s->t1, y, s->spec));

@@ -19,7 +19,12 @@ typedef struct band {
 typedef struct slice {
   parallel_problem public;
   steif_problem whole;
-  N_Vector wide; /* of all unknowns in the numbers of the whole */
+  steif_context *ctx;
+  N_Vector wide,
+    at; /* of all unknowns in the numbers of the whole; at: where callbacks read or write the state */
+  int most; /* index */
+  bool settles;
+  slice_kept kept; /* of rank 0 */
   sunindextype n, first, rows;
   sunindextype *own; /* numbers of own rows in the whole */
   band E, A;
@@ -65,6 +70,48 @@ static int g(sunrealtype t, int derivative, N_Vector out, void *user)
   const sunrealtype *all = N_VGetArrayPointer(s->wide);
   sunrealtype *here = N_VGetArrayPointer(out);
   for (sunindextype k = 0; k < s->rows; k++) here[k] = all[s->own[k]];
+  return code;
+}
+
+/* The state in s->at: own rows of y, and of other ranks. */
+static void gather(slice *s, N_Vector y)
+{
+  const sunrealtype *here = N_VGetArrayPointer(y);
+  sunrealtype *all = N_VGetArrayPointer(s->at);
+  const sunindextype most = 1 << 20;
+  N_VConst(0, s->at);
+  for (sunindextype k = 0; k < s->rows; k++) all[s->own[k]] = here[k];
+  for (sunindextype i = 0; i < s->n; i += most)
+    MPI_Allreduce(MPI_IN_PLACE, all + i, (int)(s->n - i < most ? s->n - i : most), MPI_DOUBLE,
+                  MPI_SUM, NV_COMM_P(y));
+}
+
+static void take_own(const slice *s, N_Vector y)
+{
+  const sunrealtype *all = N_VGetArrayPointer(s->at);
+  sunrealtype *here = N_VGetArrayPointer(y);
+  for (sunindextype k = 0; k < s->rows; k++) here[k] = all[s->own[k]];
+}
+
+static int project(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  slice *s = user;
+  (void)yp;
+  gather(s, y);
+  const int code =
+    slice_settle(s->ctx, &s->whole, s->most, t, y, &s->kept, N_VGetArrayPointer(s->at));
+  if (!code) take_own(s, y);
+  return code;
+}
+
+static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  slice *s = user;
+  const int code = s->whole.exact(t, s->at, yp ? s->wide : NULL, s->whole.user);
+  const sunrealtype *slope = N_VGetArrayPointer(s->wide);
+  sunrealtype *here = yp ? N_VGetArrayPointer(yp) : NULL;
+  take_own(s, y);
+  for (sunindextype k = 0; here && k < s->rows; k++) here[k] = slope[s->own[k]];
   return code;
 }
 
@@ -233,6 +280,8 @@ static void describe(slice *s, int index)
                                       .linear = 1,
                                       .breaks = p->breaks,
                                       .break_count = p->break_count,
+                                      .project = s->settles ? project : NULL,
+                                      .exact = p->exact ? exact : NULL,
                                       .rtol_scale = p->rtol_scale,
                                       .user = s};
 }
@@ -244,7 +293,9 @@ static void release(steif_context *ctx, parallel_problem *public)
                        s->E.column, s->E.value, s->A.at,  s->A.column, s->A.value,
                        s->sign,     s->unknown, s->text};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) steif_release(ctx, all[i]);
+  slice_settle_close(ctx, &s->kept);
   if (s->wide) N_VDestroy(s->wide);
+  if (s->at) N_VDestroy(s->at);
   steif_problem_clear(ctx, &s->whole);
   steif_release(ctx, s);
 }
@@ -273,11 +324,11 @@ static int check_index(steif_context *ctx, const char *text, const slice *s, int
       "'%s' has index %d: over ranks linear systems are solved by iteration, which is not "
       "accurate enough for more than 2; solve it in one process",
       text, index);
-  if (index == 2 && s->whole.break_count > 0)
+  if (index == 2 && s->whole.break_count > 0 && !s->settles)
     return steif_fail(
       ctx, STEIF_UNSUPPORTED,
-      "'%s' has index 2 and f a break at t = %g, where unknowns may jump, which is not looked "
-      "at over ranks; solve it in one process",
+      "'%s' has index 2 and f a break at t = %g, where unknowns may jump, and its structure is "
+      "not certified, by which they would be found over ranks; solve it in one process",
       text, s->whole.breaks[0]);
   return STEIF_OK;
 }
@@ -288,7 +339,8 @@ static int build(steif_context *ctx, const char *text, slice *s)
   if (check(ctx, text, &s->whole)) return steif_status(ctx);
   s->n = s->whole.n;
   s->wide = N_VNew_Serial(s->n, steif_sundials(ctx));
-  if (!s->wide) return steif_fail(ctx, STEIF_NO_MEMORY, "no memory for '%s'", text);
+  s->at = N_VNew_Serial(s->n, steif_sundials(ctx));
+  if (!s->wide || !s->at) return steif_fail(ctx, STEIF_NO_MEMORY, "no memory for '%s'", text);
   N_VConst(0, s->wide);
   return STEIF_OK;
 }
@@ -297,9 +349,11 @@ static int start_and_rows(steif_context *ctx, const char *text, N_Vector one, sl
                           slice_start *all)
 {
   int code = slice_start_find(ctx, &s->whole, one, all);
+  if (!code) code = slice_settle_open(ctx, &s->whole, all->most, one, &s->kept, &s->settles);
   if (!code) code = check_index(ctx, text, s, all->most);
   if (!code) code = cut(ctx, s, all);
   memcpy(s->public.message, all->message, sizeof s->public.message);
+  s->ctx = ctx, s->most = all->most;
   if (!code) describe(s, all->most);
   return code;
 }

@@ -8,7 +8,7 @@
 /* Tolerance of the start. */
 #define START_RTOL 1e-9
 
-static int find(steif_context *ctx, const steif_problem *whole, slice_start *s)
+int slice_start_alone(steif_context *ctx, const steif_problem *whole, slice_start *s)
 {
   steif_options o = steif_defaults();
   o.rtol = START_RTOL;
@@ -27,8 +27,7 @@ static int find(steif_context *ctx, const steif_problem *whole, slice_start *s)
   return STEIF_OK;
 }
 
-/* More than what a count of MPI may be goes in parts. */
-static void spread(void *data, size_t bytes, MPI_Comm comm)
+void slice_spread(void *data, size_t bytes, MPI_Comm comm)
 {
   char *at = data;
   for (size_t part; bytes; bytes -= part, at += part) {
@@ -49,9 +48,10 @@ int slice_start_find(steif_context *ctx, const steif_problem *whole, N_Vector on
   s->index = steif_allocate(ctx, n + 1, sizeof *s->index);
   int code = steif_agree(ctx, one, s->y && s->index ? STEIF_OK : STEIF_NO_MEMORY);
   if (code) return code;
-  code = steif_agree(ctx, one, rank == 0 ? find(ctx, whole, s) : STEIF_OK);
+  code = steif_agree(ctx, one, rank == 0 ? slice_start_alone(ctx, whole, s) : STEIF_OK);
   if (code) return code;
-  spread(s->y, n * sizeof *s->y, comm), spread(s->index, n * sizeof *s->index, comm);
+  slice_spread(s->y, n * sizeof *s->y, comm),
+    slice_spread(s->index, n * sizeof *s->index, comm);
   MPI_Bcast(&s->most, 1, MPI_INT, 0, comm);
   MPI_Bcast(s->message, sizeof s->message, MPI_CHAR, 0, comm);
   return STEIF_OK;

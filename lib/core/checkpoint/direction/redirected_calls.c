@@ -114,6 +114,11 @@ static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
   return of(user)->start(t, y, yp, of(user)->user);
 }
 
+static int project(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  return of(user)->project(t, y, yp, of(user)->user);
+}
+
 static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   return of(user)->exact(t, y, yp, of(user)->user);
@@ -180,6 +185,7 @@ void stf_redirect(steif_direction *d)
   if (from->F) to->F = F;
   if (from->g) to->g = g;
   if (from->start) to->start = start;
+  if (from->project) to->project = project;
   if (from->exact) to->exact = exact;
   if (from->invariant) to->invariant = invariant;
   if (from->event) to->event = event;

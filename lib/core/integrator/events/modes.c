@@ -99,7 +99,7 @@ static int begin(steif_solver *s, sunrealtype t, int what, N_Vector y)
                       .atol = scale * o->atol,
                       .atols = what == EXACT ? NULL : o->atols};
   const bool before = stf_silence(s->ctx, true);
-  int code = pool ? stf_repair_start(&found) : STEIF_NO_MEMORY;
+  int code = pool ? stf_start_repaired(&found) : STEIF_NO_MEMORY;
   stf_silence(s->ctx, before);
   if (code)
     code = refused(s, &found, t, code);

@@ -111,27 +111,52 @@ int stf_look_at_start(steif_solver *s, int form)
   return STEIF_OK;
 }
 
-/* Unknowns of index 2 that are spread over ranks are shown as the method has them, and nothing computes them anew: those
- * of stages of low order beside others, and of methods that are not stiffly accurate, have a few digits only (Hairer and
- * Wanner, Solving ODEs II, VII.4), which the estimates of their errors do not see. */
-int stf_look_at_orders(steif_solver *s)
+/* Has it unknowns of index 2 and more, on some rank? */
+static bool any_higher(const steif_solver *s)
 {
   const steif_problem *p = s->problem;
+  const N_Vector like = s->options.like;
+  sunindextype rows;
+  bool any = p->dae_index > 1;
+  const bool here = p->index && stf_own_rows(s->dense, &rows);
+  for (sunindextype i = 0; here && i < rows; i++) any |= p->index[i] > 1;
+  if (like && stf_spread(like)) stf_agree_any(like, 1, &any);
+  return any;
+}
+
+int stf_look_at_breaks(steif_solver *s)
+{
+  const steif_problem *p = s->problem;
+  const steif_options *o = &s->options;
+  const bool anew = !s->engine && !(o->h > 0) && !o->mesh;
+  if (!stf_settled_by(s) || anew || !p->break_count || !(p->breaks[0] < s->t1)) return STEIF_OK;
+  STEIF_CHECK(!any_higher(s), s->ctx, STEIF_UNSUPPORTED,
+              "'%s' has unknowns of index 2 that may jump at its break t = %g, where '%s' does "
+              "not restart%s: take radau or bdf with adaptive steps",
+              p->name, p->breaks[0], s->spec, s->engine ? "" : " with prescribed steps");
+  return STEIF_OK;
+}
+
+/* Unknowns of index 2 that are spread over ranks are shown as the method has them, unless the problem settles them: those
+ * of stages of low order beside others, and of methods that are not stiffly accurate, have a few digits only (Hairer and
+ * Wanner, Solving ODEs II, VII.4), which the estimates of their errors do not see. Where they are settled they
+ * need not be right to the tolerance within the run. */
+int stf_look_at_orders(steif_solver *s)
+{
   const N_Vector like = s->options.like;
   const steif_table *T = s->step.table;
   const bool good =
     !T || T->s == 1 ||
     (T->claims & STEIF_STIFFLY_ACCURATE && (T->stage_order >= T->s || T->stage_order > 2));
-  bool any = !p->index && p->dae_index > 1;
   STEIF_TRY(stf_agreed_gate(s));
-  if (!like || !stf_spread(like) || good) return STEIF_OK;
-  for (sunindextype i = 0; p->index && i < s->step.system.space.rows; i++)
-    any |= p->index[i] > 1;
-  stf_agree_any(like, 1, &any);
-  STEIF_CHECK(!any, s->ctx, STEIF_UNSUPPORTED,
+  s->settles = false;
+  if (!like || !stf_spread(like) || (good && !stf_settled_by(s))) return STEIF_OK;
+  const bool any = any_higher(s);
+  STEIF_CHECK(good || !any, s->ctx, STEIF_UNSUPPORTED,
               "'%s' has unknowns of index 2 to a few digits only, and over ranks they are not "
               "computed anew: take radau or bdf",
               s->method);
+  s->settles = any && stf_settled_by(s);
   return STEIF_OK;
 }
 

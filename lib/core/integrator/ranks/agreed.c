@@ -110,6 +110,11 @@ static int start(sunrealtype t, N_Vector y, N_Vector yp, void *user)
   AGREED(start, t, y, yp, p->user);
 }
 
+static int project(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  AGREED(project, t, y, yp, p->user);
+}
+
 static int exact(sunrealtype t, N_Vector y, N_Vector yp, void *user)
 {
   AGREED(exact, t, y, yp, p->user);
@@ -219,12 +224,12 @@ const char *stf_agreed_name(long id)
   static const struct {
     size_t offset;
     const char *name;
-  } names[] = {NAMED(f),          NAMED(kick),      NAMED(drift),        NAMED(F),
-               NAMED(g),          NAMED(jac),       NAMED(idajac),       NAMED(E),
-               NAMED(A),          NAMED(L),         NAMED(Ev),           NAMED(Av),
-               NAMED(Lv),         NAMED(precsetup), NAMED(precsolve),    NAMED(precsolve_pair),
-               NAMED(start),      NAMED(exact),     NAMED(handle_event), NAMED(begin),
-               NAMED(event_slope)};
+  } names[] = {NAMED(f),           NAMED(kick),      NAMED(drift),        NAMED(F),
+               NAMED(g),           NAMED(jac),       NAMED(idajac),       NAMED(E),
+               NAMED(A),           NAMED(L),         NAMED(Ev),           NAMED(Av),
+               NAMED(Lv),          NAMED(precsetup), NAMED(precsolve),    NAMED(precsolve_pair),
+               NAMED(start),       NAMED(exact),     NAMED(handle_event), NAMED(begin),
+               NAMED(event_slope), NAMED(project)};
   for (size_t i = 0; i < STF_COUNT(names); i++)
     if ((long)names[i].offset == id) return names[i].name;
   return "a callback";
@@ -252,7 +257,7 @@ void stf_agreed_wrap(stf_agreed *a, steif_options *o)
   WRAP(f), WRAP(kick), WRAP(drift), WRAP(F), WRAP(g), WRAP(jac), WRAP(idajac);
   WRAP(E), WRAP(A), WRAP(L), WRAP(Ev), WRAP(Av), WRAP(Lv), WRAP(precsetup), WRAP(precsolve);
   WRAP(precsolve_pair), WRAP(start), WRAP(exact), WRAP(handle_event), WRAP(event_slope),
-    WRAP(begin), WRAP(event), WRAP(invariant);
+    WRAP(project), WRAP(begin), WRAP(event), WRAP(invariant);
   to->Etv = to->Atv = NULL,
   to->precsolve_transposed = NULL; /* of gradients, which serve no ranks */
   wrap_integrals(a);

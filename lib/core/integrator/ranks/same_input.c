@@ -78,6 +78,7 @@ static const member of_problem[] = {
   THERE(quadrature),
   THERE(precsolve_pair),
   THERE(event_slope),
+  THERE(project),
   THERE(Etv),
   THERE(Atv),
   THERE(precsolve_transposed),

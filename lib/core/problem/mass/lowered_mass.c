@@ -146,6 +146,12 @@ static int event_slope(sunrealtype t, N_Vector y, N_Vector yp, void *user)
   return l->from.event_slope(t, y, yp, l->from.user);
 }
 
+static int project(sunrealtype t, N_Vector y, N_Vector yp, void *user)
+{
+  const steif_problem *p = &((const lowered *)user)->from;
+  return p->project(t, y, yp, p->user);
+}
+
 static int begin(sunrealtype t, void *user)
 {
   const lowered *l = user;
@@ -173,9 +179,8 @@ static steif_problem states(const lowered *l)
   steif_problem q = *p;
   q.f = NULL, q.jac = NULL, q.L = NULL, q.Lv = NULL, q.kick = q.drift = NULL;
   q.F = F, q.linear = 0, q.autonomous = 0, q.positions = 0;
-  q.E = p->E ? E : NULL;
+  q.E = p->E ? E : NULL, q.Ev = p->Ev ? Ev : NULL;
   q.A = !of_state && (p->A || p->jac) ? A : NULL;
-  q.Ev = p->Ev ? Ev : NULL;
   q.Av = !of_state && p->Av ? Av : NULL;
   q.Etv = p->Etv ? Etv : NULL;
   q.Atv = !of_state && p->Atv ? Atv : NULL;
@@ -184,6 +189,7 @@ static steif_problem states(const lowered *l)
   q.precsolve = p->precsolve ? precsolve : NULL;
   q.precsolve_pair = p->precsolve_pair ? precsolve_pair : NULL;
   q.start = p->start ? start : NULL;
+  q.project = p->project ? project : NULL;
   q.exact = p->exact ? exact : NULL;
   q.invariant = p->invariant ? invariant : NULL;
   q.event = p->event ? event : NULL;
