@@ -39,6 +39,8 @@ void run_over_ranks(steif_context *ctx, const steif_problem *p, N_Vector like,
                     const char *linear, const char *method, const steif_options *options,
                     N_Vector truth, N_Vector end, ranks_run *out);
 
+/* y in the order of one process, as a line of a table or a member of a JSON object; called by all ranks. */
+void show_solution(const request *r, const steif_problem *p, N_Vector y);
 int solve_over_ranks(const request *r);
 int compare_over_ranks(const request *r);
 int sweep_over_ranks(int argc, char **argv);

@@ -115,6 +115,9 @@ STEIF_EXPORT steif_problem *steif_mpi_problem_new(steif_context *ctx, const char
                                                   MPI_Comm comm, N_Vector *like);
 /* What was done about the start of such a problem, "" when nothing was. */
 STEIF_EXPORT const char *steif_mpi_start(const steif_problem *problem);
+/* The number, from 0, of own row k of such a problem (0 <= k < own rows) among the unknowns of the same problem in one
+ * process. */
+STEIF_EXPORT sunindextype steif_mpi_number(const steif_problem *problem, sunindextype k);
 /* Frees the vector too. */
 STEIF_EXPORT void steif_mpi_problem_free(steif_context *ctx, steif_problem **problem,
                                          N_Vector *like);

@@ -309,6 +309,14 @@ static void describe(grid *g)
                                       .user = g};
 }
 
+/* In one process all u come before all v. */
+static sunindextype number(const parallel_problem *public, sunindextype k)
+{
+  const grid *g = (const grid *)public;
+  const sunindextype fields = g->is->fields, i = g->first + k;
+  return i % fields * (g->wide * g->n) + i / fields;
+}
+
 static void release(steif_context *ctx, parallel_problem *public)
 {
   grid *g = (grid *)public; /* its first member */
@@ -327,7 +335,7 @@ int grid_build(steif_context *ctx, const char *text, MPI_Comm comm, parallel_pro
   grid *g = steif_allocate(ctx, 1, sizeof *g);
   if (!g) return STEIF_NO_MEMORY;
   *out = &g->public;
-  g->public.release = release;
+  g->public.number = number, g->public.release = release;
   g->is = is, g->n = n, g->comm = comm;
   if (place(ctx, g)) return STEIF_NO_MEMORY;
   describe(g);

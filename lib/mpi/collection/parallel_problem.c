@@ -26,6 +26,12 @@ const char *steif_mpi_start(const steif_problem *problem)
   return ((const parallel_problem *)problem)->message;
 }
 
+sunindextype steif_mpi_number(const steif_problem *problem, sunindextype k)
+{
+  const parallel_problem *p = (const parallel_problem *)problem;
+  return p->number(p, k);
+}
+
 steif_problem *steif_mpi_problem_new(steif_context *ctx, const char *spec, MPI_Comm comm,
                                      N_Vector *like)
 {

@@ -13,6 +13,8 @@ struct parallel_problem {
   steif_problem problem;
   sunindextype rows;  /* own ones */
   char message[1200]; /* what was done about the start */
+  /* Of own row k among the unknowns of one process. */
+  sunindextype (*number)(const parallel_problem *p, sunindextype k);
   void (*release)(steif_context *ctx, parallel_problem *p);
 };
 

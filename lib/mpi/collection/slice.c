@@ -286,6 +286,11 @@ static void describe(slice *s, int index)
                                       .user = s};
 }
 
+static sunindextype number(const parallel_problem *public, sunindextype k)
+{
+  return ((const slice *)public)->own[k];
+}
+
 static void release(steif_context *ctx, parallel_problem *public)
 {
   slice *s = (slice *)public; /* its first member */
@@ -367,7 +372,7 @@ int slice_build(steif_context *ctx, const char *text, N_Vector one, parallel_pro
   int code = steif_agree(ctx, one, s ? build(ctx, text, s) : STEIF_NO_MEMORY);
   if (!s) return code;
   *out = &s->public;
-  s->public.release = release;
+  s->public.number = number, s->public.release = release;
   if (code) return code;
   s->first = s->n * rank / size, s->rows = s->n * (rank + 1) / size - s->first;
   s->public.rows = s->rows;
