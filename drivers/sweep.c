@@ -12,7 +12,7 @@ static const struct option options[] = {
   {"--p", REPEATED, "NAME=FROM:TO:COUNT[:log]",
    "values of a parameter, or NAME=V,V,...; several --p: all combinations, the last fastest",
    NULL},
-  {"--random", COUNT, "N", "N members drawn at random from NAME=FROM:TO[:log] instead", NULL},
+  {"--random", COUNT, "N", "N members drawn at random instead, from NAME=FROM:TO[:log] or one of NAME=V,V,...", NULL},
   {"--seed", NATURAL, "S", "the numbers drawn depend on S and the member only", "1"},
   {"--threads", NATURAL, "T", "members at work at once, at most 64; 0: one for each core", "0"},
   {"--collect", CHOICE, "y|digits|stats",

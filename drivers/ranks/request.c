@@ -86,6 +86,12 @@ static int read_word(request *r, const char *word)
   const int most = strcmp(r->verb, "compare") ? 1 : METHODS;
   if (!r->problem) return r->problem = word, FINE;
   if (r->methods < most) return r->method[r->methods++] = word, FINE;
+  if (most == 1 && strstr(r->method[0], ".mtx"))
+    return object(
+      r,
+      "matrices of two files are not solved over ranks, \"%s\" and \"%s\": write a "
+      "model of them (form descriptor), or leave --parallel out [STEIF_UNSUPPORTED]",
+      r->problem, r->method[0]);
   return object(r, "\"%s\" is one word too many [STEIF_BAD_INPUT]", word);
 }
 

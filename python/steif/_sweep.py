@@ -90,8 +90,8 @@ def sweep(f, values, *, t1=None, method="auto", rtol=1e-6, atol=None, threads=0)
     values   {name: one value for each run}; all of one length
     threads  0: as many as there are cores
 
-    Returns a Result: y (n x runs, NaN where a run failed), status (of each, 0: fine), messages (why a run failed, ""
-    where it did not), values, names. A name that the problem does not have is a ValueError before the first run.
+    Returns a Result: y (n x runs, NaN where a run failed), status (of each, 0: fine, 2: fine, ended by an event),
+    messages (why a run failed, "" where it did not), values, names. A name that the problem does not have is a ValueError before the first run.
     """
     columns, count = _sweep_columns(f, values)
     if isinstance(threads, bool) or not hasattr(threads, "__index__"):

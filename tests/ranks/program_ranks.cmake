@@ -18,6 +18,7 @@ run(0 "unknowns +67\nt +0.01\ny +0.13105953[0-9]* 0.09862[0-9]* -0.53190[0-9]* -
     ladder:n=20,case=cons bdf --linear mumps)
 run(0 "y +0.553[0-9]* 0.61[23][0-9]* 0.66[34][0-9]* 0.61[23][0-9]*\n +0.553[0-9]*" solve bruss2d:n=6 bdf --rtol 1e-4)
 run(2 "STEIF_UNSUPPORTED" solve hires bdf)
+run(2 "matrices of two files are not solved over ranks.*STEIF_UNSUPPORTED" solve E.mtx A.mtx bdf)
 
 # A requirement of a model is kept, or the run ends as in one process.
 set(model ${CMAKE_CURRENT_BINARY_DIR}/require_${RANKS}.steif)

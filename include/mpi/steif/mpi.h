@@ -95,8 +95,8 @@ STEIF_EXPORT void steif_mpi_free(steif_mpi **m);
  * x and b, and the (t, y, yp) given. c_im = 0: b and x are `count` vectors; else their real and imaginary parts by turns,
  * 2 count of them. Several at once cost less than one after the other: 16 go through the factors together. x may be b.
  * `spec` must have been "mumps". Rows and columns are scaled by powers of two before c E - A is factored, and solutions
- * refined. STEIF_SINGULAR: it is, exactly or to rounding: by three scalings its reciprocal condition is below 4e-16, which
- * two to six solves estimate once for each factorisation. STEIF_BAD_INPUT: count, or c is not finite; STEIF_NOT_FINITE:
+ * refined. STEIF_SINGULAR: it is, exactly or to rounding: by three scalings its reciprocal condition is below 4e-16, or a
+ * sweep of refinement changes more than a twentieth of a solution, which some solves tell once for each factorisation. STEIF_BAD_INPUT: count, or c is not finite; STEIF_NOT_FINITE:
  * b is not, or x is beyond the largest number. */
 STEIF_EXPORT int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp,
                                  sunrealtype c_re, sunrealtype c_im, int transposed, int count,

@@ -52,6 +52,13 @@ static int check(steif_solver *s, sunindextype rows, int *form)
   return STEIF_OK;
 }
 
+/* Letters of a sentence without the symbol of its code, which it gets again. */
+static int without_symbol(const char *text)
+{
+  const char *symbol = strstr(text, " [STEIF_");
+  return (int)(symbol ? (size_t)(symbol - text) : strlen(text));
+}
+
 /* The sentence of the lowest rank that found something in its rows, which it counts from 0. */
 static int agree_on_rows(steif_solver *s, int code, sunindextype rows)
 {
@@ -63,8 +70,9 @@ static int agree_on_rows(steif_solver *s, int code, sunindextype rows)
   if (!any) return STEIF_OK;
   const bool mine = stf_agree_lowest(like, code != 0, rows, &rank, &first);
   if (mine && rank > 0)
-    STEIF_FAIL(s->ctx, steif_status(s->ctx), "%s (on rank %d, whose row 0 is row %lld of all)",
-               steif_message(s->ctx), rank, first);
+    STEIF_FAIL(s->ctx, steif_status(s->ctx),
+               "%.*s (on rank %d, whose row 0 is row %lld of all)",
+               without_symbol(steif_message(s->ctx)), steif_message(s->ctx), rank, first);
   return stf_agree(s->ctx, like, mine ? code : STEIF_OK);
 }
 
@@ -127,13 +135,12 @@ int stf_agreed_begin(steif_solver *s, int code, const char *what, sunrealtype t)
 
 void stf_agreed_tell(steif_solver *s, int code)
 {
-  static const char symbols[] = " [STEIF_";
-  const char *text = steif_message(s->ctx), *symbol = strstr(text, symbols);
+  const char *text = steif_message(s->ctx);
   const int rank = s->agreed ? s->deferred.rank : -1;
   s->deferred.rank = -1;
   if (code != STEIF_CALLBACK || rank < 0 || strstr(text, " rank ")) return;
-  STEIF_FAIL(s->ctx, steif_status(s->ctx), "%.*s (on rank %d first)",
-             (int)(symbol ? symbol - text : (long)strlen(text)), text, rank);
+  STEIF_FAIL(s->ctx, steif_status(s->ctx), "%.*s (on rank %d first)", without_symbol(text),
+             text, rank);
 }
 
 int stf_agreed_end(steif_solver *s, int code)
