@@ -33,7 +33,7 @@ typedef struct mumps {
   rows *r;
   factors_setting set;
   long revision, clock;
-  bool regular; /* a c E - A of this pattern was sound */
+  bool regular;         /* a c E - A of this pattern was sound */
   slot slot[2 * SLOTS]; /* real ones, then complex ones */
   int *row_of_b;
   int columns; /* right-hand sides that these hold: */

@@ -103,6 +103,13 @@ struct steif_solver {
   char method[240]; /* spec in use; for auto with the reason */
 };
 
+/* The structs of the caller, in the solver where his are shorter or longer than ours; and the vectors by which ranks
+ * agree before that. */
+int stf_take_given(steif_solver *s, const steif_problem *problem, size_t problem_bytes,
+                   const steif_options *options, size_t options_bytes);
+N_Vector stf_given_like(const steif_problem *p, size_t problem_bytes, const steif_options *o,
+                        size_t options_bytes);
+
 /* sizes.c: the caller's struct of so many bytes as one of ours, `own` bytes, in `room`; 0: as in our header.
  * STEIF_UNSUPPORTED: members that we do not know are set. */
 int stf_whole(steif_context *ctx, const char *name, const void *given, size_t bytes, size_t own,
