@@ -209,7 +209,8 @@ STEIF_EXPORT int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift
  * evaluations and decompositions of matrices of order n a point. Steps, observers and steif_dense have y as the
  * method has it. *drift and *corrected are those of the solution last shown; *corrected is how far the method was off in
  * unknowns of index 2 and 3. NaN: nothing was recomputed, or components of index 1 would have moved by more than
- * 10 tolerances. */
+ * 10 tolerances, or a time between two breaks so close that differences in between have no digits. At a break they tell of
+ * the side that is shown. */
 STEIF_EXPORT int steif_recomputed(const steif_solver *s, sunrealtype *drift,
                                   sunrealtype *corrected);
 /* The solution shown, or steif_dense, with unknowns of index 2 and 3 recomputed. */

@@ -9,7 +9,7 @@ extern CU_TestInfo tests_of_steps[], tests_of_run[], tests_of_options[], tests_o
   tests_of_success[], tests_of_references[], tests_of_krylov[], tests_of_bad_input[],
   tests_of_clock[], tests_of_corners[], tests_of_varying_mass[], tests_of_algebraic_noise[],
   tests_of_history[], tests_of_cubes[], tests_of_index_three[], tests_of_inexact[],
-  tests_of_hidden[], tests_of_extended[], tests_of_between[];
+  tests_of_hidden[], tests_of_hidden_breaks[], tests_of_extended[], tests_of_between[];
 
 SUITE_MAIN(
   {.pName = "steps", .pTests = tests_of_steps},
@@ -36,6 +36,7 @@ SUITE_MAIN(
   {.pName = "index three", .pTests = tests_of_index_three},
   {.pName = "inexact", .pTests = tests_of_inexact},
   {.pName = "hidden errors", .pTests = tests_of_hidden},
+  {.pName = "hidden breaks", .pTests = tests_of_hidden_breaks},
   {.pName = "success", .pTests = tests_of_success},
   {.pName = "references", .pTests = tests_of_references},
   {.pName = "extended", .pTests = tests_of_extended})

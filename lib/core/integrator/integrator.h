@@ -205,6 +205,8 @@ int stf_recompute_mode(steif_solver *s, sunrealtype t, N_Vector y, N_Vector yp, 
 /* output/settled.c: does problem.project put y in its place; y at t; that of the step behind a break; where s->settles,
  * what is shown at t_shown; and to the observer, at the end of a step. */
 bool stf_settled_by(const steif_solver *s);
+/* t on that side of a break where the step lies that shows it. */
+sunrealtype stf_side(const steif_solver *s, sunrealtype t);
 int stf_settle(const steif_solver *s, sunrealtype t, N_Vector y);
 int stf_settle_break(steif_solver *s);
 int stf_settle_shown(steif_solver *s);

@@ -104,6 +104,27 @@ static int open(stf_point *s, const steif_point *q, int form)
   return stf_constant_matrices(s->ctx, p, form, p->t1, s->y, "this analysis");
 }
 
+/* The smooth part of the interval where the point lies; at a break that after it, and after breaks too close for a
+ * part of its own. */
+static void find_part(stf_point *s)
+{
+  const steif_problem *p = &s->problem;
+  s->from = -INFINITY, s->to = INFINITY;
+  for (int i = 0; i < p->break_count && s->to == INFINITY; i++) {
+    const sunrealtype at = p->breaks[i];
+    if (at <= s->t || at - s->from <= 32 * STF_EPS * fabs(at))
+      s->from = nextafter(at, INFINITY);
+    else
+      s->to = nextafter(at, -INFINITY);
+  }
+  s->t = fmax(s->t, s->from);
+}
+
+static sunrealtype within(const stf_point *s, sunrealtype t)
+{
+  return fmin(fmax(t, s->from), s->to);
+}
+
 int stf_point_open(steif_context *ctx, const steif_problem *problem, const steif_point *q,
                    stf_point *s)
 {
@@ -118,6 +139,7 @@ int stf_point_open(steif_context *ctx, const steif_problem *problem, const steif
   *s = (stf_point){.ctx = ctx, .problem = *problem, .n = (size_t)problem->n};
   s->t = s->problem.t0 = q && q->y ? q->t : problem->t0;
   if (s->problem.t1 < s->t) s->problem.t1 = s->t;
+  find_part(s);
   const steif_names *names = problem->names;
   s->equation = q && q->equation ? q->equation : names ? names->equation : NULL;
   s->unknown = q && q->unknown ? q->unknown : names ? names->unknown : NULL;
@@ -206,7 +228,7 @@ int stf_point_residual(stf_point *s, sunrealtype t, const sunrealtype *y, const 
                        sunrealtype *r)
 {
   move_to(s, y, yp);
-  STEIF_TRY(stf_system_residual(&s->system, t, s->y, s->yp, s->r));
+  STEIF_TRY(stf_system_residual(&s->system, within(s, t), s->y, s->yp, s->r));
   memcpy(r, stf_array(s->r), s->n * sizeof *r);
   return finite(r, s->n) ? STEIF_OK : STEIF_RETRY;
 }
@@ -281,7 +303,7 @@ int stf_point_matrices(stf_point *s, sunrealtype t, const sunrealtype *y, const 
   const size_t n = s->n;
   if (s->analytic) {
     move_to(s, y, yp);
-    STEIF_TRY(stf_system_linearise(&s->system, t, s->y, s->yp));
+    STEIF_TRY(stf_system_linearise(&s->system, within(s, t), s->y, s->yp));
     expand(s->system.E, n, 1, E);
     expand(s->system.A, n, -1, B);
   } else {

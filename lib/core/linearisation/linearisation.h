@@ -27,7 +27,8 @@ typedef struct stf_point {
   stf_taylor_of taylor; /* NULL: derivatives along curves are differences */
   int views; /* quick ones taken; after the first, system->E and A are those of another point */
   N_Vector y, yp, r;
-  sunrealtype t, *y0, *yp0;  /* the point */
+  sunrealtype t, *y0, *yp0; /* the point */
+  sunrealtype from, to;     /* no break of the problem lies between: F is asked for here only */
   sunrealtype *floor, *size; /* size = |y0| + floor, or so */
   sunrealtype *scratch;      /* 6 n */
 } stf_point;

@@ -157,17 +157,21 @@ static sunrealtype leftover(const stf_stage *w, const stf_nearest_point *m, size
   return most;
 }
 
+/* Parts between breaks too short for accurate derivatives leave residuals of this size at most. */
+static const sunrealtype narrow_part = 1e-3;
+
 int stf_stage_judge(stf_stage *w, stf_nearest_point *m)
 {
   size_t fixed = 0, worst;
   for (size_t j = 0; j < w->n; j++)
     fixed += stf_stage_order(w, j) == 0 && stf_start_attribute(w->task, j) == STEIF_FIXED;
   const sunrealtype part = leftover(w, m, &worst);
+  const sunrealtype noise = fmin(10 * w->derivatives.noise, narrow_part);
   w->task->start->residual = fmax(w->task->start->residual, part);
   if (part > STF_VIOLATED && m->rank < m->rows && fixed)
     return conflict(w, m, fabs(m->r[worst]));
   if (m->rank < m->rows && !fixed) return singular(w, m, worst);
-  if (part > (m->converged ? STF_VIOLATED : STF_FULFILLED))
+  if (part > fmax(m->converged ? STF_VIOLATED : STF_FULFILLED, noise))
     return stalled(w, m, worst, fabs(m->r[worst]));
   return STEIF_OK;
 }

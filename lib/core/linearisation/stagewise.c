@@ -89,10 +89,11 @@ static void remember(const stf_stage *w)
 {
   stf_start_nodes *nodes = w->task->nodes;
   const int place = nodes ? place_of(w) : -1;
-  if (place < 0) return;
+  if (nodes && w->derivatives.narrow) nodes->narrow = true;
+  if (place < 0 || !stf_total_derivatives_fit(&w->derivatives, &w->curve)) return;
   nodes->known[place] = true;
-  memcpy(nodes->delta[place], w->derivatives.delta,
-         ((size_t)w->derivatives.order + 1) * sizeof *w->derivatives.delta);
+  for (int p = 1; p <= w->derivatives.order; p++)
+    nodes->delta[place][p] = w->derivatives.window[p].delta;
 }
 
 static bool remembered(stf_stage *w)
@@ -100,20 +101,22 @@ static bool remembered(stf_stage *w)
   const stf_start_nodes *nodes = w->task->nodes;
   const int place = place_of(w);
   if (place < 0 || !nodes->known[place]) return false;
-  memcpy(w->derivatives.delta, nodes->delta[place],
-         ((size_t)w->derivatives.order + 1) * sizeof *w->derivatives.delta);
-  return true;
+  for (int p = 1; p <= w->derivatives.order; p++)
+    w->derivatives.window[p] = (stf_window){.delta = nodes->delta[place][p]};
+  return stf_total_derivatives_fit(&w->derivatives, &w->curve);
 }
 
 /* Are the nodes of earlier points good enough for this one? */
-static void look_at_nodes(stf_start_nodes *nodes, sunrealtype slow, sunrealtype fast)
+static void look_at_nodes(stf_start_nodes *nodes, const stf_point *s, sunrealtype slow,
+                          sunrealtype fast)
 {
   enum { USES = 16 };
   const sunrealtype apart = 1.5;
   const bool near = slow <= apart * nodes->slowest && nodes->slowest <= apart * slow &&
                     fast <= apart * nodes->fastest && nodes->fastest <= apart * fast;
-  if (nodes->uses == 0 || nodes->uses >= USES || !near)
-    *nodes = (stf_start_nodes){.slowest = slow, .fastest = fast};
+  if (nodes->uses == 0 || nodes->uses >= USES || !near || nodes->from != s->from)
+    *nodes = (stf_start_nodes){.slowest = slow, .fastest = fast, .from = s->from, .to = s->to};
+  nodes->narrow = false;
   nodes->uses++;
 }
 
@@ -242,7 +245,7 @@ static int all(stf_stage *w, stf_pool *pool, int c, int d)
   stf_point *point = w->task->point;
   sunrealtype slow, fast;
   stf_view_rates(point, w->task->view, &slow, &fast);
-  if (w->task->nodes) look_at_nodes(w->task->nodes, slow, fast);
+  if (w->task->nodes) look_at_nodes(w->task->nodes, point, slow, fast);
   STEIF_TRY(claim(pool, w));
   memcpy(w->u, point->y0, w->n * sizeof *w->u);
   memcpy(w->u + w->n, point->yp0, w->n * sizeof *w->u);

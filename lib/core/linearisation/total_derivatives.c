@@ -14,7 +14,8 @@ int stf_total_derivatives_open(stf_pool *pool, stf_point *point, int order,
   const size_t n = point->n;
   *l = (stf_total_derivatives){.point = point, .order = order};
   stf_chebyshev_open(&l->rule, NODES, order);
-  l->values = stf_pool_array(pool, NODES * n, sizeof *l->values);
+  l->values = stf_pool_array(pool, 2 * NODES * n, sizeof *l->values);
+  l->still = l->values ? l->values + NODES * n : NULL;
   l->rows = stf_pool_array(pool, (size_t)(order + 1) * n, sizeof *l->rows);
   l->tail = stf_pool_array(pool, n, sizeof *l->tail);
   return l->values && l->rows && l->tail ? STEIF_OK : STEIF_NO_MEMORY;
@@ -31,7 +32,8 @@ static sunrealtype error(const stf_total_derivatives *l, const sunrealtype *scal
     const sunrealtype size = scale[i] > 0 ? scale[i] : 1;
     worst = fmax(worst, l->tail[i] / size);
   }
-  return worst < 0 ? -1 : (worst + STF_EPS) / pow(delta, p);
+  if (worst < 0) return -1;
+  return stf_chebyshev_growth(&l->rule, p) * (worst + STF_EPS) / pow(delta, p);
 }
 
 /* Do the nodes follow how the equations of this order vary? Where they do not, the fit has a small slope that says
@@ -53,10 +55,20 @@ static bool resolved(const stf_total_derivatives *l, const sunrealtype *scale, c
   return true;
 }
 
+/* Have equations of this order the same values where t stays? */
+static bool without_t(const stf_total_derivatives *l, const int *order, int p)
+{
+  const size_t n = l->point->n;
+  for (size_t k = 0; k < NODES * n; k++)
+    if ((!order || order[k % n] == p) && l->values[k] != l->still[k]) return false;
+  return true;
+}
+
 /* The best nodes of an order so far. */
 typedef struct choice {
   sunrealtype error;
   bool resolved;
+  stf_window window;
 } choice;
 
 /* Nearer nodes have rounding only: what interpolants miss was small, and errors have grown since. */
@@ -65,8 +77,9 @@ static bool past_best(const stf_total_derivatives *l, const choice *best,
 {
   static const sunrealtype small = 1e-9, grown = 1e3;
   for (int p = 1; p <= l->order; p++)
-    if (now[p] >= 0 && !(best[p].resolved && best[p].error * pow(l->delta[p], p) < small &&
-                         now[p] > grown * best[p].error))
+    if (now[p] >= 0 &&
+        !(best[p].resolved && best[p].error * pow(best[p].window.delta, p) < small &&
+          now[p] > grown * best[p].error))
       return false;
   return true;
 }
@@ -79,17 +92,65 @@ static sunrealtype fastest_change(const stf_total_derivatives *l)
   return length > 0 ? fmax(l->fastest, periods / length) : l->fastest;
 }
 
-static void compare(stf_total_derivatives *l, const sunrealtype *scale, const int *order,
-                    sunrealtype delta, choice *best, sunrealtype *now)
+static void take_better(const choice *new, choice *best)
+{
+  if (new->resolved < best->resolved) return;
+  if (new->resolved > best->resolved || new->error < best->error) *best = *new;
+}
+
+/* One way to lay nodes: beyond breaks, or not. */
+typedef struct search {
+  const stf_curve *curve;
+  const sunrealtype *scale;
+  const int *order;
+  bool beyond, found;
+  choice best[STF_DEEPEST + 2];
+} search;
+
+static void compare(stf_total_derivatives *l, search *x, sunrealtype delta, sunrealtype *now)
 {
   for (int p = 1; p <= l->order; p++) {
-    now[p] = error(l, scale, order, p, delta);
-    if (now[p] < 0) continue;
-    const choice new = {now[p], resolved(l, scale, order, p)};
-    if (new.resolved < best[p].resolved) continue;
-    if (new.resolved > best[p].resolved || new.error < best[p].error)
-      best[p] = new, l->delta[p] = delta;
+    now[p] = error(l, x->scale, x->order, p, delta);
+    if (now[p] < 0 || (x->beyond && !without_t(l, x->order, p))) continue;
+    const choice new = {
+      now[p], resolved(l, x->scale, x->order, p), {delta, l->rule.at, x->beyond}};
+    take_better(&new, &x->best[p]);
   }
+}
+
+/* All nodes once with times beyond breaks, and once at t. */
+static int sample_beyond(stf_total_derivatives *l, const stf_curve *c, sunrealtype delta)
+{
+  stf_point *s = l->point;
+  stf_curve still = *c;
+  still.still = true;
+  STEIF_TRY(stf_curve_residual(s, &still, &l->rule, delta, l->still, NULL, NULL));
+  const sunrealtype from = s->from, to = s->to;
+  s->from = -INFINITY, s->to = INFINITY;
+  const int code = stf_curve_residual(s, c, &l->rule, delta, l->values, NULL, l->tail);
+  s->from = from, s->to = to;
+  return code;
+}
+
+static int look(stf_total_derivatives *l, search *x, sunrealtype longest, sunrealtype shortest)
+{
+  sunrealtype now[STF_DEEPEST + 2];
+  stf_point *s = l->point;
+  x->found = false;
+  for (int p = 1; p <= l->order; p++) x->best[p] = (choice){.error = INFINITY};
+  for (sunrealtype delta = longest; delta >= shortest; delta *= 0.6) {
+    const sunrealtype at = x->beyond ? 0 : stf_curve_place(s, x->curve, delta);
+    if (at != l->rule.at) stf_chebyshev_about(&l->rule, at);
+    const int code =
+      x->beyond ? sample_beyond(l, x->curve, delta)
+                : stf_curve_residual(s, x->curve, &l->rule, delta, l->values, NULL, l->tail);
+    if (code < 0) return code;
+    if (code) continue;
+    x->found = true;
+    compare(l, x, delta, now);
+    if (past_best(l, x->best, now)) break;
+  }
+  return STEIF_OK;
 }
 
 /* l->rows by Taylor coefficients; sigma is s/tau. */
@@ -126,36 +187,61 @@ static int look_at_series(stf_total_derivatives *l, const stf_curve *c,
   return STEIF_OK;
 }
 
+/* In parts between breaks, and beyond them where these are in the way. */
+static int choose(stf_total_derivatives *l, search *x)
+{
+  const sunrealtype tau = x->curve->tau, room = stf_curve_room(l->point, x->curve);
+  const sunrealtype longest = 100 / (l->slowest * tau), widest = fmin(longest, room);
+  const sunrealtype shortest = 1e-5 / (fastest_change(l) * tau);
+  search other = *x;
+  other.beyond = true;
+  STEIF_TRY(look(l, x, widest, fmin(shortest, widest)));
+  if (stf_curve_place(l->point, x->curve, widest) != 0 || widest < longest)
+    STEIF_TRY(look(l, &other, longest, shortest));
+  else
+    other.found = false;
+  for (int p = 1; p <= l->order; p++) {
+    if (other.found) take_better(&other.best[p], &x->best[p]);
+    l->window[p] = x->best[p].window;
+    if (room < longest && !l->window[p].beyond && l->window[p].delta > 0.5 * room)
+      l->narrow = true, l->noise = fmax(l->noise, x->best[p].error * l->rule.middle[p]);
+  }
+  return x->found || other.found ? STEIF_OK : STEIF_RETRY;
+}
+
 int stf_total_derivatives_choose(stf_total_derivatives *l, const stf_curve *c,
                                  const sunrealtype *scale, const int *order)
 {
-  choice best[STF_DEEPEST + 2];
-  sunrealtype now[STF_DEEPEST + 2];
-  bool found = false;
+  search x = {.curve = c, .scale = scale, .order = order};
+  l->narrow = false, l->noise = 0;
   if (l->order == 0) return STEIF_OK;
   STEIF_TRY(look_at_series(l, c, scale));
-  if (l->exact) return STEIF_OK;
-  const sunrealtype longest = 100 / (l->slowest * c->tau);
-  const sunrealtype shortest = 1e-5 / (fastest_change(l) * c->tau);
-  for (int p = 1; p <= l->order; p++) l->delta[p] = 0, best[p] = (choice){INFINITY, false};
-  for (sunrealtype delta = longest; delta >= shortest; delta *= 0.6) {
-    const int code = stf_curve_residual(l->point, c, &l->rule, delta, l->values, NULL, l->tail);
-    if (code < 0) return code;
-    if (code) continue;
-    found = true;
-    compare(l, scale, order, delta, best, now);
-    if (past_best(l, best, now)) break;
+  return l->exact ? STEIF_OK : choose(l, &x);
+}
+
+bool stf_total_derivatives_fit(const stf_total_derivatives *l, const stf_curve *c)
+{
+  for (int p = 1; p <= l->order; p++) {
+    const stf_window *w = &l->window[p];
+    if (!(w->delta > 0)) continue;
+    if (w->at != 0 || w->delta > stf_curve_room(l->point, c) ||
+        stf_curve_place(l->point, c, w->delta) != 0)
+      return false;
   }
-  return found ? STEIF_OK : STEIF_RETRY;
+  return true;
 }
 
 /* Nodes outside of the domain of F come nearer. */
 static int approach(stf_total_derivatives *l, const stf_curve *c, int p)
 {
   int code = STEIF_RETRY;
+  stf_window *w = &l->window[p];
+  stf_curve curve = *c;
+  curve.still = w->beyond;
+  if (w->at != l->rule.at) stf_chebyshev_about(&l->rule, w->at);
   for (int k = 0; k < NEARER && code > 0; k++) {
-    code = stf_curve_residual(l->point, c, &l->rule, l->delta[p], l->values, l->rows, NULL);
-    if (code > 0) l->delta[p] /= 4;
+    code = stf_curve_residual(l->point, &curve, &l->rule, w->delta, l->values, l->rows, NULL);
+    if (code > 0) w->delta /= 4;
   }
   return code;
 }
@@ -173,7 +259,7 @@ int stf_total_derivatives_evaluate(stf_total_derivatives *l, const stf_curve *c,
     return STEIF_OK;
   }
   for (int p = 1; p <= l->order; p++) {
-    if (!(l->delta[p] > 0)) continue; /* no equation has this order */
+    if (!(l->window[p].delta > 0)) continue; /* no equation has this order */
     STEIF_TRY(approach(l, c, p));
     memcpy(out + (size_t)p * n, l->rows + (size_t)p * n, n * sizeof *out);
   }

@@ -19,7 +19,7 @@ static steif_options second_options(const steif_solver *s, sunrealtype part, sun
   o.atol = part * first->atol;
   for (sunindextype i = 0; atols && i < s->problem->n; i++) atols[i] = part * first->atols[i];
   o.atols = atols;
-  o.t1 = s->t_shown;
+  o.t1 = stf_side(s, s->t_shown) > s->t_shown ? s->t1 : s->t_shown; /* after a break, too */
   o.h_max = first->h_max;
   o.max_steps = TIMES * s->step.count + FEW;
   o.storage = first->storage, o.force_storage = first->force_storage;

@@ -77,7 +77,7 @@ int steif_recompute(steif_solver *s, N_Vector y, sunrealtype *drift, sunrealtype
               s->ctx, STEIF_BAD_INPUT, "a vector of %zu components with a host array is needed",
               n);
   steif_start start;
-  const steif_point at = {.y = stf_array(s->shown), .t = s->t_shown};
+  const steif_point at = {.y = stf_array(s->shown), .t = stf_side(s, s->t_shown)};
   STEIF_TRY(stf_start_project(s->ctx, s->problem, &at, &start));
   measure(s, at.y, &start, drift, corrected);
   memcpy(stf_array(y), start.y, n * sizeof *start.y);
@@ -117,23 +117,48 @@ static int check_drift(const steif_solver *s, sunrealtype t, sunrealtype drift)
   return STEIF_OK;
 }
 
+/* Differences over a part between two breaks may have few digits: do those over half of it say the same? */
+static int check_narrow(steif_solver *s, const steif_point *at, const steif_start *start,
+                        bool *known)
+{
+  const sunrealtype shortest = 1e3 * STF_EPS * fabs(at->t);
+  const sunrealtype from = s->nodes.from - at->t, to = s->nodes.to - at->t;
+  *known = !s->nodes.narrow;
+  if (*known || !(to - from > shortest)) return STEIF_OK;
+  steif_problem shorter = *s->problem;
+  const sunrealtype after = nextafter(at->t, INFINITY);
+  const sunrealtype ends[] = {at->t + from / 2, fmax(at->t + to / 2, after)};
+  steif_start other;
+  sunrealtype apart = 0;
+  shorter.breaks = ends, shorter.break_count = 2;
+  const int code = stf_start_beside(s->ctx, &shorter, at, NULL, &other, NULL);
+  for (size_t j = 0; !code && j < (size_t)s->problem->n; j++)
+    apart = fmax(apart, fabs(other.y[j] - start->y[j]) / stf_allowed(s, start->y, j));
+  steif_start_clear(&other);
+  *known = !code && apart <= 1;
+  return code == STEIF_NO_MEMORY ? code : STEIF_OK;
+}
+
 /* y at t as the method has it moves where it belongs, or stays where that cannot be told. */
 static int put_in_place(steif_solver *s, sunrealtype t, N_Vector y)
 {
   steif_start start;
-  const steif_point at = {.y = stf_array(y), .t = t};
+  const steif_point at = {.y = stf_array(y), .t = stf_side(s, t)};
+  bool known = false;
   const bool before = stf_silence(s->ctx, true);
   const int code = stf_start_beside(s->ctx, s->problem, &at, &s->nodes, &start, NULL);
+  const int again = code ? code : check_narrow(s, &at, &start, &known);
   stf_silence(s->ctx, before);
   if (code == STEIF_NO_MEMORY) return code;
+  if (again && !code) return steif_start_clear(&start), again;
   sunrealtype drift, corrected;
   if (!code) measure(s, at.y, &start, &drift, &corrected);
-  if (!code && drift <= furthest) {
+  if (known && drift <= furthest) {
     memcpy(stf_array(y), start.y, (size_t)s->problem->n * sizeof *start.y);
     s->drift = drift, s->corrected = corrected;
   }
   steif_start_clear(&start);
-  if (!code) return check_drift(s, t, drift);
+  if (known) return check_drift(s, t, drift);
   steif_forget(s->ctx);
   return STEIF_OK;
 }

@@ -33,12 +33,18 @@ int stf_settle_break(steif_solver *s)
   return STEIF_OK;
 }
 
-/* t on that side of a break where the step lies that shows it. */
-static sunrealtype side(const steif_solver *s, sunrealtype t)
+/* After a break where the next step begins from what is shown at it. */
+static bool shown_after(const steif_solver *s, sunrealtype t)
+{
+  if (s->end != t || s->end >= s->t1) return s->end > t;
+  return s->shown == s->dense && s->t_shown == t && s->step.restart && !s->options.reinitialise;
+}
+
+sunrealtype stf_side(const steif_solver *s, sunrealtype t)
 {
   const steif_problem *p = s->problem;
   for (int i = 0; i < p->break_count; i++)
-    if (p->breaks[i] == t) return nextafter(t, s->end > t ? INFINITY : -INFINITY);
+    if (p->breaks[i] == t) return nextafter(t, shown_after(s, t) ? INFINITY : -INFINITY);
   return t;
 }
 
@@ -46,7 +52,7 @@ int stf_settle_shown(steif_solver *s)
 {
   if (!s->settles || s->step.count == 0) return STEIF_OK;
   if (s->shown != s->dense) N_VScale(1, s->shown, s->dense);
-  STEIF_TRY(stf_settle(s, side(s, s->t_shown), s->dense));
+  STEIF_TRY(stf_settle(s, stf_side(s, s->t_shown), s->dense));
   s->shown = s->dense;
   return STEIF_OK;
 }
