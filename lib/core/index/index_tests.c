@@ -44,7 +44,8 @@ static int beside(stf_evidence *e, int k, sunrealtype rate)
   for (int tries = 0; tries < RETRIES && code > 0; tries++, part /= 4) {
     unsigned seed = 77003u + 5u * (unsigned)k;
     move(s, part, rate, &seed, e->at[k].y, e->at[k].yp, e->at[k].ypp);
-    if (k == STF_POINTS - 2) e->at[k].t = fmin(s->t + 0.1 * part * fmin(length, 1 / rate), s->to);
+    if (k == STF_POINTS - 2)
+      e->at[k].t = fmin(s->t + 0.1 * part * fmin(length, 1 / rate), s->to);
     code = stf_view_take(s, e->at[k].t, e->at[k].y, e->at[k].yp, &e->view);
     if (!code) code = stf_point_residual(s, e->at[k].t, e->at[k].y, e->at[k].yp, s->scratch);
   }

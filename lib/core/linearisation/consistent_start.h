@@ -11,9 +11,10 @@
  * time scales of the problem stay as they were, and not for ever, nor over a break. */
 enum { STF_NODE_STAGES = 8, STF_NODE_ORDERS = 8 };
 typedef struct stf_start_nodes {
-  int uses; /* 0: nothing is known */
+  int uses;                               /* 0: nothing is known */
   sunrealtype slowest, fastest, from, to; /* from, to: the part between two breaks */
-  bool narrow; /* of the last point: the part between two breaks has left no room for wider nodes */
+  bool
+    narrow; /* of the last point: the part between two breaks has left no room for wider nodes */
   bool known[STF_NODE_STAGES];
   sunrealtype delta[STF_NODE_STAGES][STF_NODE_ORDERS];
 } stf_start_nodes;

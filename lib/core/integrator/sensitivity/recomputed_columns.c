@@ -20,7 +20,8 @@ int stf_recomputed(steif_solver *s, sunrealtype t, N_Vector y, N_Vector out)
 /* found = dC; v: five more vectors. */
 static int along(steif_solver *s, sunrealtype t, int k, N_Vector S, N_Vector found, N_Vector *v)
 {
-  stf_saltation here = {.y = v[0], .point = v[1], .t = stf_side(s, t)}, *const own = s->saltation;
+  stf_saltation here = {.y = v[0], .point = v[1], .t = stf_side(s, t)}, *const own =
+                                                                          s->saltation;
   const stf_line line = {.dy = S, .k = k};
   if (t == s->t_shown)
     N_VScale(1, s->shown, v[0]);
