@@ -115,6 +115,11 @@ int stf_reserved_check(steif_context *ctx, const char *name, size_t count,
                        void *const *reserved);
 #define STF_COUNT(array) (sizeof(array) / sizeof *(array))
 
+/* opening/given.c: copies of what the caller gives, sizes 0: as long as ours; and the vectors in it. */
+int stf_take_given(steif_solver *s, const steif_problem *problem, size_t problem_bytes,
+                   const steif_options *options, size_t options_bytes);
+N_Vector stf_like_given(const steif_problem *p, size_t problem_bytes, const steif_options *o,
+                        size_t options_bytes);
 /* opening/pattern.c: a pattern for a sparse problem without Jacobian and pattern, by steif_pattern_find; and in the
  * method's name. */
 int stf_look_at_pattern(steif_solver *s);
