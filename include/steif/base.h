@@ -40,7 +40,7 @@ enum steif_code {
   STEIF_BAD_INPUT = -2,      /* an argument is out of range, inconsistent or missing */
   STEIF_UNKNOWN_NAME = -3,   /* no method, problem, table or parameter of that name */
   STEIF_NOT_FINITE = -4,     /* NaN or infinity in data or in what a callback returned */
-  STEIF_SINGULAR = -5,       /* s E - A could not be factored */
+  STEIF_SINGULAR = -5,       /* s E - A could not be factored, or has no digits at any s */
   STEIF_NO_CONVERGENCE = -6, /* Newton's iteration did not converge */
   STEIF_CALLBACK = -7,       /* a callback asked to stop, or kept failing recoverably */
   STEIF_UNSUPPORTED = -8,    /* the method does not fit the form of the problem or the matrix */

@@ -220,13 +220,14 @@ static sunrealtype residual(mumps *s, const slot *t, bool transposed, int count,
 
 /* -- digits ---------------------------------------------------------------------------------------- */
 
-/* +1 or -1, by the number of an unknown and of a column alone, so for any ranks the same. */
-static sunrealtype sign_of(sunindextype row, int k)
+/* 1/2 to 3/2 of either sign, by the number of an unknown and of a column alone, so for any ranks the same. Sizes differ, for
+ * right-hand sides that two equal equations share would not tell them. */
+static sunrealtype entry_of(sunindextype row, int k)
 {
   uint64_t z = (uint64_t)row * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)k + 1;
   z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
   z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-  return z >> 63 ? 1 : -1;
+  return (z >> 63 ? 1 : -1) * (0.5 + (sunrealtype)(z << 1 >> 12) / 4503599627370496.0);
 }
 
 /* Rounding makes of M a matrix M + D, whose inverse is met here: a sweep of refinement changes x = (M + D)^{-1} b by
@@ -245,7 +246,7 @@ int mumps_lost(mumps *s, slot *t, sunrealtype *part)
     d[k] = s->d + (size_t)k * here, b[k] = d[k] + (size_t)halves * here;
     x[k] = s->own + (size_t)k * here, dx[k] = x[k] + (size_t)halves * here;
     for (sunindextype i = 0; i < r->own.rows; i++)
-      b[k][i] = sign_of(r->own.first + i, k) / t->row[i];
+      b[k][i] = entry_of(r->own.first + i, k) / t->row[i];
   }
   MPI_TRY(mumps_correct(s, t, false, false, PROBES, b, x));
   residual(s, t, false, PROBES, (const sunrealtype *const *)b, x, d);

@@ -4,9 +4,10 @@
 
 extern CU_TestInfo tests_of_chain[], tests_of_newcomers[], tests_of_drift[], tests_of_repair[],
   tests_of_kinetic[], tests_of_starts[], tests_of_machines[], tests_of_higher[],
-  tests_of_diode[];
+  tests_of_diode[], tests_of_singular[];
 
 SUITE_MAIN({.pName = "diode", .pTests = tests_of_diode},
+           {.pName = "singular", .pTests = tests_of_singular},
            {.pName = "newcomers", .pTests = tests_of_newcomers},
            {.pName = "machines", .pTests = tests_of_machines},
            {.pName = "higher", .pTests = tests_of_higher},

@@ -75,12 +75,21 @@ static bool shown(const stf_repair *r, size_t j)
   return !r->algebraic[j] || (index ? index[j] <= 2 : r->problem.dae_index == 1);
 }
 
+/* Those that a look at the pencil has left serve once. */
+static int factors_of(stf_repair *r, sunrealtype h, stf_view_factor *c)
+{
+  if (!r->step.pencil || r->step_h != h) return stf_view_factor_open(r, 1 / h, NULL, 1, c);
+  *c = r->step;
+  r->step = (stf_view_factor){0};
+  return STEIF_OK;
+}
+
 /* work: 4 n. */
 static int measure(stf_repair *r, sunrealtype h, sunrealtype *work, sunrealtype *largest)
 {
   stf_view_factor c;
   sunrealtype *jump = work + 3 * r->point.n, most = 0;
-  int code = stf_view_factor_open(r, 1 / h, NULL, 1, &c);
+  int code = factors_of(r, h, &c);
   if (!code) code = jump_within(r, &c, h, work, jump);
   stf_view_factor_close(&c);
   for (size_t j = 0; j < r->point.n && !code; j++)
@@ -89,22 +98,28 @@ static int measure(stf_repair *r, sunrealtype h, sunrealtype *work, sunrealtype 
   return code;
 }
 
+void stf_jump_lengths(stf_repair *r, sunrealtype *h)
+{
+  sunrealtype slow, fast;
+  const sunrealtype span = r->given->t1 - r->given->t0;
+  stf_view_rates(&r->point, &r->view, &slow, &fast);
+  const sunrealtype a = part * span, b = part / sqrt(slow * fast);
+  const sunrealtype all[STF_JUMP_LENGTHS] = {fmin(a, b), fmax(a, b), part / fast, 1e-3 * a};
+  for (int k = 0; k < STF_JUMP_LENGTHS; k++) h[k] = all[k] <= longest * span ? all[k] : 0;
+}
+
 /* A jump is there for every short h; motion and rounding are not: several are tried before one is
  * believed. */
 int stf_first_jump(stf_repair *r, sunrealtype *largest)
 {
-  sunrealtype *work = stf_allocate(r->ctx, 4 * r->point.n, sizeof *work), slow, fast;
+  sunrealtype *work = stf_allocate(r->ctx, 4 * r->point.n, sizeof *work), h[STF_JUMP_LENGTHS];
   if (!work) return STEIF_NO_MEMORY;
-  const sunrealtype span = r->given->t1 - r->given->t0;
-  stf_view_rates(&r->point, &r->view, &slow, &fast);
-  const sunrealtype a = part * span, b = part / sqrt(slow * fast);
-  const sunrealtype h[] = {fmin(a, b), fmax(a, b), part / fast, 1e-3 * a};
   int code = STEIF_OK;
   *largest = INFINITY;
-  const size_t count = sizeof h / sizeof *h;
-  for (size_t k = 0; k < count && !(*largest <= 1) && !code; k++) {
+  stf_jump_lengths(r, h);
+  for (int k = 0; k < STF_JUMP_LENGTHS && !(*largest <= 1) && !code; k++) {
     sunrealtype found = INFINITY;
-    if (h[k] > 0 && h[k] <= longest * span) code = measure(r, h[k], work, &found);
+    if (h[k] > 0) code = measure(r, h[k], work, &found);
     *largest = fmin(*largest, found);
   }
   stf_release(r->ctx, work);

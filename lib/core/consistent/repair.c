@@ -232,6 +232,7 @@ static int start(stf_repair *r)
   bool regular = false;
   STEIF_TRY(look(r));
   if (!declared_higher(r)) STEIF_TRY(stf_index_one(r, &regular));
+  if (!regular && r->judges) STEIF_TRY(stf_judge_pencil(r));
   if (!regular) return higher_index(r);
   if (r->count && r->problem.dae_index < 1) r->problem.dae_index = 1;
   return r->count && r->policy != STEIF_AS_GIVEN ? index_one(r) : STEIF_OK;
@@ -243,6 +244,7 @@ static int pass(stf_repair *r, int code)
 {
   const bool check = r->policy == STEIF_CHECK;
   const bool ours = code == STEIF_NO_MEMORY || code == STEIF_BAD_INPUT || code == STEIF_OK ||
+                    r->irregular ||
                     (check && (code == STEIF_NO_CONVERGENCE || code == STEIF_UNSUPPORTED));
   if (ours) return code;
   r->problem = *r->given;
@@ -272,6 +274,7 @@ int stf_repair_start(stf_repair *r)
   r->view = (stf_view){0};
   code = pass(r, start(r));
   stf_view_factor_close(&r->first);
+  stf_view_factor_close(&r->step);
   stf_view_free(&r->point, &r->view);
   return code;
 }

@@ -35,7 +35,11 @@ typedef struct stf_repair {
   size_t count;                 /* of those */
   int *mode; /* n: .index of `problem` since an event or a break; NULL: as at the start */
   stf_view_factor first; /* of index 1, at the point given; pencil NULL: not there */
-  int factors;           /* made so far */
+  bool judges;           /* pencils that are singular at every shift are errors */
+  bool irregular;        /* this one is, and a sentence says so */
+  stf_view_factor step;  /* of a step of length step_h; pencil NULL: not there */
+  sunrealtype step_h;
+  int factors; /* made so far */
 } stf_repair;
 
 /* Look at the start of `given`: repair->problem and repair->report. The point stays open, as long as the pool
@@ -66,6 +70,17 @@ int stf_nearest_branch(stf_repair *repair, sunrealtype first);
 /* first_jump.c: the largest jump in a step of backward Euler as h -> 0, in tolerances, of unknowns with a derivative
  * and of those of index 1 and 2. Zero for consistent starts of index up to 3. */
 int stf_first_jump(stf_repair *repair, sunrealtype *largest);
+
+/* Lengths of those steps, the first of use; those above the interval's share are 0. */
+enum { STF_JUMP_LENGTHS = 4 };
+void stf_jump_lengths(stf_repair *repair, sunrealtype *h);
+
+/* singular_pencil.c: STEIF_SINGULAR with a sentence where E and F_y are constant and s E + F_y is singular to rounding at
+ * every s. Leaves factors of the first step for stf_first_jump. */
+int stf_judge_pencil(stf_repair *repair);
+/* The same of a system with entries at its start y, scratch a vector more. Of *repair ctx, pool and given are there. */
+int stf_judge_system(stf_repair *repair, const stf_system *system, N_Vector y,
+                     N_Vector scratch);
 
 /* e_j of the view times `derivative` plus b_j times `value`, chosen by column j; factored. STEIF_SINGULAR
  * leaves no sentence. */

@@ -136,8 +136,11 @@ int stf_look_at_mass(steif_solver *s, int *form, N_Vector y, N_Vector yp);
 int stf_start_repaired(stf_repair *repair);
 /* The start of a DAE, for methods of ours with adaptive steps. */
 int stf_look_at_start(steif_solver *s, int form);
+/* STEIF_SINGULAR: the constant pencil of a DAE is singular at every shift; for steps that are given, since others come
+ * with that look at the start. */
+int stf_look_at_pencil(steif_solver *s, int form);
 int stf_look_at_orders(steif_solver *s);
-/* STEIF_UNSUPPORTED: steps pass over breaks where problem.restart has to find unknowns of index 2 and more. */
+/* STEIF_UNSUPPORTED: steps pass over breaks where problem.project has to find unknowns of index 2 and more. */
 int stf_look_at_breaks(steif_solver *s);
 
 /* Defaults filled in; STEIF_BAD_INPUT names the option that cannot be. `rows`: of absolute tolerances. */

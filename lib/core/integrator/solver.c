@@ -3,7 +3,6 @@
 #include "integrator.h"
 #include "varying_mass.h"
 #include <math.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -205,6 +204,7 @@ static int open_step(steif_solver *s, int form, const steif_spec *spec, N_Vector
   STEIF_TRY(start_values(s, form, y, yp));
   STEIF_TRY(claim_step(s));
   STEIF_TRY(open_system(s, form, y, yp));
+  STEIF_TRY(stf_look_at_pencil(s, form));
   if (s->agreed) stf_operator_defer(&step->system, &s->deferred);
   s->family = step->method, s->family_state = step->state;
   s->own[0] = step->y, s->own[1] = step->next;

@@ -97,8 +97,7 @@ static int open(stf_point *s, const steif_point *q, int form)
   STEIF_TRY(claim(s));
   STEIF_TRY(put_point(s, q, form));
   STEIF_TRY(lower(s, &form));
-  s->analytic = form == STEIF_IMPLICIT ? p->idajac || (p->E && p->A)
-                                       : form == STEIF_DESCRIPTOR || p->A || p->jac;
+  s->analytic = stf_analytic(p, form);
   STEIF_TRY(stf_system_open(s->pool, s->ctx, p, form, p->storage, s->floor[0], s->floor, s->y,
                             s->yp, &s->system));
   return stf_constant_matrices(s->ctx, p, form, p->t1, s->y, "this analysis");

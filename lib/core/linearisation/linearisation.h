@@ -33,6 +33,13 @@ typedef struct stf_point {
   sunrealtype *scratch;      /* 6 n */
 } stf_point;
 
+/* E and A come from callbacks. */
+static inline bool stf_analytic(const steif_problem *p, int form)
+{
+  return form == STEIF_IMPLICIT ? p->idajac || (p->E && p->A)
+                                : form == STEIF_DESCRIPTOR || p->A || p->jac;
+}
+
 int stf_point_open(steif_context *ctx, const steif_problem *problem, const steif_point *inquiry,
                    stf_point *point);
 void stf_point_close(stf_point *point);

@@ -129,25 +129,48 @@ static bool equilibrate(stf_factor *f)
   return true;
 }
 
+static int factor_one(stf_factor *f, int which)
+{
+  STEIF_TRY(steif_pencil_update(f->pencil[which]));
+  return steif_pencil_factor(f->pencil[which], 1, &(steif_shift){1, 0});
+}
+
 static int factor(stf_factor *f)
 {
   const sunindextype nnz = SM_INDEXPTRS_S(f->P[0])[f->n];
   if (!equilibrate(f)) return STEIF_SINGULAR;
   for (sunindextype k = 0; k < nnz; k++)
     SM_DATA_S(f->P[1])[f->place[k]] = SM_DATA_S(f->P[0])[k];
-  for (int k = 0; k < 2; k++) {
-    STEIF_TRY(steif_pencil_update(f->pencil[k]));
-    STEIF_TRY(steif_pencil_factor(f->pencil[k], 1, &(steif_shift){1, 0}));
-  }
-  return STEIF_OK;
+  STEIF_TRY(factor_one(f, 0));
+  return factor_one(f, 1);
 }
 
-int stf_factor_shift(stf_factor *f, const stf_view *v, sunrealtype s)
+static void sum(stf_factor *f, const stf_view *v, sunrealtype s)
 {
   memcpy(f->right, f->point->size, f->n * sizeof *f->right);
   for (sunindextype k = 0; k < v->column[f->n]; k++)
     SM_DATA_S(f->P[0])[k] = s * v->e[k] + v->b[k];
+}
+
+int stf_factor_shift(stf_factor *f, const stf_view *v, sunrealtype s)
+{
+  sum(f, v, s);
   return factor(f);
+}
+
+/* Pivots that vanish exactly hide the null vector, which rounding of the entries shows. */
+int stf_factor_lost(stf_factor *f, const stf_view *v, sunrealtype s, bool rounded,
+                    sunrealtype *work, sunrealtype *part)
+{
+  const size_t nnz = (size_t)v->column[f->n];
+  const stf_shifted M = {v, s, f->left, f->right};
+  sunrealtype *x = SM_DATA_S(f->P[0]);
+  unsigned seed = 4099u;
+  sum(f, v, s);
+  if (!equilibrate(f)) return STEIF_SINGULAR;
+  for (size_t k = 0; rounded && k < nnz; k++) x[k] *= 1 + 4 * STF_EPS * stf_point_random(&seed);
+  STEIF_TRY(factor_one(f, 0));
+  return stf_lost_part(f->pencil[0], &M, f->x, work, part);
 }
 
 int stf_factor_jacobian(stf_factor *f, const stf_view *v, const int *c, const int *d)

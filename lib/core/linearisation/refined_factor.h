@@ -4,7 +4,7 @@
 #ifndef STF_REFINED_FACTOR_H
 #define STF_REFINED_FACTOR_H
 
-#include "sparse_view.h"
+#include "lost_digits.h"
 
 /* LU of a sparse matrix on the pattern of a view, both directions, with refinement. */
 typedef struct stf_factor stf_factor;
@@ -14,6 +14,10 @@ void stf_factor_free(stf_factor **factor);
  * is usual. */
 int stf_factor_shift(stf_factor *f, const stf_view *view, sunrealtype s);
 int stf_factor_jacobian(stf_factor *f, const stf_view *view, const int *c, const int *d);
+/* The part of solutions of (s E + B) x = b, equilibrated, that is lost to rounding, by lost_digits.h, with factors of it
+ * alone, or of it with entries rounded at random; no other solves after that. work: 4 n. */
+int stf_factor_lost(stf_factor *f, const stf_view *view, sunrealtype s, bool rounded,
+                    sunrealtype *work, sunrealtype *part);
 int stf_factor_solve(stf_factor *f, bool transposed, sunrealtype *x);
 /* Reciprocal condition of the equilibrated matrix in the 1-norm (W. W. Hager 1984). */
 int stf_factor_rcond(stf_factor *f, sunrealtype *rcond);

@@ -1,4 +1,5 @@
-/* looks.c: what is looked at before a method is opened: whether the mass matrix varies, and the start of a DAE.
+/* looks.c: what is looked at before a method is opened: whether the mass matrix varies, the start of a DAE, and
+ * its pencil.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "array_start.h"
 #include "integrator.h"
@@ -105,10 +106,24 @@ int stf_look_at_start(steif_solver *s, int form)
                            .attribute = o->attributes,
                            .rtol = o->rtol,
                            .atol = o->atol,
-                           .atols = o->atols};
+                           .atols = o->atols,
+                           .judges = true};
   STEIF_TRY(stf_start_repaired(&s->repair));
   s->problem = &s->repair.problem;
   return STEIF_OK;
+}
+
+/* Steps of lengths that are given: the start stays, and a pencil that is singular is told. */
+int stf_look_at_pencil(steif_solver *s, int form)
+{
+  const stf_step *step = &s->step;
+  const bool other = step->adaptive || step->method->traits & STF_SEMILINEAR;
+  stf_repair alone = {.ctx = s->ctx, .given = s->problem};
+  if (form == STEIF_ODE || other || what_hides(&s->options, s->problem)) return STEIF_OK;
+  if (!(alone.pool = stf_pool_new(s->ctx))) return STEIF_NO_MEMORY;
+  const int code = stf_judge_system(&alone, &step->system, step->y, step->next);
+  stf_pool_free(&alone.pool);
+  return code;
 }
 
 /* Has it unknowns of index 2 and more, on some rank? */
