@@ -4,7 +4,7 @@
 #include "mumps.h"
 #include <float.h>
 #include <math.h>
-#include <stdint.h>
+#include <steif/ensemble.h>
 #include <string.h>
 
 enum { PROBES = 4 }; /* right-hand sides that tell how many digits solutions have */
@@ -220,14 +220,12 @@ static sunrealtype residual(mumps *s, const slot *t, bool transposed, int count,
 
 /* -- digits ---------------------------------------------------------------------------------------- */
 
-/* 1/2 to 3/2 of either sign, by the number of an unknown and of a column alone, so for any ranks the same. Sizes differ, for
+/* 1/2 to 3/2 of either sign, by the numbers of an unknown and of a column alone, so for any ranks the same. Sizes differ, for
  * right-hand sides that two equal equations share would not tell them. */
 static sunrealtype entry_of(sunindextype row, int k)
 {
-  uint64_t z = (uint64_t)row * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)k + 1;
-  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-  return (z >> 63 ? 1 : -1) * (0.5 + (sunrealtype)(z << 1 >> 12) / 4503599627370496.0);
+  const sunrealtype x = 2 * steif_ensemble_uniform((unsigned)k, (unsigned long long)row) - 1;
+  return x < 0 ? x - 0.5 : x + 0.5;
 }
 
 /* Rounding makes of M a matrix M + D, whose inverse is met here: a sweep of refinement changes x = (M + D)^{-1} b by

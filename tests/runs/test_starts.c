@@ -132,15 +132,20 @@ static void constraints_in_any_rows(void)
   steif_context_free(&ctx);
 }
 
+static steif_linear of_index_two(steif_context *ctx, made *s)
+{
+  state = 7;
+  fill(s, 2, false);
+  matrices(ctx, s);
+  return (steif_linear){s->E, s->F, f, s};
+}
+
 /* Prescribed steps, and starts that are to stay, begin where x0 is. */
 static void starts_that_stay(void)
 {
   steif_context *ctx = steif_context_new(NULL);
   made s;
-  state = 7;
-  fill(&s, 2, false);
-  matrices(ctx, &s);
-  const steif_linear l = {s.E, s.F, f, &s};
+  const steif_linear l = of_index_two(ctx, &s);
   for (int k = 0; k < 3; k++) {
     steif_problem p;
     steif_options o = steif_defaults();
@@ -180,10 +185,7 @@ static void a_check_that_cannot_be_made_is_told(void)
   static const char *const words[] = {"storage Krylov", "options.like", "problem.start"};
   steif_context *ctx = steif_context_new(NULL);
   made s;
-  state = 7;
-  fill(&s, 2, false);
-  matrices(ctx, &s);
-  const steif_linear l = {s.E, s.F, f, &s};
+  const steif_linear l = of_index_two(ctx, &s);
   for (int k = 0; k < 3; k++) {
     steif_problem p;
     steif_options o = steif_defaults();

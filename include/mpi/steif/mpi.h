@@ -96,8 +96,8 @@ STEIF_EXPORT void steif_mpi_free(steif_mpi **m);
  * 2 count of them. Several at once cost less than one after the other: 16 go through the factors together. x may be b.
  * `spec` must have been "mumps". Rows and columns are scaled by powers of two before c E - A is factored, and solutions
  * refined. STEIF_SINGULAR: it is, exactly or to rounding: by three scalings its reciprocal condition is below 4e-16, or a
- * sweep of refinement changes more than a twentieth of a solution, which some solves tell once for each factorisation. STEIF_BAD_INPUT: count, or c is not finite; STEIF_NOT_FINITE:
- * b is not, or x is beyond the largest number. */
+ * sweep of refinement changes more than a twentieth of a solution, which some solves tell once for each factorisation.
+ * STEIF_BAD_INPUT: count, or c is not finite; STEIF_NOT_FINITE: b is not, or x is beyond the largest number. */
 STEIF_EXPORT int steif_mpi_solve(steif_mpi *m, sunrealtype t, N_Vector y, N_Vector yp,
                                  sunrealtype c_re, sunrealtype c_im, int transposed, int count,
                                  N_Vector *b, N_Vector *x);
